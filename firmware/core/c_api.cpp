@@ -1,0 +1,269 @@
+#include "flexcomp/flexcomp.h"
+
+#include <cstring>
+#include <new>
+
+#include "flexcomp/compensator.hpp"
+#include "flexcomp/table_builder.hpp"
+
+namespace {
+
+constexpr int kJoints = FLEXCOMP_JOINTS;
+using Angles = flexcomp::JointVector<float, kJoints>;
+using Model = flexcomp::RobotModel<float, kJoints>;
+using Compensator = flexcomp::Compensator<float, kJoints>;
+using Vector6 = Eigen::Matrix<float, 6, 1>;
+
+static_assert(sizeof(Compensator) <= FLEXCOMP_COMPENSATOR_BYTES, "room for the object");
+static_assert(alignof(Compensator) <= alignof(flexcomp_compensator_t), "aligned for the object");
+
+flexcomp_result_t to_c(flexcomp::Result result) { return static_cast<flexcomp_result_t>(result); }
+
+Vector6 vector6(const float* from) { return Eigen::Map<const Vector6>(from); }
+Eigen::Vector3f vector3(const float* from) { return Eigen::Map<const Eigen::Vector3f>(from); }
+
+template <typename Derived>
+void copy(const Eigen::MatrixBase<Derived>& from, float* to) {
+  for (Eigen::Index row = 0; row < from.rows(); ++row) {
+    for (Eigen::Index column = 0; column < from.cols(); ++column) {
+      *to++ = from(row, column);
+    }
+  }
+}
+
+flexcomp::Pose<float> pose(const flexcomp_pose_t& from) {
+  using RowMajor = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+  return {Eigen::Map<const RowMajor>(from.rotation), vector3(from.position)};
+}
+
+Model convert(const flexcomp_model_t& from) {
+  Model model;
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    const flexcomp_joint_t& joint = from.joints[i];
+    model.joints[i].origin = pose(joint.origin);
+    model.joints[i].axis = vector3(joint.axis);
+    model.joints[i].lower = joint.lower;
+    model.joints[i].upper = joint.upper;
+    model.joints[i].compliance = joint.compliance;
+    model.joints[i].cubic_compliance = joint.cubic_compliance;
+    model.joints[i].link_compliance = vector6(joint.link_compliance);
+    model.joints[i].mass = joint.mass;
+    model.joints[i].center_of_mass = vector3(joint.center_of_mass);
+  }
+  model.tool = pose(from.tool);
+  model.base_compliance = vector6(from.base_compliance);
+  model.tool_compliance = vector6(from.tool_compliance);
+  model.gravity = vector3(from.gravity);
+  model.payload_mass = from.payload_mass;
+  model.payload_center = vector3(from.payload_center);
+  return model;
+}
+
+flexcomp::CompensatorConfig<float, kJoints> convert(const flexcomp_config_t& from) {
+  flexcomp::CompensatorConfig<float, kJoints> config;
+  config.period = from.period;
+  config.model_hash = from.model_hash;
+  config.gain = from.gain;
+  config.filter_cutoff = from.filter_cutoff;
+  config.force_range = from.force_range;
+  config.moment_range = from.moment_range;
+  config.setpoint_age_limit = from.setpoint_age_limit;
+  config.wrench_age_limit = from.wrench_age_limit;
+  config.joint_speed = Eigen::Map<const Angles>(from.joint_speed);
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    const flexcomp_limits_t& limits = from.limits[i];
+    config.limits[i] = {limits.value, limits.rate, limits.acceleration};
+  }
+  config.deflection_limit = from.deflection_limit;
+  config.chart_margin = from.chart_margin;
+  config.hold_time = from.hold_time;
+  config.fade_time = from.fade_time;
+  config.ready_ticks = from.ready_ticks;
+  return config;
+}
+
+flexcomp::TableRequirements<float> convert(const flexcomp_table_requirements_t& from) {
+  return {from.force_bound, from.moment_bound, from.position_tolerance,
+          from.orientation_tolerance, from.largest_gain};
+}
+
+/// The C view of a table is the C++ view itself.
+static_assert(sizeof(flexcomp_table_t) == sizeof(flexcomp::Table), "same two pointers");
+
+flexcomp::Table view(const flexcomp_table_t& from) {
+  flexcomp::Table table;
+  std::memcpy(static_cast<void*>(&table), &from, sizeof table);
+  return table;
+}
+
+Compensator* object(flexcomp_compensator_t* from) {
+  return std::launder(reinterpret_cast<Compensator*>(from->bytes));
+}
+
+}  // namespace
+
+const char* flexcomp_describe_result(flexcomp_result_t result) {
+  return flexcomp::describe(static_cast<flexcomp::Result>(result));
+}
+
+const char* flexcomp_describe_state(flexcomp_state_t state) {
+  return flexcomp::describe(static_cast<flexcomp::State>(state));
+}
+
+const char* flexcomp_describe_status_bit(uint32_t bit) {
+  return flexcomp::describe(static_cast<flexcomp::StatusBit>(bit));
+}
+
+const char* flexcomp_version(void) { return FLEXCOMP_VERSION; }
+
+flexcomp_result_t flexcomp_model_validate(const flexcomp_model_t* model) {
+  return model == nullptr ? FLEXCOMP_BAD_ARGUMENT : to_c(flexcomp::validate(convert(*model)));
+}
+
+uint64_t flexcomp_model_hash(const flexcomp_model_t* model) {
+  return model == nullptr ? 0 : flexcomp::model_hash(convert(*model));
+}
+
+flexcomp_result_t flexcomp_model_evaluate(const flexcomp_model_t* model,
+                                          const float q[FLEXCOMP_JOINTS], flexcomp_pose_t* tcp,
+                                          float compliance[36]) {
+  if (model == nullptr || q == nullptr || !vector6(q).allFinite()) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  const Model robot = convert(*model);
+  const auto kinematics = flexcomp::forward_kinematics<float, kJoints>(robot, vector6(q));
+  if (tcp != nullptr) {
+    copy(kinematics.tcp.rotation, tcp->rotation);
+    copy(kinematics.tcp.position, tcp->position);
+  }
+  if (compliance != nullptr) {
+    copy(flexcomp::tcp_compliance(robot, kinematics), compliance);
+  }
+  return FLEXCOMP_OK;
+}
+
+flexcomp_result_t flexcomp_model_respond(const flexcomp_model_t* model,
+                                         const float q[FLEXCOMP_JOINTS], const float wrench[6],
+                                         float deflection[6], float correction[FLEXCOMP_JOINTS]) {
+  if (model == nullptr || q == nullptr || wrench == nullptr || !vector6(q).allFinite() ||
+      !vector6(wrench).allFinite()) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  const Model robot = convert(*model);
+  if (deflection != nullptr) {
+    copy(flexcomp::deflection<float, kJoints>(robot, vector6(q), vector6(wrench)).tcp, deflection);
+  }
+  if (correction != nullptr) {
+    copy(flexcomp::setpoint_correction<float, kJoints>(robot, vector6(q), vector6(wrench)),
+         correction);
+  }
+  return FLEXCOMP_OK;
+}
+
+flexcomp_result_t flexcomp_table_build_path(const flexcomp_model_t* model, const float* points,
+                                            size_t count,
+                                            const flexcomp_table_requirements_t* requirements,
+                                            void* buffer, size_t capacity, size_t* size) {
+  static_assert(sizeof(Angles) == kJoints * sizeof(float), "points lie as an array of vectors");
+  if (model == nullptr || points == nullptr || requirements == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  return to_c(flexcomp::build_path_table<float, kJoints>(
+      convert(*model), reinterpret_cast<const Angles*>(points), count, convert(*requirements),
+      buffer, capacity, size));
+}
+
+flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const float lower[4],
+                                            const float upper[4],
+                                            const flexcomp_table_requirements_t* requirements,
+                                            void* buffer, size_t capacity, size_t* size) {
+  if (model == nullptr || lower == nullptr || upper == nullptr || requirements == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  const flexcomp::GridRange<float> ranges[4] = {
+      {lower[0], upper[0]}, {lower[1], upper[1]}, {lower[2], upper[2]}, {lower[3], upper[3]}};
+  return to_c(flexcomp::build_grid_table<float, kJoints>(
+      convert(*model), ranges, convert(*requirements), buffer, capacity, size));
+}
+
+flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table) {
+  flexcomp::Table opened;
+  const flexcomp::Result result =
+      table == nullptr ? flexcomp::Result::bad_argument
+                       : flexcomp::Table::open(data, size, &opened);
+  if (result == flexcomp::Result::ok) {
+    std::memcpy(table, static_cast<const void*>(&opened), sizeof opened);
+  }
+  return to_c(result);
+}
+
+flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
+                                          flexcomp_table_info_t* info) {
+  if (table == nullptr || info == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  const flexcomp::Table opened = view(*table);
+  if (!opened.is_open()) {
+    return FLEXCOMP_NO_TABLE;
+  }
+  const flexcomp::TableHeader& header = opened.header();
+  *info = {opened.model_hash(),     opened.chart() == flexcomp::Chart::path,
+           header.node_count,       header.size,
+           header.force_bound,      header.moment_bound,
+           header.position_error,   header.orientation_error,
+           header.largest_gain};
+  return FLEXCOMP_OK;
+}
+
+flexcomp_result_t flexcomp_compensator_init(flexcomp_compensator_t* compensator,
+                                            const flexcomp_config_t* config) {
+  if (compensator == nullptr || config == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  auto* made = new (compensator->bytes) Compensator();
+  return to_c(made->configure(convert(*config)));
+}
+
+flexcomp_result_t flexcomp_compensator_set_table(flexcomp_compensator_t* compensator,
+                                                 const flexcomp_table_t* table) {
+  if (compensator == nullptr || table == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  return to_c(object(compensator)->set_table(view(*table)));
+}
+
+flexcomp_result_t flexcomp_compensator_arm(flexcomp_compensator_t* compensator) {
+  return compensator == nullptr ? FLEXCOMP_BAD_ARGUMENT : to_c(object(compensator)->arm());
+}
+
+void flexcomp_compensator_disarm(flexcomp_compensator_t* compensator) {
+  if (compensator != nullptr) {
+    object(compensator)->disarm();
+  }
+}
+
+flexcomp_result_t flexcomp_compensator_reset(flexcomp_compensator_t* compensator) {
+  return compensator == nullptr ? FLEXCOMP_BAD_ARGUMENT : to_c(object(compensator)->reset());
+}
+
+flexcomp_result_t flexcomp_compensator_tick(flexcomp_compensator_t* compensator,
+                                            const flexcomp_input_t* input,
+                                            flexcomp_output_t* output) {
+  if (compensator == nullptr || input == nullptr || output == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  const Compensator::Output ticked = object(compensator)->tick({
+      vector6(input->setpoint),
+      input->setpoint_age,
+      vector6(input->wrench),
+      input->wrench_age,
+      input->external_fault,
+  });
+  copy(ticked.setpoint, output->setpoint);
+  copy(ticked.correction, output->correction);
+  copy(ticked.deflection, output->deflection);
+  output->status = ticked.status;
+  output->latched_faults = ticked.latched_faults;
+  output->state = static_cast<flexcomp_state_t>(ticked.state);
+  return FLEXCOMP_OK;
+}

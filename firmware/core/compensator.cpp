@@ -1,0 +1,336 @@
+#include "flexcomp/compensator.hpp"
+
+#include <cmath>
+
+#include "instantiate.hpp"
+
+#ifdef __FAST_MATH__
+#error "flexcomp checks its inputs for NaN and infinity, which -ffast-math assumes away"
+#endif
+
+namespace flexcomp {
+namespace {
+
+template <typename Scalar>
+bool is_positive(Scalar value) {
+  return std::isfinite(value) && value > Scalar(0);
+}
+
+template <typename Scalar>
+bool is_fresh(Scalar age, Scalar limit) {
+  return age >= Scalar(0) && age <= limit;
+}
+
+/// Periods in a time, rounded up; `valid` turns false where that is more than a counter holds.
+template <typename Scalar>
+std::uint32_t periods(Scalar time, Scalar period, bool* valid) {
+  constexpr Scalar kMost = Scalar(1e9);
+  const Scalar count = std::ceil(time / period);
+  *valid = *valid && count >= Scalar(0) && count <= kMost;
+  return *valid ? static_cast<std::uint32_t>(count) : 0U;
+}
+
+}  // namespace
+
+template <typename Scalar, int Joints>
+Result Compensator<Scalar, Joints>::configure(const Config& config) {
+  constexpr Scalar kTwoPi = Scalar(6.283185307179586);
+  bool valid = is_positive(config.period) && is_positive(config.gain) &&
+               config.gain <= Scalar(1) && std::isfinite(config.filter_cutoff) &&
+               config.filter_cutoff >= Scalar(0) && is_positive(config.force_range) &&
+               is_positive(config.moment_range) && is_positive(config.setpoint_age_limit) &&
+               is_positive(config.wrench_age_limit) && config.joint_speed.allFinite() &&
+               config.joint_speed.minCoeff() > Scalar(0) && is_positive(config.deflection_limit) &&
+               is_positive(config.chart_margin);
+  const std::uint32_t hold_ticks = periods(config.hold_time, config.period, &valid);
+  const std::uint32_t fade_ticks = periods(config.fade_time, config.period, &valid);
+  std::array<Guard<Scalar>, Joints> guards;
+  for (std::size_t i = 0; i < Joints && valid; ++i) {
+    valid = guards[i].configure(config.limits[i], config.period) == Result::ok;
+  }
+  if (!valid) {
+    return Result::bad_config;
+  }
+  *this = Compensator();
+  config_ = config;
+  guards_ = guards;
+  hold_ticks_ = hold_ticks;
+  fade_step_ = Scalar(1) / static_cast<Scalar>(fade_ticks > 0 ? fade_ticks : 1);
+  filter_share_ = config.filter_cutoff > Scalar(0)
+                      ? -std::expm1(-kTwoPi * config.filter_cutoff * config.period)
+                      : Scalar(1);
+  return Result::ok;
+}
+
+template <typename Scalar, int Joints>
+Result Compensator<Scalar, Joints>::set_table(const Table& table) {
+  if (!table.is_open()) {
+    return Result::no_table;
+  }
+  if (table.model_hash() != config_.model_hash) {
+    return Result::table_other_model;
+  }
+  const auto largest_gain = static_cast<Scalar>(table.header().largest_gain);
+  if (largest_gain > Scalar(0) && config_.gain > largest_gain) {
+    return Result::gain_too_high;
+  }
+  table_ = table;
+  cursor_ = TableCursor{};
+  locate<Scalar, Joints>(table_, setpoint_, &cursor_);
+  return Result::ok;
+}
+
+template <typename Scalar, int Joints>
+Result Compensator<Scalar, Joints>::arm() {
+  if (!table_.is_open()) {
+    return Result::no_table;
+  }
+  if (state_ != State::off || good_ticks_ < config_.ready_ticks) {
+    return Result::not_ready;
+  }
+  locate<Scalar, Joints>(table_, setpoint_, &cursor_);
+  fade_ = 0;
+  aim_.setZero();
+  state_ = State::fading_in;
+  return Result::ok;
+}
+
+template <typename Scalar, int Joints>
+void Compensator<Scalar, Joints>::disarm() {
+  if (is_correcting() || state_ == State::holding) {
+    state_ = State::fading_out;
+  }
+}
+
+template <typename Scalar, int Joints>
+Result Compensator<Scalar, Joints>::reset() {
+  if (state_ != State::latched) {
+    return Result::not_ready;
+  }
+  latched_faults_ = 0;
+  state_ = State::off;
+  return Result::ok;
+}
+
+template <typename Scalar, int Joints>
+std::uint32_t Compensator<Scalar, Joints>::check_setpoint(const Input& input) const {
+  std::uint32_t faults = is_fresh(input.setpoint_age, config_.setpoint_age_limit) ? 0U : kSetpointStale;
+  if (!input.setpoint.allFinite()) {
+    return faults | kSetpointNotFinite;
+  }
+  for (std::size_t i = 0; i < Joints && table_.is_open(); ++i) {
+    const Scalar q = input.setpoint[static_cast<Eigen::Index>(i)];
+    const bool inside = q >= static_cast<Scalar>(table_.header().joint_lower[i]) &&
+                        q <= static_cast<Scalar>(table_.header().joint_upper[i]);
+    faults |= inside ? 0U : kSetpointOutOfRange;
+  }
+  if (has_setpoint_) {
+    // The last setpoint may have been old when it was used: that much more time has passed.
+    const Scalar elapsed = config_.period + setpoint_age_;
+    const Angles step = (input.setpoint - setpoint_).cwiseAbs();
+    const bool possible = (step.array() <= (config_.joint_speed * elapsed).array()).all();
+    faults |= possible ? 0U : kSetpointJump;
+  }
+  return faults;
+}
+
+template <typename Scalar, int Joints>
+std::uint32_t Compensator<Scalar, Joints>::check_wrench(const Input& input) const {
+  std::uint32_t faults = is_fresh(input.wrench_age, config_.wrench_age_limit) ? 0U : kWrenchStale;
+  if (!input.wrench.allFinite()) {
+    return faults | kWrenchNotFinite;
+  }
+  // Component by component first: squares of huge numbers overflow.
+  const Vector3<Scalar> force = input.wrench.template head<3>() / config_.force_range;
+  const Vector3<Scalar> moment = input.wrench.template tail<3>() / config_.moment_range;
+  const bool inside = force.cwiseAbs().maxCoeff() <= Scalar(1) &&
+                      moment.cwiseAbs().maxCoeff() <= Scalar(1) &&
+                      force.squaredNorm() <= Scalar(1) && moment.squaredNorm() <= Scalar(1);
+  return faults | (inside ? 0U : kWrenchOutOfRange);
+}
+
+template <typename Scalar, int Joints>
+std::uint32_t Compensator<Scalar, Joints>::check(const Input& input) const {
+  return check_setpoint(input) | check_wrench(input) |
+         (input.external_fault ? kExternalFault : 0U);
+}
+
+template <typename Scalar, int Joints>
+void Compensator<Scalar, Joints>::take_setpoint(const Input& input, std::uint32_t faults) {
+  const bool usable = (faults & (kSetpointNotFinite | kSetpointOutOfRange)) == 0;
+  if (usable) {
+    setpoint_ = input.setpoint;
+    has_setpoint_ = true;
+  }
+  const bool known_age = usable && input.setpoint_age >= Scalar(0) &&
+                         std::isfinite(input.setpoint_age);
+  setpoint_age_ = known_age ? input.setpoint_age : setpoint_age_ + config_.period;
+}
+
+template <typename Scalar, int Joints>
+void Compensator<Scalar, Joints>::filter(const Wrench<Scalar>& wrench) {
+  if (has_wrench_) {
+    wrench_ += filter_share_ * (wrench - wrench_);
+  } else {
+    wrench_ = wrench;
+    has_wrench_ = true;
+  }
+}
+
+/// Looks up, deflects, inverts and limits: sets the full correction that would be right now.
+template <typename Scalar, int Joints>
+std::uint32_t Compensator<Scalar, Joints>::aim(Output* output) {
+  const TableEntry<Scalar, Joints> entry = look_up<Scalar, Joints>(table_, setpoint_, &cursor_);
+  const TableResponse<Scalar, Joints> response =
+      respond<Scalar, Joints>(table_, entry, wrench_);
+  if (!response.deflection.allFinite() || !response.correction.allFinite()) {
+    return kNotComputable;
+  }
+  if (entry.outside > config_.chart_margin) {
+    return kOutsideChart;
+  }
+  std::uint32_t remarks = 0;
+  Scalar scale = config_.gain;
+  if (entry.outside > Scalar(0)) {
+    scale *= Scalar(1) - entry.outside / config_.chart_margin;
+    remarks |= kChartEdge;
+  }
+  const Scalar shift = scale * response.deflection.template head<3>().norm();
+  if (shift > config_.deflection_limit) {
+    scale *= config_.deflection_limit / shift;
+    remarks |= kDeflectionLimited;
+  }
+  output->deflection = response.deflection;
+  aim_ = scale * response.correction;
+  return remarks;
+}
+
+template <typename Scalar, int Joints>
+void Compensator<Scalar, Joints>::change_state(std::uint32_t faults) {
+  if (is_correcting() && faults != 0) {
+    state_ = State::holding;
+    held_ticks_ = 0;
+  } else if (state_ == State::holding && faults == 0) {
+    state_ = fade_ < Scalar(1) ? State::fading_in : State::active;
+  }
+  if (state_ == State::holding && held_ticks_++ >= hold_ticks_) {
+    state_ = State::fading_out;
+    latched_faults_ = faults;
+  }
+}
+
+template <typename Scalar, int Joints>
+void Compensator<Scalar, Joints>::fade() {
+  if (state_ == State::fading_in) {
+    fade_ += fade_step_;
+    if (fade_ >= Scalar(1)) {
+      fade_ = 1;
+      state_ = State::active;
+    }
+  } else if (state_ == State::fading_out) {
+    fade_ = fade_ > fade_step_ ? fade_ - fade_step_ : Scalar(0);
+  }
+}
+
+/// Moves every joint's correction towards its faded aim.
+template <typename Scalar, int Joints>
+std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
+  std::uint32_t remarks = 0;
+  bool at_rest = true;
+  const bool correcting = state_ != State::off && state_ != State::latched;
+  for (std::size_t i = 0; i < Joints; ++i) {
+    const auto joint = static_cast<Eigen::Index>(i);
+    output->correction[joint] =
+        guards_[i].advance(correcting ? fade_ * aim_[joint] : Scalar(0));
+    remarks |= guards_[i].limited_by_value() ? kValueLimited : 0U;
+    remarks |= guards_[i].limited_by_rate() ? kRateLimited : 0U;
+    at_rest = at_rest && guards_[i].is_at_rest_at_zero();
+  }
+  if (state_ == State::fading_out && fade_ == Scalar(0) && at_rest) {
+    state_ = latched_faults_ != 0 ? State::latched : State::off;
+  }
+  return remarks;
+}
+
+template <typename Scalar, int Joints>
+auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
+  Output output{};
+  output.deflection.setZero();
+  std::uint32_t status = check(input);
+  take_setpoint(input, status);
+  if ((status & (kWrenchNotFinite | kWrenchOutOfRange)) == 0) {
+    filter(input.wrench);
+  }
+  if ((status & kFaultBits) == 0 && (is_correcting() || state_ == State::holding)) {
+    status |= aim(&output);
+  }
+  const std::uint32_t faults = status & kFaultBits;
+  good_ticks_ = faults != 0 ? 0 : (good_ticks_ < config_.ready_ticks ? good_ticks_ + 1 : good_ticks_);
+  change_state(faults);
+  fade();
+  status |= move(&output);
+  output.setpoint = setpoint_ + output.correction;
+  output.status = status | (has_setpoint_ ? 0U : kNoSetpoint);
+  output.latched_faults = latched_faults_;
+  output.state = state_;
+  return output;
+}
+
+const char* describe(State state) {
+  switch (state) {
+    case State::off:
+      return "off";
+    case State::fading_in:
+      return "fading in";
+    case State::active:
+      return "active";
+    case State::holding:
+      return "holding";
+    case State::fading_out:
+      return "fading out";
+    case State::latched:
+      return "latched";
+  }
+  return "unknown state";
+}
+
+const char* describe(StatusBit bit) {
+  switch (bit) {
+    case kSetpointNotFinite:
+      return "setpoint not finite";
+    case kSetpointStale:
+      return "setpoint stale";
+    case kSetpointOutOfRange:
+      return "setpoint outside the joint limits";
+    case kSetpointJump:
+      return "setpoint jumps";
+    case kWrenchNotFinite:
+      return "wrench not finite";
+    case kWrenchStale:
+      return "wrench stale";
+    case kWrenchOutOfRange:
+      return "wrench beyond the sensor's range";
+    case kOutsideChart:
+      return "outside the table";
+    case kExternalFault:
+      return "fault reported by the caller";
+    case kNotComputable:
+      return "correction not computable";
+    case kValueLimited:
+      return "limited in value";
+    case kRateLimited:
+      return "limited in rate or acceleration";
+    case kDeflectionLimited:
+      return "limited at the TCP";
+    case kChartEdge:
+      return "at the edge of the table";
+    case kNoSetpoint:
+      return "no setpoint yet";
+  }
+  return "unknown bit";
+}
+
+#define FLEXCOMP_COMPENSATOR(Scalar, Joints) template class Compensator<Scalar, Joints>;
+FLEXCOMP_INSTANTIATE(FLEXCOMP_COMPENSATOR)
+
+}  // namespace flexcomp

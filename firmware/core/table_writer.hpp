@@ -1,0 +1,40 @@
+#pragma once
+
+#include "table_certificate.hpp"
+
+namespace flexcomp {
+
+/// A table under construction in the caller's buffer.
+class TableWriter {
+ public:
+  /// Starts a table; `capacity` in bytes. `fits(n)` tells whether n nodes have room.
+  template <typename Scalar, int Joints>
+  TableWriter(const RobotModel<Scalar, Joints>& model,
+              const TableRequirements<Scalar>& requirements, Chart chart, void* buffer,
+              std::size_t capacity);
+
+  const RecordLayout& layout() const { return layout_; }
+  TableHeader& header() { return *header_; }
+  bool fits(std::uint64_t nodes) const;
+  float* record(std::uint32_t node) const {
+    return records_ + static_cast<std::size_t>(node) * layout_.size;
+  }
+
+  /// Sets sizes, the certificate (rounded up to float) and the CRC; the buffer now holds a table.
+  template <typename Scalar>
+  void finish(std::uint32_t nodes, const TableError<Scalar>& error);
+
+ private:
+  RecordLayout layout_;
+  TableHeader* header_;
+  float* records_;
+  std::size_t capacity_;
+};
+
+/// Are the arguments that all builders share in order?
+template <typename Scalar, int Joints>
+Result check_build_arguments(const RobotModel<Scalar, Joints>& model,
+                             const TableRequirements<Scalar>& requirements, const void* buffer,
+                             std::size_t capacity, const std::size_t* size);
+
+}  // namespace flexcomp

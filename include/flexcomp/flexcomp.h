@@ -1,0 +1,268 @@
+#ifndef FLEXCOMP_H
+#define FLEXCOMP_H
+
+/// flexcomp for C: the real-time core in single precision for six joints.
+///
+/// SI units throughout (m, rad, s, N, N·m, kg); vectors in the robot base frame unless said
+/// otherwise. A wrench is {fx, fy, fz, mx, my, mz}: force and moment acting ON the tool at the tool
+/// centre point (TCP). A twist is {x, y, z, rx, ry, rz}: small translation and rotation vector.
+///
+/// No call allocates, blocks, does I/O, or keeps anything outside the objects it is given. Calls on
+/// different objects may run at the same time; one object belongs to one thread at a time. Nothing
+/// here is a safety function.
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FLEXCOMP_JOINTS 6
+
+/// What a call came to. Stable numbers.
+typedef enum flexcomp_result {
+  FLEXCOMP_OK = 0,
+  FLEXCOMP_BAD_ARGUMENT = 1,         ///< a null pointer, a size of zero, or an unknown option
+  FLEXCOMP_BAD_MODEL = 2,            ///< a number of the model is not finite or out of its range
+  FLEXCOMP_BAD_CONFIG = 3,           ///< a number of the configuration is not finite or out of range
+  FLEXCOMP_BAD_PATH = 4,             ///< fewer than two distinct points, or one not finite
+  FLEXCOMP_BUFFER_TOO_SMALL = 5,     ///< no table within the tolerance fits
+  FLEXCOMP_TOLERANCE_NOT_MET = 6,    ///< finer than the arithmetic can certify
+  FLEXCOMP_CHART_NOT_INVARIANT = 7,  ///< this model needs a path table
+  FLEXCOMP_TABLE_MISALIGNED = 8,     ///< a table must start at a multiple of 4 bytes
+  FLEXCOMP_TABLE_TRUNCATED = 9,      ///< fewer bytes than the table says it has
+  FLEXCOMP_TABLE_NOT_A_TABLE = 10,   ///< another magic number
+  FLEXCOMP_TABLE_VERSION = 11,       ///< another version of the format
+  FLEXCOMP_TABLE_CORRUPT = 12,       ///< the CRC-32 or a field contradicts the content
+  FLEXCOMP_TABLE_OTHER_MODEL = 13,   ///< made for another robot, tool or payload
+  FLEXCOMP_GAIN_TOO_HIGH = 14,       ///< above the largest safe gain in the table
+  FLEXCOMP_NOT_READY = 15,           ///< too few good inputs in a row, or the wrong state
+  FLEXCOMP_NO_TABLE = 16             ///< no table yet
+} flexcomp_result_t;
+
+/// What a compensator is doing. Stable numbers.
+typedef enum flexcomp_state {
+  FLEXCOMP_STATE_OFF = 0,         ///< no correction
+  FLEXCOMP_STATE_FADING_IN = 1,   ///< the correction grows to its full size
+  FLEXCOMP_STATE_ACTIVE = 2,      ///< full correction
+  FLEXCOMP_STATE_HOLDING = 3,     ///< a bad input: the correction stays where it is
+  FLEXCOMP_STATE_FADING_OUT = 4,  ///< the correction shrinks to zero
+  FLEXCOMP_STATE_LATCHED = 5      ///< no correction after a fault, until a reset
+} flexcomp_state_t;
+
+/// Bits of the status word. Stable numbers; the lower half are faults, the upper half remarks.
+enum {
+  FLEXCOMP_SETPOINT_NOT_FINITE = 1 << 0,
+  FLEXCOMP_SETPOINT_STALE = 1 << 1,         ///< age above the limit, negative or not finite
+  FLEXCOMP_SETPOINT_OUT_OF_RANGE = 1 << 2,  ///< outside the joint limits in the table
+  FLEXCOMP_SETPOINT_JUMP = 1 << 3,          ///< faster than the joint can move
+  FLEXCOMP_WRENCH_NOT_FINITE = 1 << 4,
+  FLEXCOMP_WRENCH_STALE = 1 << 5,         ///< age above the limit, negative or not finite
+  FLEXCOMP_WRENCH_OUT_OF_RANGE = 1 << 6,  ///< beyond the sensor's range
+  FLEXCOMP_OUTSIDE_CHART = 1 << 7,        ///< further outside the table's chart than the margin
+  FLEXCOMP_EXTERNAL_FAULT = 1 << 8,       ///< reported by the caller
+  FLEXCOMP_NOT_COMPUTABLE = 1 << 9,       ///< the table gave a number that is not finite
+  FLEXCOMP_VALUE_LIMITED = 1 << 16,       ///< a joint's correction is at its largest value
+  FLEXCOMP_RATE_LIMITED = 1 << 17,        ///< on its way, as fast as allowed
+  FLEXCOMP_DEFLECTION_LIMITED = 1 << 18,  ///< scaled down to the largest correction at the TCP
+  FLEXCOMP_CHART_EDGE = 1 << 19,          ///< outside the chart but within the margin
+  FLEXCOMP_NO_SETPOINT = 1 << 20          ///< no usable setpoint yet: do not use the output
+};
+#define FLEXCOMP_FAULT_BITS 0xFFFFu
+
+/// A few words for a person; never null.
+const char* flexcomp_describe_result(flexcomp_result_t result);
+const char* flexcomp_describe_state(flexcomp_state_t state);
+/// `bit`: one bit of the status word.
+const char* flexcomp_describe_status_bit(uint32_t bit);
+
+/// Version of the library, for example "0.1.0"; never null.
+const char* flexcomp_version(void);
+
+/// A robot: rotations are row by row; a frame's pose is given in the frame before it.
+typedef struct flexcomp_pose {
+  float rotation[9];
+  float position[3];
+} flexcomp_pose_t;
+
+typedef struct flexcomp_joint {
+  flexcomp_pose_t origin;     ///< joint frame in the previous link's frame
+  float axis[3];              ///< unit vector in the joint frame
+  float lower;                ///< rad
+  float upper;                ///< rad
+  float compliance;           ///< rad/(N·m), c1 in wind-up = c1 τ + c3 τ³
+  float cubic_compliance;     ///< rad/(N·m)³, c3
+  float link_compliance[6];   ///< m/N (3), rad/(N·m) (3), of the moved link in its frame
+  float mass;                 ///< kg, of the moved link
+  float center_of_mass[3];    ///< m, link frame
+} flexcomp_joint_t;
+
+typedef struct flexcomp_model {
+  flexcomp_joint_t joints[FLEXCOMP_JOINTS];  ///< base to tip
+  flexcomp_pose_t tool;                      ///< TCP in the last link's frame
+  float base_compliance[6];                  ///< base frame
+  float tool_compliance[6];                  ///< tool frame
+  float gravity[3];                          ///< m/s²; zero leaves weight out
+  float payload_mass;                        ///< kg
+  float payload_center[3];                   ///< m, tool frame
+} flexcomp_model_t;
+
+/// FLEXCOMP_OK, FLEXCOMP_BAD_ARGUMENT or FLEXCOMP_BAD_MODEL. Cost: about 1,000 operations.
+flexcomp_result_t flexcomp_model_validate(const flexcomp_model_t* model);
+
+/// Fingerprint that ties tables to a robot; 0 for a null pointer. Cost: about 3,000 operations.
+uint64_t flexcomp_model_hash(const flexcomp_model_t* model);
+
+/// TCP pose, Jacobian-based compliance (6×6, row by row) and so on at joint angles `q` (rad).
+/// Null outputs are left out. FLEXCOMP_BAD_ARGUMENT for a null input or an angle not finite.
+/// Cost: about 1,500 operations, 12 sines and cosines; about 1.5 KiB of stack.
+flexcomp_result_t flexcomp_model_evaluate(const flexcomp_model_t* model,
+                                          const float q[FLEXCOMP_JOINTS], flexcomp_pose_t* tcp,
+                                          float compliance[36]);
+
+/// Deflection of the TCP (twist) under a wrench and the weights in the model, and what to add to the
+/// joint setpoint against it (rad), straight from the model. Null outputs are left out.
+/// FLEXCOMP_BAD_ARGUMENT for a null input or a number not finite. Cost: about 2,500 operations and
+/// 2 KiB of stack; with base, link or tool springs twice that.
+flexcomp_result_t flexcomp_model_respond(const flexcomp_model_t* model,
+                                         const float q[FLEXCOMP_JOINTS], const float wrench[6],
+                                         float deflection[6], float correction[FLEXCOMP_JOINTS]);
+
+/// What a table must hold up to.
+typedef struct flexcomp_table_requirements {
+  float force_bound;            ///< N, largest force that will act
+  float moment_bound;           ///< N·m
+  float position_tolerance;     ///< m, largest allowed error at the TCP
+  float orientation_tolerance;  ///< rad
+  float largest_gain;           ///< largest safe correction gain, 0 if not analysed
+} flexcomp_table_requirements_t;
+
+/// Builds a path table for the program through `count` points of six joint angles each, into a
+/// 4-byte aligned buffer. `size` receives the bytes used.
+///
+/// FLEXCOMP_OK, or BAD_ARGUMENT, BAD_MODEL, BAD_PATH, BUFFER_TOO_SMALL, TOLERANCE_NOT_MET; then the
+/// buffer holds no table. Cost: some thousand evaluations of the model a node (not for the tick);
+/// memory: the buffer, about 450 bytes a node, and 12 KiB of stack.
+flexcomp_result_t flexcomp_table_build_path(const flexcomp_model_t* model, const float* points,
+                                            size_t count,
+                                            const flexcomp_table_requirements_t* requirements,
+                                            void* buffer, size_t capacity, size_t* size);
+
+/// Builds a joint-grid table over joints 2 to 5; `lower[i] == upper[i]` fixes a joint. As above;
+/// also CHART_NOT_INVARIANT for a robot whose joints 1 and 6 may not turn freely (base, link or tool
+/// springs; a TCP off the last axis; weight not along axis 1). Cost: the product of the nodes.
+flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const float lower[4],
+                                            const float upper[4],
+                                            const flexcomp_table_requirements_t* requirements,
+                                            void* buffer, size_t capacity, size_t* size);
+
+/// A checked view of a table, which must outlive it. Do not touch the members.
+typedef struct flexcomp_table {
+  const void* header;
+  const void* records;
+} flexcomp_table_t;
+
+typedef struct flexcomp_table_info {
+  uint64_t model_hash;
+  bool is_path;             ///< else a joint grid
+  uint32_t node_count;
+  uint32_t size;            ///< bytes
+  float force_bound;        ///< N
+  float moment_bound;       ///< N·m
+  float position_error;     ///< m, certified for all wrenches within the bounds
+  float orientation_error;  ///< rad
+  float largest_gain;       ///< 0 if not analysed
+} flexcomp_table_info_t;
+
+/// Checks a table in place (flash) and opens it. FLEXCOMP_OK, or BAD_ARGUMENT, TABLE_MISALIGNED,
+/// TABLE_TRUNCATED, TABLE_NOT_A_TABLE, TABLE_VERSION, TABLE_CORRUPT. Cost: one pass over the bytes.
+flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table);
+
+/// FLEXCOMP_OK, BAD_ARGUMENT or NO_TABLE (not opened).
+flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
+                                          flexcomp_table_info_t* info);
+
+typedef struct flexcomp_limits {
+  float value;         ///< rad, largest correction of the joint
+  float rate;          ///< rad/s
+  float acceleration;  ///< rad/s²
+} flexcomp_limits_t;
+
+typedef struct flexcomp_config {
+  float period;              ///< s, from one tick to the next
+  uint64_t model_hash;       ///< of the robot that is there; a table of another is refused
+  float gain;                ///< share of the deflection that is corrected, above 0 to 1
+  float filter_cutoff;       ///< Hz, of the low-pass on the wrench; 0: no filter
+  float force_range;         ///< N, largest plausible magnitude
+  float moment_range;        ///< N·m
+  float setpoint_age_limit;  ///< s, beyond it a setpoint is stale
+  float wrench_age_limit;    ///< s
+  float joint_speed[FLEXCOMP_JOINTS];  ///< rad/s, largest plausible
+  flexcomp_limits_t limits[FLEXCOMP_JOINTS];
+  float deflection_limit;  ///< m, largest correction at the TCP
+  float chart_margin;      ///< rad, outside the chart, over which the correction fades
+  float hold_time;         ///< s, a fault may last before fading out
+  float fade_time;         ///< s, from nothing to full correction and back
+  uint32_t ready_ticks;    ///< good inputs in a row before it may be armed
+} flexcomp_config_t;
+
+typedef struct flexcomp_input {
+  float setpoint[FLEXCOMP_JOINTS];  ///< rad, uncorrected
+  float setpoint_age;               ///< s, since it was made
+  float wrench[6];                  ///< N, N·m; on the tool at the TCP, base frame
+  float wrench_age;                 ///< s, since it was measured
+  bool external_fault;              ///< anything the caller knows: bus off, late tick
+} flexcomp_input_t;
+
+typedef struct flexcomp_output {
+  float setpoint[FLEXCOMP_JOINTS];    ///< rad, corrected; always finite
+  float correction[FLEXCOMP_JOINTS];  ///< rad, part of the above; within all limits
+  float deflection[6];                ///< m, rad; predicted for the filtered wrench
+  uint32_t status;                    ///< bits of this tick
+  uint32_t latched_faults;            ///< what led to the last fade-out, until a reset
+  flexcomp_state_t state;
+} flexcomp_output_t;
+
+/// Room for a compensator. Do not touch the member; any memory will do, static included.
+#define FLEXCOMP_COMPENSATOR_BYTES 768
+typedef struct flexcomp_compensator {
+#ifdef __cplusplus
+  alignas(16) unsigned char bytes[FLEXCOMP_COMPENSATOR_BYTES];
+#else
+  _Alignas(16) unsigned char bytes[FLEXCOMP_COMPENSATOR_BYTES];
+#endif
+} flexcomp_compensator_t;
+
+/// Takes a configuration and begins in FLEXCOMP_STATE_OFF. FLEXCOMP_OK, BAD_ARGUMENT or BAD_CONFIG.
+flexcomp_result_t flexcomp_compensator_init(flexcomp_compensator_t* compensator,
+                                            const flexcomp_config_t* config);
+
+/// Gives it a table, at any time between ticks, also while correcting: the correction then moves to
+/// the new table's within its limits. FLEXCOMP_OK, or BAD_ARGUMENT, NO_TABLE, TABLE_OTHER_MODEL,
+/// GAIN_TOO_HIGH with the table in use unchanged. Cost: one look at every node.
+flexcomp_result_t flexcomp_compensator_set_table(flexcomp_compensator_t* compensator,
+                                                 const flexcomp_table_t* table);
+
+/// Starts to correct. FLEXCOMP_OK, BAD_ARGUMENT, NO_TABLE or NOT_READY. Cost: as above.
+flexcomp_result_t flexcomp_compensator_arm(flexcomp_compensator_t* compensator);
+
+/// Fades out, then off.
+void flexcomp_compensator_disarm(flexcomp_compensator_t* compensator);
+
+/// From latched to off. FLEXCOMP_OK, BAD_ARGUMENT or NOT_READY.
+flexcomp_result_t flexcomp_compensator_reset(flexcomp_compensator_t* compensator);
+
+/// One control period: check, filter, look up, deflect, invert, limit, fade. Constant time; the
+/// correction obeys its value, rate and acceleration limits whatever the input. FLEXCOMP_OK or
+/// BAD_ARGUMENT (null pointer; `output` untouched). Cost: about 2 KiB of stack.
+flexcomp_result_t flexcomp_compensator_tick(flexcomp_compensator_t* compensator,
+                                            const flexcomp_input_t* input,
+                                            flexcomp_output_t* output);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif  // FLEXCOMP_H

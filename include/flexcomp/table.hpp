@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "flexcomp/compliance.hpp"
+
+namespace flexcomp {
+
+/// What joint angles a table covers.
+enum class Chart : std::uint32_t {
+  path = 1,        ///< the neighbourhood of a known program
+  joint_grid = 2,  ///< boxes over the middle joints; joints 1 and 6 enter as exact rotations
+};
+
+constexpr std::uint32_t kTableVersion = 1;
+constexpr std::size_t kTableJoints = 6;
+constexpr std::size_t kMaxGridAxes = 4;
+
+/// First bytes of a table: a flat blob of little-endian 32-bit words, read where it lies (flash).
+///
+/// After the header come `node_count` records of `record_size` floats. A table holds, at each node,
+/// what the joint springs need (the Jacobian at the TCP; the torques of the weights) and what the
+/// other springs add. From it follow the compliance C = J K⁻¹ Jᵀ + D of Klimchik et al. (2017), the
+/// deflection C w, and the joint correction, which at the singular postures of a wrist could not be
+/// had from C alone because J has no inverse there.
+struct TableHeader {
+  std::uint32_t magic;
+  std::uint32_t version;
+  std::uint32_t size;  ///< bytes of the whole table
+  std::uint32_t crc;   ///< CRC-32 (IEEE 802.3) of the whole table with this word zero
+  std::uint32_t model_hash_low;
+  std::uint32_t model_hash_high;
+  std::uint32_t chart;
+  std::uint32_t contents;  ///< bits: 1 weight acts, 2 base, link or tool springs
+  std::uint32_t joints;
+  std::uint32_t record_size;  ///< floats
+  std::uint32_t node_count;
+  std::uint32_t closed;  ///< path: 1 if the last node is the first again
+  std::uint32_t grid_axes;
+  std::uint32_t grid_joint[kMaxGridAxes];  ///< index of the joint along each axis, from 0
+  std::uint32_t grid_nodes[kMaxGridAxes];
+  float grid_lower[kMaxGridAxes];  ///< rad
+  float grid_step[kMaxGridAxes];   ///< rad
+  float fixed_angle[kTableJoints];  ///< grid: rad, where the middle joints off the axes must stand
+  float first_axis[3];              ///< grid: axis of joint 1, base frame
+  float joint_lower[kTableJoints];  ///< rad, limits of the robot
+  float joint_upper[kTableJoints];
+  float compliance[kTableJoints];        ///< rad/(N·m)
+  float cubic_compliance[kTableJoints];  ///< rad/(N·m)³
+  float path_width;         ///< rad, how far the program strays from the chords between nodes
+  float force_bound;        ///< N, the certificate holds for forces up to this
+  float moment_bound;       ///< N·m
+  float position_error;     ///< m, certified largest error of deflection and of correction
+  float orientation_error;  ///< rad
+  float largest_gain;       ///< largest safe correction gain; 0 where it was not analysed
+};
+
+/// A checked, read-only view of a table. Copying the view does not copy the table, which must
+/// outlive it.
+class Table {
+ public:
+  Table() = default;
+
+  /// Checks everything: alignment (4 bytes), magic number, version, size, CRC-32, consistent fields.
+  /// Cost: one pass over the bytes. Call it before use, not in the control tick.
+  ///
+  /// Returns ok, or bad_argument, table_misaligned, table_truncated, table_not_a_table,
+  /// table_version, table_corrupt; `table` is untouched unless ok.
+  static Result open(const void* data, std::size_t size, Table* table);
+
+  bool is_open() const { return header_ != nullptr; }
+  const TableHeader& header() const { return *header_; }
+  Chart chart() const { return static_cast<Chart>(header_->chart); }
+  std::uint64_t model_hash() const;
+  bool has_weight() const { return (header_->contents & kWeight) != 0; }
+  bool has_structure() const { return (header_->contents & kStructure) != 0; }
+  const float* record(std::uint32_t node) const {
+    return records_ + static_cast<std::size_t>(node) * header_->record_size;
+  }
+
+  static constexpr std::uint32_t kMagic = 0x31544346;  // "FCT1"
+  static constexpr std::uint32_t kWeight = 1;
+  static constexpr std::uint32_t kStructure = 2;
+
+ private:
+  const TableHeader* header_ = nullptr;
+  const float* records_ = nullptr;
+};
+
+/// Where in the chart the last lookup ended; keeps the next one short. Zero to begin with.
+struct TableCursor {
+  std::uint32_t segment = 0;
+};
+
+/// What a table says at one set of joint angles; base frame.
+template <typename Scalar, int Joints>
+struct TableEntry {
+  Jacobian<Scalar, Joints> jacobian;
+  JointVector<Scalar, Joints> weight_torque;
+  Compliance<Scalar> structure;                         ///< D, of base, link and tool springs
+  Eigen::Matrix<Scalar, Joints, 6> structure_motion;    ///< J⁺ D
+  Twist<Scalar> structure_weight;                       ///< TCP twist from weight on those springs
+  JointVector<Scalar, Joints> structure_weight_motion;  ///< J⁺ of it
+  Scalar outside;  ///< rad, how far the joint angles lie outside the chart (0: inside)
+};
+
+/// How the robot gives way and what to add to the setpoint against it.
+template <typename Scalar, int Joints>
+struct TableResponse {
+  Twist<Scalar> deflection;                 ///< of the TCP, base frame
+  JointVector<Scalar, Joints> correction;  ///< rad, to add to the joint setpoint
+};
+
+/// Finds the segment of a path table nearest to `q`, by looking at all of them. For arming; not for
+/// the tick. Grid tables need no cursor and leave it as it is.
+template <typename Scalar, int Joints>
+void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
+
+/// Reads the table at joint angles `q` (rad, finite). Constant time: a path table moves its cursor
+/// at most two segments a call; a grid blends the 2^axes corners of one box. Outside the chart the
+/// nearest edge is used and `outside` says how far off `q` is; nothing is extrapolated.
+template <typename Scalar, int Joints>
+TableEntry<Scalar, Joints> look_up(const Table& table, const JointVector<Scalar, Joints>& q,
+                                   TableCursor* cursor);
+
+/// Deflection and correction under a wrench at an entry of the table.
+template <typename Scalar, int Joints>
+TableResponse<Scalar, Joints> respond(const Table& table, const TableEntry<Scalar, Joints>& entry,
+                                      const Wrench<Scalar>& wrench);
+
+}  // namespace flexcomp

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "flexcomp/table.hpp"
+
+namespace flexcomp {
+
+/// What a table must hold up to.
+template <typename Scalar>
+struct TableRequirements {
+  Scalar force_bound;            ///< N, largest force that will act
+  Scalar moment_bound;           ///< N·m, largest moment that will act
+  Scalar position_tolerance;     ///< m, largest allowed error at the TCP
+  Scalar orientation_tolerance;  ///< rad
+  Scalar largest_gain = 0;       ///< largest safe correction gain, 0 if not analysed
+};
+
+/// What is certified: over the whole chart, for any wrench within the bounds, neither the predicted
+/// deflection nor the TCP after correction is further from the model's than this.
+template <typename Scalar>
+struct TableError {
+  Scalar position = 0;     ///< m
+  Scalar orientation = 0;  ///< rad
+};
+
+/// Angles of one joint that a grid covers; a range of zero width fixes the joint there.
+template <typename Scalar>
+struct GridRange {
+  Scalar lower;
+  Scalar upper;
+};
+
+/// Builds a path table into `buffer` (`capacity` bytes, 4-byte aligned).
+///
+/// The program is the polyline through `points` in joint space; nodes are set along it as far apart
+/// as the tolerance allows, and at its corners. The certificate is not a sample: between the points
+/// where the error is computed, the second derivative of error along the program is bounded in
+/// closed form from the robot's link lengths and springs, and what it can add is part of the bound,
+/// as is the rounding of `float` arithmetic in the lookup.
+///
+/// Cost: some thousand evaluations of the model a node; no memory but the buffer and about 4 KiB of
+/// stack. Returns ok, bad_argument, bad_model, bad_path, buffer_too_small or tolerance_not_met
+/// (which also means: base, link or tool springs give at a singular posture, where no joint motion
+/// can make up for it). `size` receives the bytes used; the buffer holds no valid table unless ok.
+template <typename Scalar, int Joints>
+Result build_path_table(const RobotModel<Scalar, Joints>& model,
+                        const JointVector<Scalar, Joints>* points, std::size_t count,
+                        const TableRequirements<Scalar>& requirements, void* buffer,
+                        std::size_t capacity, std::size_t* size);
+
+/// Builds a joint-grid table over joints 2 to 5 (`ranges[0]` to `ranges[3]`), as `build_path_table`
+/// otherwise. Joints 1 and 6 turn the result exactly and may have any angle, for which the model
+/// must allow it: no base, link or tool springs, the TCP on the last axis, and weight, if it acts,
+/// along axis 1 with the last link and payload balanced about theirs; else chart_not_invariant.
+template <typename Scalar, int Joints>
+Result build_grid_table(const RobotModel<Scalar, Joints>& model, const GridRange<Scalar> (&ranges)[4],
+                        const TableRequirements<Scalar>& requirements, void* buffer,
+                        std::size_t capacity, std::size_t* size);
+
+/// Largest error of the table against the model at joint angles `q`, for the worst wrench within
+/// the table's bounds: the second look at a certificate.
+template <typename Scalar, int Joints>
+TableError<Scalar> table_error_at(const RobotModel<Scalar, Joints>& model, const Table& table,
+                                  const JointVector<Scalar, Joints>& q, TableCursor* cursor);
+
+/// Joint angles at a place of the chart: `place` has one number in [0, 1] for the path, or one for
+/// each grid axis.
+template <typename Scalar, int Joints>
+JointVector<Scalar, Joints> chart_angles(const Table& table, const Scalar (&place)[kMaxGridAxes]);
+
+}  // namespace flexcomp
