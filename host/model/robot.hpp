@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "flexcomp/model.hpp"
+
+namespace flexcomp::model {
+
+/// What a joint adds to the torque balance, on the joint side of its gear.
+struct JointDynamics {
+  double viscous = 0;        ///< N·m·s/rad
+  double coulomb = 0;        ///< N·m
+  double rotor_inertia = 0;  ///< kg·m²
+  double backlash = 0;       ///< rad, full gap
+  double effort = 0;         ///< N·m, largest torque
+  double velocity = 0;       ///< rad/s, largest speed
+};
+
+/// A robot as its two files describe it: a YAML file and the URDF it names.
+struct Robot {
+  std::string name;
+  std::filesystem::path yaml;
+  std::filesystem::path urdf;
+  std::string base_link;
+  std::string tool_link;
+  std::array<std::string, 6> joint_names;  ///< base to tip
+  RobotModel<double, 6> elastic;           ///< geometry, springs and weights: what the core needs
+  std::array<JointDynamics, 6> dynamics;
+  /// Inertia (kg·m²) of each moved link about its centre of mass, in the link frame; bodies fixed to
+  /// the link are part of it.
+  std::array<Matrix3<double>, 6> link_inertia;
+};
+
+/// Reads a robot (schema flexcomp/robot/1). Throws InputError naming the file and the line, key,
+/// link or joint for anything that is missing, unknown, misspelt, of the wrong type or impossible.
+Robot load_robot(const std::filesystem::path& yaml);
+
+}  // namespace flexcomp::model

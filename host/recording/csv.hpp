@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace flexcomp::recording {
+
+/// A table of numbers with named columns; NaN stands for an empty cell.
+struct NumberTable {
+  std::string file;  ///< where it came from, for messages
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+
+  /// Line of the file that a row stood in, from 1.
+  std::size_t line(std::size_t row) const { return lines[row]; }
+
+  std::vector<std::size_t> lines;
+};
+
+/// Reads a CSV file of numbers: one header line, the same number of cells in every line, decimal
+/// points, empty cells allowed. A byte-order mark, CRLF line ends and blank lines are skipped.
+///
+/// Throws InputError with file, line and column for a wrong number of cells, a cell that is no finite
+/// number, a column that is unnamed or named twice, or no rows.
+NumberTable read_csv(const std::filesystem::path& path);
+
+/// Appends a number in the shortest form that reads back to the same bits; nothing for NaN.
+void append_number(double value, std::string* text);
+
+}  // namespace flexcomp::recording

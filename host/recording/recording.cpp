@@ -1,0 +1,177 @@
+#include "recording/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "error.hpp"
+#include "files/text_file.hpp"
+
+namespace flexcomp::recording {
+namespace {
+
+using Group = std::optional<Samples> Recording::*;
+
+struct Columns {
+  Group group;
+  std::vector<std::string> names;
+};
+
+std::vector<std::string> numbered(const std::string& prefix) {
+  std::vector<std::string> names;
+  for (int joint = 1; joint <= 6; ++joint) {
+    names.push_back(fmt::format("{}_{}", prefix, joint));
+  }
+  return names;
+}
+
+/// The groups in the order in which they are written.
+const std::vector<Columns>& layout() {
+  static const std::vector<Columns> kLayout = {
+      {&Recording::q_cmd, numbered("q_cmd")},
+      {&Recording::q_meas, numbered("q_meas")},
+      {&Recording::q_link, numbered("q_link")},
+      {&Recording::tau, numbered("tau")},
+      {&Recording::wrench, {"fx", "fy", "fz", "mx", "my", "mz"}},
+      {&Recording::position, {"x", "y", "z"}},
+      {&Recording::temperature, {"temp_c"}},
+  };
+  return kLayout;
+}
+
+std::optional<std::size_t> find_column(const NumberTable& table, const std::string& name) {
+  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+  if (found == table.columns.end()) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(found - table.columns.begin());
+}
+
+void refuse_unknown_columns(const NumberTable& table) {
+  for (const std::string& column : table.columns) {
+    bool known = column == "t";
+    for (const Columns& group : layout()) {
+      known = known || std::count(group.names.begin(), group.names.end(), column) > 0;
+    }
+    if (!known) {
+      throw InputError(fmt::format(
+          "{}:1: column '{}' is unknown; expected t, q_cmd_1..6, q_meas_1..6, q_link_1..6, tau_1..6, "
+          "fx..mz, x,y,z or temp_c",
+          table.file, column));
+    }
+  }
+}
+
+Eigen::VectorXd read_time(const NumberTable& table) {
+  const auto column = find_column(table, "t");
+  if (!column) {
+    throw InputError(fmt::format("{}:1: column 't' is missing", table.file));
+  }
+  Eigen::VectorXd time(static_cast<Eigen::Index>(table.rows.size()));
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const double t = table.rows[row][*column];
+    if (std::isnan(t)) {
+      throw InputError(
+          fmt::format("{}:{}: column 't': a time is missing", table.file, table.line(row)));
+    }
+    if (row > 0 && t <= table.rows[row - 1][*column]) {
+      throw InputError(fmt::format("{}:{}: column 't': time must increase, found {} after {}",
+                                   table.file, table.line(row), t, table.rows[row - 1][*column]));
+    }
+    time[static_cast<Eigen::Index>(row)] = t;
+  }
+  return time;
+}
+
+std::optional<Samples> read_group(const NumberTable& table, const std::vector<std::string>& names) {
+  std::vector<std::size_t> columns;
+  std::string missing;
+  for (const std::string& name : names) {
+    if (const auto column = find_column(table, name)) {
+      columns.push_back(*column);
+    } else {
+      missing = name;
+    }
+  }
+  if (columns.empty()) {
+    return std::nullopt;
+  }
+  if (!missing.empty()) {
+    throw InputError(fmt::format("{}:1: column '{}' is missing; {} to {} belong together",
+                                 table.file, missing, names.front(), names.back()));
+  }
+  Samples samples(static_cast<Eigen::Index>(table.rows.size()),
+                  static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      samples(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) =
+          table.rows[row][columns[i]];
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::string Recording::place(Eigen::Index row) const {
+  const auto index = static_cast<std::size_t>(row);
+  return index < lines.size() ? fmt::format("{}:{}", file, lines[index])
+                              : fmt::format("{}: row {}", file, row + 1);
+}
+
+Recording read_recording(const std::filesystem::path& path) {
+  const NumberTable table = read_csv(path);
+  refuse_unknown_columns(table);
+  Recording recording;
+  recording.file = table.file;
+  recording.lines = table.lines;
+  recording.time = read_time(table);
+  for (const Columns& group : layout()) {
+    recording.*group.group = read_group(table, group.names);
+  }
+  return recording;
+}
+
+void write_recording(const std::filesystem::path& path, const Recording& recording) {
+  files::write_file(path, [&](std::ostream& stream) {
+    std::string line = "t";
+    for (const Columns& group : layout()) {
+      if (recording.*group.group) {
+        for (const std::string& name : group.names) {
+          line += "," + name;
+        }
+      }
+    }
+    stream << line << '\n';
+    for (Eigen::Index row = 0; row < recording.size(); ++row) {
+      line.clear();
+      append_number(recording.time[row], &line);
+      for (const Columns& group : layout()) {
+        const std::optional<Samples>& samples = recording.*group.group;
+        for (Eigen::Index column = 0; samples && column < samples->cols(); ++column) {
+          line += ',';
+          append_number((*samples)(row, column), &line);
+        }
+      }
+      stream << line << '\n';
+    }
+  });
+}
+
+const Samples& require(const Recording& recording, const std::optional<Samples>& group,
+                       const std::string& columns) {
+  if (!group) {
+    throw InputError(fmt::format("{}: columns {} are needed", recording.file, columns));
+  }
+  for (Eigen::Index row = 0; row < group->rows(); ++row) {
+    if (!group->row(row).allFinite()) {
+      throw InputError(fmt::format("{}: a sample of {} is missing; all are needed",
+                                   recording.place(row), columns));
+    }
+  }
+  return *group;
+}
+
+}  // namespace flexcomp::recording
