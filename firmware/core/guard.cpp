@@ -39,10 +39,10 @@ template <typename Scalar>
 Scalar Guard<Scalar>::braking_step(Scalar distance) const {
   // Planning with a little less than the allowed deceleration leaves room to absorb rounding.
   const Scalar change = largest_change_ * Scalar(31) / Scalar(32);
-  const Scalar d = distance / change;
-  if (!(d > Scalar(0))) {
-    return Scalar(0);
+  if (distance <= change) {
+    return distance;
   }
+  const Scalar d = distance / change;
   const Scalar whole = std::floor((std::sqrt(Scalar(1) + Scalar(8) * d) - Scalar(1)) / Scalar(2));
   const Scalar rest = d - whole * (whole + Scalar(1)) / Scalar(2);
   const Scalar fraction =
@@ -60,9 +60,10 @@ Scalar Guard<Scalar>::advance(Scalar target) {
   const Scalar reach = std::min(braking_step(std::abs(distance)), largest_step_);
   Scalar step = distance < Scalar(0) ? -reach : reach;
   step = std::clamp(step, step_ - largest_change_, step_ + largest_change_);
-  limited_by_rate_ = value_ + step != goal;
+  limited_by_rate_ = step != distance;
 
-  const Scalar next = std::clamp(value_ + step, -largest_value_, largest_value_);
+  const Scalar next =
+      limited_by_rate_ ? std::clamp(value_ + step, -largest_value_, largest_value_) : goal;
   step_ = next - value_;
   value_ = next;
   return value_;

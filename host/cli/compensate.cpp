@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "cli/table_file.hpp"
+#include "error.hpp"
+#include "flexcomp/compensator.hpp"
+#include "flexcomp/table_builder.hpp"
+#include "model/robot.hpp"
+#include "recording/recording.hpp"
+#include "simulation/quasi_static.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+using Core = Compensator<double, 6>;
+
+struct Options {
+  std::string model;
+  std::string table;
+  std::string path;
+  std::string out;
+  bool json = false;
+};
+
+/// The core as an offline tool: no filter, no fading, and limits that only a fault would meet, so that
+/// every row gets its full correction.
+Core::Config offline_config(const model::Robot& robot, const Table& table) {
+  Core::Config config;
+  config.period = 1;
+  config.model_hash = model_hash(robot.elastic);
+  // The certificate holds up to these; rounding to float in the header may have shaved a bit off.
+  config.force_range = 1.000001 * table.header().force_bound + 1e-6;
+  config.moment_range = 1.000001 * table.header().moment_bound + 1e-6;
+  config.setpoint_age_limit = 1;
+  config.wrench_age_limit = 1;
+  config.joint_speed.setConstant(1e6);
+  config.limits.fill({0.2, 1e3, 1e3});
+  config.deflection_limit = 0.1;
+  // The program may be sampled anew between the points the table was made from.
+  config.chart_margin = 1e-3;
+  config.hold_time = 0;
+  config.fade_time = 0;
+  config.ready_ticks = 1;
+  return config;
+}
+
+/// Runs the program through the core, tick by tick.
+class OfflineCompensator {
+ public:
+  OfflineCompensator(const model::Robot& robot, const Table& table,
+                     const recording::Recording& path)
+      : path_(path),
+        q_cmd_(recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6")),
+        wrench_(recording::require(path, path.wrench, "fx..mz")) {
+    Result result = core_.configure(offline_config(robot, table));
+    if (result == Result::ok) {
+      result = core_.set_table(table);
+    }
+    if (result != Result::ok) {
+      throw InputError(fmt::format("the table cannot be used: {}", describe(result)));
+    }
+    tick(0);
+    if (core_.arm() != Result::ok) {
+      refuse(0, tick(0).status);
+    }
+  }
+
+  JointVector<double, 6> corrected(Eigen::Index row) {
+    const Core::Output output = tick(row);
+    const std::uint32_t allowed = kRateLimited;
+    if ((output.status & ~allowed) != 0 || output.state != State::active) {
+      refuse(row, output.status);
+    }
+    return output.setpoint;
+  }
+
+ private:
+  Core::Output tick(Eigen::Index row) {
+    return core_.tick({q_cmd_.row(row).transpose(), 0, wrench_.row(row).transpose(), 0, false});
+  }
+
+  [[noreturn]] void refuse(Eigen::Index row, std::uint32_t status) const {
+    std::string reasons;
+    for (std::uint32_t bit = 1; bit != 0 && bit <= kNoSetpoint; bit <<= 1) {
+      if ((status & bit & ~kRateLimited) != 0) {
+        reasons += (reasons.empty() ? "" : ", ") +
+                   std::string(describe(static_cast<StatusBit>(bit)));
+      }
+    }
+    throw InputError(fmt::format("{}: {}; make the table from this path, for its largest wrench",
+                                 path_.place(row), reasons));
+  }
+
+  const recording::Recording& path_;
+  const recording::Samples& q_cmd_;
+  const recording::Samples& wrench_;
+  Core core_;
+};
+
+/// Distance of the bent TCP from where it should be.
+TableError<double> tcp_error(const RobotModel<double, 6>& model, const JointVector<double, 6>& wanted,
+                             const JointVector<double, 6>& commanded,
+                             const Wrench<double>& wrench) {
+  const Twist<double> off =
+      pose_difference(forward_kinematics<double, 6>(model, wanted).tcp,
+                      simulation::settle(model, commanded, wrench).tcp);
+  return {off.head<3>().norm(), off.tail<3>().norm()};
+}
+
+int run(const Options& options) {
+  const model::Robot robot = model::load_robot(options.model);
+  const TableFile file = read_table(options.table, robot);
+  const recording::Recording path = recording::read_recording(options.path);
+  OfflineCompensator compensator(robot, file.table, path);
+
+  recording::Recording corrected = path;
+  TableError<double> before;
+  TableError<double> after;
+  Progress progress("compensating", static_cast<std::size_t>(path.size()));
+  for (Eigen::Index row = 0; row < path.size(); ++row) {
+    const JointVector<double, 6> wanted = path.q_cmd->row(row).transpose();
+    const Wrench<double> wrench = path.wrench->row(row).transpose();
+    const JointVector<double, 6> command = compensator.corrected(row);
+    corrected.q_cmd->row(row) = command.transpose();
+    const auto larger = [](TableError<double>* worst, const TableError<double>& error) {
+      worst->position = std::max(worst->position, error.position);
+      worst->orientation = std::max(worst->orientation, error.orientation);
+    };
+    larger(&before, tcp_error(robot.elastic, wanted, wanted, wrench));
+    larger(&after, tcp_error(robot.elastic, wanted, command, wrench));
+    progress.show(static_cast<std::size_t>(row));
+  }
+  recording::write_recording(options.out, corrected);
+  if (options.json) {
+    const nlohmann::ordered_json json = {
+        {"rows", path.size()},
+        {"before", {{"position", before.position}, {"orientation", before.orientation}}},
+        {"after", {{"position", after.position}, {"orientation", after.orientation}}}};
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print(
+        "{}: {} rows\nlargest error of the model's TCP: {:.4g} mm, {:.4g} mrad before; {:.3g} mm, "
+        "{:.3g} mrad after\n",
+        options.out, path.size(), 1e3 * before.position, 1e3 * before.orientation,
+        1e3 * after.position, 1e3 * after.orientation);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_compensate(CLI::App* app, Action* action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "compensate",
+      "Correct a program: the same rows, with q_cmd moved so that the TCP of the bent robot stands,\n"
+      "in position and orientation, where the given q_cmd would put that of a stiff one. Runs the\n"
+      "controller's own core, tick by tick, without filter and fading.\n"
+      "Example: flexcomp compensate --model robot.yaml --table t.fct --path path.csv --out out.csv");
+  command->add_option("--model", options->model, "robot.yaml")->required();
+  command->add_option("--table", options->table, "made by flexcomp table")->required();
+  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")->required();
+  command->add_option("--out", options->out, "recording to write")->required();
+  command->add_flag("--json", options->json, "print the summary as JSON");
+  command->callback([=] { *action = [=] { return run(*options); }; });
+}
+
+}  // namespace flexcomp::cli

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "build_info.hpp"
+#include "cli/command.hpp"
+#include "error.hpp"
+
+namespace {
+
+using flexcomp::cli::Action;
+
+/// One line, whatever the message holds.
+void complain(std::string message) {
+  for (char& c : message) {
+    c = c == '\n' || c == '\r' ? ' ' : c;
+  }
+  fmt::print(stderr, "flexcomp: {}\n", message);
+}
+
+int run(const Action& action) {
+  try {
+    const int code = action();
+    if (std::fflush(stdout) != 0) {
+      complain("standard output cannot be written");
+      return flexcomp::cli::kUnusableInput;
+    }
+    return code;
+  } catch (const flexcomp::InputError& error) {
+    complain(error.what());
+    return flexcomp::cli::kUnusableInput;
+  } catch (const std::bad_alloc&) {
+    complain("out of memory: the input is too large for this machine");
+    return flexcomp::cli::kUnusableInput;
+  } catch (const std::exception& error) {
+    complain(fmt::format("internal fault: {}", error.what()));
+    return flexcomp::cli::kInternalFault;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
+      "From model to corrected path:\n"
+      "  flexcomp plan circle …   a path with its cutting force, or bring your own recording\n"
+      "  flexcomp table …         the compliance along that path, with a certified error\n"
+      "  flexcomp compensate …    the path, corrected\n"
+      "  flexcomp simulate …      where the bending robot really goes\n"
+      "  flexcomp circularity …   how round that is\n"
+      "  flexcomp report …        all of it on one page\n\n"
+      "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not hold,\n"
+      "2 unusable input or arguments, 3 internal fault.");
+  app.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
+  app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();
+  Action action;
+  flexcomp::cli::add_plan(&app, &action);
+  flexcomp::cli::add_table(&app, &action);
+  flexcomp::cli::add_compensate(&app, &action);
+  flexcomp::cli::add_simulate(&app, &action);
+  flexcomp::cli::add_circularity(&app, &action);
+  flexcomp::cli::add_report(&app, &action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      return app.exit(error);
+    }
+    complain(fmt::format("{} (see --help)", error.what()));
+    return flexcomp::cli::kUnusableInput;
+  }
+  return run(action);
+}

@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "cli/table_file.hpp"
+#include "error.hpp"
+#include "files/text_file.hpp"
+#include "flexcomp/table_builder.hpp"
+#include "model/robot.hpp"
+#include "recording/recording.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+struct BuildOptions {
+  std::string model;
+  std::string path;
+  std::string out;
+  double tolerance = 1e-6;
+  double orientation_tolerance = 0;
+  double force = 0;
+  double moment = 0;
+  bool json = false;
+};
+
+struct VerifyOptions {
+  std::string model;
+  std::string table;
+  std::size_t samples = 100000;
+  bool json = false;
+};
+
+/// What is asked of the table; where the wrench bounds are not given, a tenth above the path's.
+TableRequirements<double> requirements(const BuildOptions& options,
+                                       const recording::Recording& path) {
+  TableRequirements<double> wanted{options.force, options.moment, options.tolerance,
+                                   options.orientation_tolerance > 0 ? options.orientation_tolerance
+                                                                     : options.tolerance,
+                                   0};
+  const recording::Samples& wrench = recording::require(path, path.wrench, "fx..mz");
+  const double force = wrench.leftCols<3>().rowwise().norm().maxCoeff();
+  const double moment = wrench.rightCols<3>().rowwise().norm().maxCoeff();
+  wanted.force_bound = options.force > 0 ? options.force : 1.1 * force;
+  wanted.moment_bound = options.moment > 0 ? options.moment : 1.1 * moment;
+  if (wanted.force_bound + wanted.moment_bound <= 0) {
+    wanted.force_bound = 1;  // a path without load: only weight can act
+  }
+  return wanted;
+}
+
+/// Builds into a buffer that grows until the table fits.
+std::vector<std::uint32_t> build(const RobotModel<double, 6>& model,
+                                 const std::vector<JointVector<double, 6>>& points,
+                                 const TableRequirements<double>& wanted) {
+  constexpr std::size_t kLargest = std::size_t{1} << 30;
+  for (std::size_t capacity = std::size_t{1} << 20;; capacity *= 4) {
+    std::vector<std::uint32_t> words(capacity / 4);
+    std::size_t size = 0;
+    const Result built = build_path_table<double, 6>(model, points.data(), points.size(), wanted,
+                                                     words.data(), capacity, &size);
+    if (built == Result::ok) {
+      words.resize(size / 4);
+      return words;
+    }
+    if (built != Result::buffer_too_small || capacity >= kLargest) {
+      throw InputError(fmt::format("no table: {}", describe(built)));
+    }
+  }
+}
+
+nlohmann::ordered_json summary(const Table& table) {
+  const TableHeader& header = table.header();
+  return {{"chart", table.chart() == Chart::path ? "path" : "joint_grid"},
+          {"nodes", header.node_count},
+          {"bytes", header.size},
+          {"model_hash", fmt::format("{:016x}", table.model_hash())},
+          {"force_bound", header.force_bound},
+          {"moment_bound", header.moment_bound},
+          {"certified_position_error", header.position_error},
+          {"certified_orientation_error", header.orientation_error}};
+}
+
+int run_build(const BuildOptions& options) {
+  if (!(options.tolerance > 0)) {
+    throw InputError("--tolerance: expected a length above zero");
+  }
+  const model::Robot robot = model::load_robot(options.model);
+  const recording::Recording path = recording::read_recording(options.path);
+  const recording::Samples& q_cmd = recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
+  std::vector<JointVector<double, 6>> points;
+  for (Eigen::Index row = 0; row < q_cmd.rows(); ++row) {
+    points.emplace_back(q_cmd.row(row).transpose());
+  }
+  std::vector<std::uint32_t> words;
+  try {
+    words = build(robot.elastic, points, requirements(options, path));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", options.path, error.what()));
+  }
+  files::write_file(options.out, [&](std::ostream& stream) {
+    stream.write(reinterpret_cast<const char*>(words.data()),
+                 static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));
+  });
+  Table table;
+  Table::open(words.data(), 4 * words.size(), &table);
+  if (options.json) {
+    fmt::print("{}\n", summary(table).dump(2));
+  } else {
+    const TableHeader& header = table.header();
+    fmt::print(
+        "{}: {} nodes, {} bytes\ncertified: no deflection or corrected position is off by more than "
+        "{:.3g} µm and {:.3g} µrad\nfor any force up to {:.6g} N and moment up to {:.6g} N·m\n",
+        options.out, header.node_count, header.size, 1e6 * header.position_error,
+        1e6 * header.orientation_error, header.force_bound, header.moment_bound);
+  }
+  return kDone;
+}
+
+/// Largest error over many places of the chart: a lattice along the path, random points in a grid.
+TableError<double> largest_error(const model::Robot& robot, const Table& table,
+                                 std::size_t samples) {
+  Progress progress("verifying", samples);
+  std::mt19937_64 random(20170601);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  TableCursor cursor;
+  TableError<double> worst;
+  for (std::size_t i = 0; i < samples; ++i) {
+    double place[kMaxGridAxes] = {uniform(random), uniform(random), uniform(random),
+                                  uniform(random)};
+    if (table.chart() == Chart::path) {
+      place[0] = (static_cast<double>(i) + place[0]) / static_cast<double>(samples);
+    }
+    const auto error = table_error_at<double, 6>(
+        robot.elastic, table, chart_angles<double, 6>(table, place), &cursor);
+    worst.position = std::max(worst.position, error.position);
+    worst.orientation = std::max(worst.orientation, error.orientation);
+    progress.show(i);
+  }
+  return worst;
+}
+
+int run_verify(const VerifyOptions& options) {
+  const model::Robot robot = model::load_robot(options.model);
+  const TableFile file = read_table(options.table, robot);
+  const TableError<double> worst = largest_error(robot, file.table, options.samples);
+  const TableHeader& header = file.table.header();
+  const bool holds =
+      worst.position <= header.position_error && worst.orientation <= header.orientation_error;
+  if (options.json) {
+    nlohmann::ordered_json json = summary(file.table);
+    json["samples"] = options.samples;
+    json["largest_position_error"] = worst.position;
+    json["largest_orientation_error"] = worst.orientation;
+    json["holds"] = holds;
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print(
+        "largest error found at {} places: {:.4g} µm, {:.4g} µrad\n"
+        "certified bound:                  {:.4g} µm, {:.4g} µrad: {}\n",
+        options.samples, 1e6 * worst.position, 1e6 * worst.orientation, 1e6 * header.position_error,
+        1e6 * header.orientation_error, holds ? "holds" : "DOES NOT HOLD");
+  }
+  return holds ? kDone : kDoesNotHold;
+}
+
+}  // namespace
+
+void add_table(CLI::App* app, Action* action) {
+  CLI::App* command = app->add_subcommand(
+      "table",
+      "The robot's compliance along a program, for the controller, with a certified error.\n"
+      "Example: flexcomp table --model robot.yaml --path path.csv --tolerance 1e-6 --out t.fct\n"
+      "         flexcomp table verify t.fct --model robot.yaml");
+  auto build = std::make_shared<BuildOptions>();
+  auto verify = std::make_shared<VerifyOptions>();
+  command->require_subcommand(0, 1);
+  CLI::Option* model = command->add_option("--model", build->model, "robot.yaml");
+  CLI::Option* path =
+      command->add_option("--path", build->path, "recording with t, q_cmd and the wrench");
+  CLI::Option* out = command->add_option("--out", build->out, "table to write");
+  command->add_option("--tolerance", build->tolerance, "m, largest allowed error at the TCP");
+  command->add_option("--orientation-tolerance", build->orientation_tolerance,
+                      "rad; if not given, the number of --tolerance");
+  command->add_option("--force", build->force,
+                      "N, largest force to certify for; if not given, 1.1 times the path's");
+  command->add_option("--moment", build->moment,
+                      "N·m, largest moment to certify for; if not given, 1.1 times the path's");
+  command->add_flag("--json", build->json, "print the certificate as JSON");
+
+  CLI::App* check = command->add_subcommand(
+      "verify",
+      "Compare a table with the model at many places. Exit code 1 if the certified bound does not\n"
+      "hold, 2 if the file is damaged or belongs to another robot.");
+  check->add_option("table", verify->table, "table to check")->required();
+  check->add_option("--model", verify->model, "robot.yaml")->required();
+  check->add_option("--samples", verify->samples, "places to look at")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}));
+  check->add_flag("--json", verify->json, "print the result as JSON");
+
+  check->callback([=] { *action = [=] { return run_verify(*verify); }; });
+  command->callback([=] {
+    if (check->parsed()) {
+      return;
+    }
+    for (const CLI::Option* option : {model, path, out}) {
+      if (option->count() == 0) {
+        throw CLI::RequiredError(option->get_name());
+      }
+    }
+    *action = [=] { return run_build(*build); };
+  });
+}
+
+}  // namespace flexcomp::cli

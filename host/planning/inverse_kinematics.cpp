@@ -1,0 +1,145 @@
+#include "planning/inverse_kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <kdl/chainiksolverpos_lma.hpp>
+
+#include "flexcomp/compliance.hpp"
+
+namespace flexcomp::planning {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+KDL::Vector to_kdl(const Vector3<double>& v) { return {v.x(), v.y(), v.z()}; }
+
+KDL::Frame to_kdl(const Pose<double>& pose) {
+  const Matrix3<double>& r = pose.rotation;
+  return {KDL::Rotation(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
+                        r(2, 2)),
+          to_kdl(pose.position)};
+}
+
+KDL::Chain to_kdl(const RobotModel<double, 6>& model) {
+  KDL::Chain chain;
+  for (const Joint<double>& joint : model.joints) {
+    chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), to_kdl(joint.origin)));
+    chain.addSegment(
+        KDL::Segment(KDL::Joint(KDL::Vector::Zero(), to_kdl(joint.axis), KDL::Joint::RotAxis)));
+  }
+  chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), to_kdl(model.tool)));
+  return chain;
+}
+
+/// Moves an angle by whole turns to the one nearest to `near` within limits.
+double nearest_turn(double angle, double near, const Joint<double>& joint) {
+  double turned = angle + 2 * kPi * std::round((near - angle) / (2 * kPi));
+  while (turned > joint.upper && turned - 2 * kPi >= joint.lower) {
+    turned -= 2 * kPi;
+  }
+  while (turned < joint.lower && turned + 2 * kPi <= joint.upper) {
+    turned += 2 * kPi;
+  }
+  return turned;
+}
+
+/// Metres and radians count alike.
+const Eigen::Matrix<double, 6, 1> kEqualWeights = Eigen::Matrix<double, 6, 1>::Ones();
+
+class Solver {
+ public:
+  explicit Solver(const RobotModel<double, 6>& model)
+      : model_(model), chain_(to_kdl(model)), solver_(chain_, kEqualWeights, 1e-10, 500, 1e-15) {}
+
+  std::optional<Angles> solve(const Pose<double>& target, const Angles& seed) {
+    KDL::JntArray start(6);
+    KDL::JntArray found(6);
+    start.data = seed;
+    solver_.CartToJnt(start, to_kdl(target), found);
+    Angles q;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto joint = static_cast<Eigen::Index>(i);
+      q[joint] = nearest_turn(found.data[joint], seed[joint], model_.joints[i]);
+      if (!(q[joint] >= model_.joints[i].lower && q[joint] <= model_.joints[i].upper)) {
+        return std::nullopt;
+      }
+    }
+    return polished(target, q);
+  }
+
+ private:
+  /// Newton's last digits; nothing if the solver had not come close.
+  std::optional<Angles> polished(const Pose<double>& target, Angles q) const {
+    for (int step = 0; step < 3; ++step) {
+      const Kinematics<double, 6> at = forward_kinematics<double, 6>(model_, q);
+      const Twist<double> off = pose_difference(at.tcp, target);
+      if (off.cwiseAbs().maxCoeff() <= 1e-13) {
+        break;
+      }
+      q += joint_motion<double, 6>(geometric_jacobian<double, 6>(at), off);
+    }
+    const Pose<double> reached = forward_kinematics<double, 6>(model_, q).tcp;
+    if (pose_difference(reached, target).cwiseAbs().maxCoeff() > 1e-9) {
+      return std::nullopt;
+    }
+    return q;
+  }
+
+  const RobotModel<double, 6>& model_;
+  KDL::Chain chain_;
+  KDL::ChainIkSolverPos_LMA solver_;
+};
+
+/// How far the angles are from the middle of the joint ranges; 6 at worst.
+double off_middle(const RobotModel<double, 6>& model, const Angles& q) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Joint<double>& joint = model.joints[i];
+    const double middle = (joint.lower + joint.upper) / 2;
+    sum += std::pow((q[static_cast<Eigen::Index>(i)] - middle) / (joint.upper - middle), 2);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<double>& target,
+                                 const Angles& seed) {
+  return Solver(model).solve(target, seed);
+}
+
+std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<double>& target) {
+  Solver solver(model);
+  std::vector<Angles> solutions;
+  const auto seed_angle = [&](std::size_t joint, double share) {
+    return model.joints[joint].lower +
+           share * (model.joints[joint].upper - model.joints[joint].lower);
+  };
+  for (const double first : {0.5, 0.25, 0.75}) {
+    for (const double second : {0.5, 0.25, 0.75}) {
+      for (const double third : {0.5, 0.75, 0.25}) {
+        for (const double fifth : {0.7, 0.3}) {
+          for (const double wrist : {-kPi / 2, 0.0, kPi / 2}) {
+            Angles seed;
+            seed << seed_angle(0, first), seed_angle(1, second), seed_angle(2, third), wrist,
+                seed_angle(4, fifth), wrist;
+            const std::optional<Angles> q = solver.solve(target, seed);
+            const bool is_new =
+                q && std::none_of(solutions.begin(), solutions.end(), [&](const Angles& other) {
+                  return (other - *q).cwiseAbs().maxCoeff() < 1e-6;
+                });
+            if (is_new) {
+              solutions.push_back(*q);
+            }
+          }
+        }
+      }
+    }
+  }
+  std::sort(solutions.begin(), solutions.end(), [&](const Angles& a, const Angles& b) {
+    return off_middle(model, a) < off_middle(model, b);
+  });
+  return solutions;
+}
+
+}  // namespace flexcomp::planning
