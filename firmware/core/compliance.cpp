@@ -165,9 +165,9 @@ JointVector<Scalar, Joints> joint_motion(const Jacobian<Scalar, Joints>& jacobia
                                          const Twist<Scalar>& twist) {
   // Damping grows from zero as the manipulability √det(J Jᵀ) falls below a threshold, so that the
   // solution is exact elsewhere (Nakamura and Hanafusa 1986). The threshold is met by a six-axis
-  // robot of 2.5 m reach with axes 4 and 6 about 1° from in line.
-  constexpr Scalar kThreshold = Scalar(0.03);
-  constexpr Scalar kLargestDamping = Scalar(0.02);
+  // robot of 2.5 m reach with axes 4 and 6 about 4° from in line.
+  constexpr Scalar kThreshold = Scalar(0.1);
+  constexpr Scalar kLargestDamping = Scalar(0.05);
   Compliance<Scalar> gram = jacobian.lazyProduct(jacobian.transpose());
   const Eigen::LDLT<Compliance<Scalar>> exact(gram);
   const Scalar determinant = exact.vectorD().prod();

@@ -37,15 +37,17 @@ std::uint32_t follow(const Table& table, const RecordLayout& layout,
   constexpr int kMaxMoves = 2;
   const std::uint32_t last = table.header().node_count - 2;
   const bool closed = table.header().closed != 0;
+  const auto past_node = [&](std::uint32_t node) {
+    const float* record = table.record(node);
+    return past_plane<Scalar, Joints>(record + layout.angles, record + layout.switching, q);
+  };
   segment = segment > last ? last : segment;
   int direction = 0;
   for (int move = 0; move < kMaxMoves; ++move) {
-    const SegmentPlace<Scalar> place = place_on_segment<Scalar, Joints>(
-        table.record(segment), table.record(segment + 1), layout, q);
-    if (place.left < Scalar(0) && direction >= 0 && (segment < last || closed)) {
+    if (direction >= 0 && (segment < last || closed) && past_node(segment + 1) > Scalar(0)) {
       segment = segment < last ? segment + 1 : 0;
       direction = 1;
-    } else if (place.gone < Scalar(0) && direction <= 0 && (segment > 0 || closed)) {
+    } else if (direction <= 0 && (segment > 0 || closed) && past_node(segment) < Scalar(0)) {
       segment = segment > 0 ? segment - 1 : last;
       direction = -1;
     } else {
@@ -53,6 +55,24 @@ std::uint32_t follow(const Table& table, const RecordLayout& layout,
     }
   }
   return segment;
+}
+
+/// What `q` finds on one segment, and how far it is off its chord.
+template <typename Scalar>
+struct Find {
+  std::uint32_t segment;
+  Scalar t;
+  Scalar off;
+};
+
+template <typename Scalar, int Joints>
+Find<Scalar> find_on(const Table& table, const RecordLayout& layout, std::uint32_t segment,
+                     const JointVector<Scalar, Joints>& q) {
+  const float* from = table.record(segment);
+  const float* to = table.record(segment + 1);
+  const Scalar t = place_on_segment<Scalar, Joints>(from, to, layout, q).blend();
+  return {segment, t,
+          off_chord<Scalar, Joints>(from + layout.angles, to + layout.angles, t, q)};
 }
 
 }  // namespace
@@ -82,15 +102,31 @@ TableEntry<Scalar, Joints> blend_segment(const float* from, const float* to,
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up_path(const Table& table, const JointVector<Scalar, Joints>& q,
                                         TableCursor* cursor) {
+  constexpr std::uint32_t kSearchedACall = 4;
   const RecordLayout layout = record_layout(table);
-  cursor->segment = follow<Scalar, Joints>(table, layout, q, cursor->segment);
-  const float* from = table.record(cursor->segment);
-  const float* to = table.record(cursor->segment + 1);
-  const Scalar t = place_on_segment<Scalar, Joints>(from, to, layout, q).blend();
-  TableEntry<Scalar, Joints> entry =
-      blend_segment<Scalar, Joints>(from, to, layout, t, q);
-  const Scalar off = entry.outside - static_cast<Scalar>(table.header().path_width);
-  entry.outside = off > Scalar(0) ? off : Scalar(0);
+  const std::uint32_t segments = table.header().node_count - 1;
+  const auto width = [&](const Find<Scalar>& find) {
+    return static_cast<Scalar>(table.record(find.segment)[layout.width]);
+  };
+  Find<Scalar> find = find_on<Scalar, Joints>(
+      table, layout, follow<Scalar, Joints>(table, layout, q, cursor->segment), q);
+  if (find.off > width(find)) {
+    const std::uint32_t first = find.segment;
+    for (std::uint32_t i = 0; i < kSearchedACall; ++i) {
+      cursor->searched = cursor->searched % segments + 1;
+      const std::uint32_t next =
+          static_cast<std::uint32_t>((std::uint64_t{first} + cursor->searched) % segments);
+      const Find<Scalar> other = find_on<Scalar, Joints>(table, layout, next, q);
+      find = other.off < find.off ? other : find;
+    }
+  } else {
+    cursor->searched = 0;
+  }
+  cursor->segment = find.segment;
+  TableEntry<Scalar, Joints> entry = blend_segment<Scalar, Joints>(
+      table.record(find.segment), table.record(find.segment + 1), layout, find.t, q);
+  const Scalar outside = find.off - width(find);
+  entry.outside = outside > Scalar(0) ? outside : Scalar(0);
   return entry;
 }
 
@@ -100,17 +136,12 @@ void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCurso
     return;
   }
   const RecordLayout layout = record_layout(table);
-  Scalar nearest = 0;
-  for (std::uint32_t segment = 0; segment + 1 < table.header().node_count; ++segment) {
-    const float* from = table.record(segment);
-    const float* to = table.record(segment + 1);
-    const Scalar t = place_on_segment<Scalar, Joints>(from, to, layout, q).blend();
-    const Scalar off = off_chord<Scalar, Joints>(from + layout.angles, to + layout.angles, t, q);
-    if (segment == 0 || off < nearest) {
-      nearest = off;
-      cursor->segment = segment;
-    }
+  Find<Scalar> nearest = find_on<Scalar, Joints>(table, layout, 0, q);
+  for (std::uint32_t segment = 1; segment + 1 < table.header().node_count; ++segment) {
+    const Find<Scalar> other = find_on<Scalar, Joints>(table, layout, segment, q);
+    nearest = other.off < nearest.off ? other : nearest;
   }
+  *cursor = TableCursor{nearest.segment, 0};
 }
 
 #define FLEXCOMP_PATH_CHART(Scalar, Joints)                                                       \

@@ -52,7 +52,9 @@ class PathTableBuilder {
       const SegmentCheck check = check_segment(node, place, next);
       if (check.holds) {
         error_ = larger(error_, check.error);
-        width_ = std::max(width_, check.width);
+        // Between checked points the program strays a little more than at them, and rounding adds.
+        writer_.record(node)[writer_.layout().width] =
+            static_cast<float>(Scalar(1.01) * check.width + Scalar(1e-6));
         place = next;
         ++node;
         length *= Scalar(1.5);
@@ -64,8 +66,6 @@ class PathTableBuilder {
       }
     }
     writer_.header().closed = path_.is_closed() ? 1 : 0;
-    // Between checked points the program strays from its chord by a little more than at them.
-    writer_.header().path_width = static_cast<float>(Scalar(1.01) * width_ + Scalar(1e-6));
     writer_.finish(node + 1, error_);
     return Result::ok;
   }
@@ -79,16 +79,16 @@ class PathTableBuilder {
 
   void write_node(std::uint32_t node, const Place& place) {
     const RecordLayout& layout = writer_.layout();
-    Angles before;
-    Angles after;
-    path_.directions(place, &before, &after);
+    const auto directions = path_.directions(place);
     const Angles q = path_.angles(place);
     float* record = writer_.record(node);
     for (Eigen::Index i = 0; i < Joints; ++i) {
       record[layout.angles + i] = static_cast<float>(q[i]);
-      record[layout.normal_in + i] = static_cast<float>(before[i]);
-      record[layout.normal_out + i] = static_cast<float>(after[i]);
+      record[layout.switching + i] = static_cast<float>(directions.mean[i]);
+      record[layout.normal_in + i] = static_cast<float>(directions.before[i]);
+      record[layout.normal_out + i] = static_cast<float>(directions.after[i]);
     }
+    record[layout.width] = 0;
     pack(exact_entry(model_, q), layout, record);
   }
 
@@ -192,7 +192,6 @@ class PathTableBuilder {
   ModelBounds<Scalar, Joints> bounds_;
   TableWriter& writer_;
   TableError<Scalar> error_;
-  Scalar width_ = 0;
 };
 
 }  // namespace

@@ -8,6 +8,9 @@ namespace {
 /// Cosine of the bend beyond which a corner gets a node of its own (30°).
 constexpr double kSharpCosine = 0.866;
 
+/// Sum of the unit directions before and after a corner below which it is a turn by 180°.
+constexpr double kTurnedBack = 1e-3;
+
 /// Programs whose ends lie this close (rad) are closed: below the resolution of `float` angles.
 constexpr double kClosedGap = 1e-6;
 
@@ -59,8 +62,7 @@ std::size_t ProgramPath<Scalar, Joints>::previous_piece(std::size_t piece) const
 }
 
 template <typename Scalar, int Joints>
-void ProgramPath<Scalar, Joints>::directions(const Place& place, Angles* before,
-                                             Angles* after) const {
+auto ProgramPath<Scalar, Joints>::directions(const Place& place) const -> Directions {
   std::size_t in = place.piece;
   std::size_t out = place.piece;
   if (place.fraction <= Scalar(0)) {
@@ -74,13 +76,17 @@ void ProgramPath<Scalar, Joints>::directions(const Place& place, Angles* before,
   if (out == count_) {
     out = is_closed() ? (is_piece(0) ? 0 : next_piece(0)) : in;
   }
-  *before = piece_motion(in).normalized();
-  *after = piece_motion(out).normalized();
-  if (before->dot(*after) >= Scalar(kSharpCosine)) {
-    const Angles mean = (*before + *after).normalized();
-    *before = mean;
-    *after = mean;
+  Directions at;
+  at.before = piece_motion(in).normalized();
+  at.after = piece_motion(out).normalized();
+  const Angles sum = at.before + at.after;
+  const Scalar length = sum.norm();
+  at.mean = length > Scalar(kTurnedBack) ? Angles(sum / length) : Angles(Angles::Zero());
+  if (at.before.dot(at.after) >= Scalar(kSharpCosine)) {
+    at.before = at.mean;
+    at.after = at.mean;
   }
+  return at;
 }
 
 template <typename Scalar, int Joints>

@@ -26,9 +26,13 @@ class ProgramPath {
 
   Angles angles(const Place& place) const;
 
-  /// Unit directions of the program just before and just after a place. At a mild bend both are the
-  /// mean direction; at a sharp corner they differ.
-  void directions(const Place& place, Angles* before, Angles* after) const;
+  /// Unit directions of the program at a place.
+  struct Directions {
+    Angles before;  ///< just before it; at a mild bend the mean
+    Angles after;   ///< just after it; at a mild bend the mean
+    Angles mean;    ///< zero where the program turns back on itself
+  };
+  Directions directions(const Place& place) const;
 
   Place begin() const;
   bool is_end(const Place& place) const;

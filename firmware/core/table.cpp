@@ -11,7 +11,7 @@
 namespace flexcomp {
 namespace {
 
-static_assert(sizeof(TableHeader) == 4 * 68, "the header is written to files: no padding");
+static_assert(sizeof(TableHeader) == 4 * 67, "the header is written to files: no padding");
 
 std::uint32_t table_crc(const void* data, std::uint32_t size) {
   constexpr std::size_t kBefore = offsetof(TableHeader, crc);

@@ -5,14 +5,18 @@
 namespace flexcomp {
 
 /// Floats of the largest record.
-constexpr std::uint32_t kMaxRecordSize = 3 * 6 + 36 + 6 + 21 + 36 + 6 + 6;
+constexpr std::uint32_t kMaxRecordSize = 4 * 6 + 1 + 36 + 6 + 21 + 36 + 6 + 6;
 
 /// Where the parts of a node's record stand, in floats.
 struct RecordLayout {
   std::uint32_t angles;      ///< path: joint angles of the node, rad
-  std::uint32_t normal_in;   ///< path: unit normal, in joint space, of the plane that ends the
-                             ///< segment before the node
-  std::uint32_t normal_out;  ///< path: same for the segment after; differs at a sharp corner
+  std::uint32_t switching;   ///< path: unit normal, in joint space, of the plane through the node
+                             ///< where one segment hands over to the next; zero where the program
+                             ///< turns back on itself
+  std::uint32_t normal_in;   ///< path: unit normal of the plane that ends the blend of the segment
+                             ///< before the node; the same but at a sharp corner
+  std::uint32_t normal_out;  ///< path: and of that which begins the blend of the segment after it
+  std::uint32_t width;       ///< path: rad, how far the program strays from the chord to the next node
   std::uint32_t blended;     ///< from here on the record is interpolated
   std::uint32_t jacobian;    ///< column by column
   std::uint32_t weight_torque;
@@ -35,8 +39,10 @@ inline RecordLayout record_layout(Chart chart, bool weight, bool structure) {
   const std::uint32_t path = chart == Chart::path ? 6 : 0;
   RecordLayout layout{};
   layout.angles = take(path);
+  layout.switching = take(path);
   layout.normal_in = take(path);
   layout.normal_out = take(path);
+  layout.width = take(path > 0 ? 1 : 0);
   layout.blended = next;
   layout.jacobian = take(36);
   layout.weight_torque = take(weight ? 6 : 0);

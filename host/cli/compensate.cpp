@@ -55,6 +55,7 @@ class OfflineCompensator {
   OfflineCompensator(const model::Robot& robot, const Table& table,
                      const recording::Recording& path)
       : path_(path),
+        nodes_(table.header().node_count),
         q_cmd_(recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6")),
         wrench_(recording::require(path, path.wrench, "fx..mz")) {
     Result result = core_.configure(offline_config(robot, table));
@@ -71,9 +72,13 @@ class OfflineCompensator {
   }
 
   JointVector<double, 6> corrected(Eigen::Index row) {
-    const Core::Output output = tick(row);
-    const std::uint32_t allowed = kRateLimited;
-    if ((output.status & ~allowed) != 0 || output.state != State::active) {
+    Core::Output output = tick(row);
+    // Where the program has run back on itself and turns off, the core looks for the new segment over
+    // a few ticks; here there is time for that.
+    for (std::uint32_t i = 0; i < nodes_ && (output.status & kChartEdge) != 0; ++i) {
+      output = tick(row);
+    }
+    if (output.status != 0 || output.state != State::active) {
       refuse(row, output.status);
     }
     return output.setpoint;
@@ -87,7 +92,7 @@ class OfflineCompensator {
   [[noreturn]] void refuse(Eigen::Index row, std::uint32_t status) const {
     std::string reasons;
     for (std::uint32_t bit = 1; bit != 0 && bit <= kNoSetpoint; bit <<= 1) {
-      if ((status & bit & ~kRateLimited) != 0) {
+      if ((status & bit) != 0) {
         reasons += (reasons.empty() ? "" : ", ") +
                    std::string(describe(static_cast<StatusBit>(bit)));
       }
@@ -97,6 +102,7 @@ class OfflineCompensator {
   }
 
   const recording::Recording& path_;
+  std::uint32_t nodes_;
   const recording::Samples& q_cmd_;
   const recording::Samples& wrench_;
   Core core_;

@@ -48,7 +48,6 @@ struct TableHeader {
   float joint_upper[kTableJoints];
   float compliance[kTableJoints];        ///< rad/(N·m)
   float cubic_compliance[kTableJoints];  ///< rad/(N·m)³
-  float path_width;         ///< rad, how far the program strays from the chords between nodes
   float force_bound;        ///< N, the certificate holds for forces up to this
   float moment_bound;       ///< N·m
   float position_error;     ///< m, certified largest error of deflection and of correction
@@ -91,6 +90,7 @@ class Table {
 /// Where in the chart the last lookup ended; keeps the next one short. Zero to begin with.
 struct TableCursor {
   std::uint32_t segment = 0;
+  std::uint32_t searched = 0;  ///< segments looked at since the program was lost
 };
 
 /// What a table says at one set of joint angles; base frame.
@@ -118,7 +118,9 @@ template <typename Scalar, int Joints>
 void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
 
 /// Reads the table at joint angles `q` (rad, finite). Constant time: a path table moves its cursor
-/// at most two segments a call; a grid blends the 2^axes corners of one box. Outside the chart the
+/// at most two segments a call, and where `q` has left the segment sideways (a program that runs back
+/// on itself and then turns off) looks at four more, further on each call, for one that it is on; a
+/// grid blends the 2^axes corners of one box. Outside the chart the
 /// nearest edge is used and `outside` says how far off `q` is; nothing is extrapolated.
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up(const Table& table, const JointVector<Scalar, Joints>& q,

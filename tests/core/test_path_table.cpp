@@ -1,0 +1,314 @@
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "core/test_robots.hpp"
+#include "flexcomp/table_builder.hpp"
+#include "unity_main.hpp"
+
+using namespace flexcomp;
+using flexcomp::test::kr270;
+using flexcomp::test::kr270_with_everything;
+using flexcomp::test::loop_angles;
+
+namespace {
+
+constexpr double kTurn = 6.28318530717958647692;
+constexpr int kPieces = 240;
+
+template <typename Scalar>
+using Program = std::vector<JointVector<Scalar, 6>>;
+
+template <typename Scalar>
+Program<Scalar> loop() {
+  Program<Scalar> points;
+  for (int i = 0; i <= kPieces; ++i) {
+    points.push_back(loop_angles<Scalar>(kTurn * (i % kPieces) / kPieces));
+  }
+  return points;
+}
+
+template <typename Scalar>
+TableRequirements<Scalar> requirements(Scalar tolerance) {
+  return {Scalar(1600), Scalar(20), tolerance, tolerance, Scalar(0)};
+}
+
+template <typename Scalar>
+struct Built {
+  std::vector<std::uint32_t> words = std::vector<std::uint32_t>(1 << 18);
+  std::size_t size = 0;
+  Result result;
+  Table table;
+
+  Built(const RobotModel<Scalar, 6>& model, const Program<Scalar>& program,
+        const TableRequirements<Scalar>& wanted) {
+    result = build_path_table<Scalar, 6>(model, program.data(), program.size(), wanted,
+                                         words.data(), 4 * words.size(), &size);
+    if (result == Result::ok) {
+      TEST_ASSERT_EQUAL(Result::ok, Table::open(words.data(), size, &table));
+    }
+  }
+};
+
+template <typename Scalar>
+JointVector<Scalar, 6> on_program(const Program<Scalar>& program, double place) {
+  const auto piece = static_cast<std::size_t>(place);
+  return program[piece] +
+         static_cast<Scalar>(place - static_cast<double>(piece)) *
+             (program[piece + 1] - program[piece]);
+}
+
+/// 100,000 random places on the program, with the cursor wherever a random jump left it.
+template <typename Scalar>
+void check_certificate(const RobotModel<Scalar, 6>& model, Scalar tolerance) {
+  const Program<Scalar> program = loop<Scalar>();
+  const Built<Scalar> built(model, program, requirements(tolerance));
+  TEST_ASSERT_EQUAL(Result::ok, built.result);
+  const TableHeader& header = built.table.header();
+  TEST_ASSERT_TRUE(static_cast<Scalar>(header.position_error) <= tolerance);
+  TEST_ASSERT_TRUE(static_cast<Scalar>(header.orientation_error) <= tolerance);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, kPieces);
+  TableCursor cursor;
+  TableError<Scalar> worst;
+  for (int i = 0; i < 100000; ++i) {
+    const JointVector<Scalar, 6> q = on_program(program, uniform(random));
+    locate<Scalar, 6>(built.table, q, &cursor);
+    const TableError<Scalar> error = table_error_at<Scalar, 6>(model, built.table, q, &cursor);
+    worst.position = std::max(worst.position, error.position);
+    worst.orientation = std::max(worst.orientation, error.orientation);
+  }
+  TEST_ASSERT_TRUE(worst.position <= static_cast<Scalar>(header.position_error));
+  TEST_ASSERT_TRUE(worst.orientation <= static_cast<Scalar>(header.orientation_error));
+  // A bound far above what is found would be worth little.
+  TEST_ASSERT_TRUE(worst.position > Scalar(0.3) * static_cast<Scalar>(header.position_error));
+}
+
+void no_place_on_the_program_exceeds_the_certificate() {
+  check_certificate<double>(kr270<double>(), 1e-6);
+}
+
+void nor_with_every_kind_of_spring_and_weight() {
+  check_certificate<double>(kr270_with_everything<double>(), 5e-6);
+}
+
+void nor_when_the_target_itself_builds_the_table() {
+  check_certificate<float>(kr270<float>(), 2e-6F);
+}
+
+/// The error measure itself against brute force: wrenches on the border of the bound.
+void the_worst_wrench_is_no_better_than_any_other() {
+  const auto model = kr270_with_everything<double>();
+  const Program<double> program = loop<double>();
+  const Built<double> built(model, program, requirements(1e-4));
+  TEST_ASSERT_EQUAL(Result::ok, built.result);
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  for (int place = 0; place < 30; ++place) {
+    const JointVector<double, 6> q = on_program(program, 7.77 * place);
+    TableCursor cursor;
+    locate<double, 6>(built.table, q, &cursor);
+    const TableError<double> bound = table_error_at<double, 6>(model, built.table, q, &cursor);
+    const auto entry = look_up<double, 6>(built.table, q, &cursor);
+    const auto jacobian = geometric_jacobian<double, 6>(forward_kinematics(model, q));
+    for (int i = 0; i < 200; ++i) {
+      Vector3<double> force(normal(random), normal(random), normal(random));
+      Vector3<double> moment(normal(random), normal(random), normal(random));
+      Wrench<double> wrench;
+      wrench << 1600 * force.normalized(), 20 * moment.normalized();
+      const auto response = respond<double, 6>(built.table, entry, wrench);
+      const Twist<double> exact = deflection<double, 6>(model, q, wrench).tcp;
+      const Twist<double> predicted = response.deflection - exact;
+      const Twist<double> left = jacobian * response.correction + exact;
+      TEST_ASSERT_TRUE(predicted.head<3>().norm() <= bound.position);
+      TEST_ASSERT_TRUE(predicted.tail<3>().norm() <= bound.orientation);
+      TEST_ASSERT_TRUE(left.head<3>().norm() <= bound.position);
+      TEST_ASSERT_TRUE(left.tail<3>().norm() <= bound.orientation);
+    }
+  }
+}
+
+void following_the_program_either_way_keeps_the_certificate() {
+  const auto model = kr270<double>();
+  const Program<double> program = loop<double>();
+  const Built<double> built(model, program, requirements(1e-6));
+  TableCursor cursor;
+  TableError<double> worst;
+  for (int i = 0; i < 4 * kPieces * 20; ++i) {
+    // Two rounds forward, two back.
+    const int step = i < 2 * kPieces * 20 ? i : 4 * kPieces * 20 - i;
+    const JointVector<double, 6> q = on_program(program, std::fmod(step / 20.0, kPieces));
+    const TableError<double> error = table_error_at<double, 6>(model, built.table, q, &cursor);
+    TEST_ASSERT_TRUE((look_up<double, 6>(built.table, q, &cursor).outside == 0));
+    worst.position = std::max(worst.position, error.position);
+  }
+  TEST_ASSERT_TRUE(worst.position <= static_cast<double>(built.table.header().position_error));
+}
+
+void a_finer_tolerance_costs_about_the_square_root_in_nodes() {
+  const Built<double> coarse(kr270<double>(), loop<double>(), requirements(1e-5));
+  const Built<double> fine(kr270<double>(), loop<double>(), requirements(1e-7 * 2));
+  const double ratio = static_cast<double>(fine.table.header().node_count) /
+                       static_cast<double>(coarse.table.header().node_count);
+  TEST_ASSERT_TRUE(ratio > 4 && ratio < 12);
+}
+
+/// Runs along a program without looking at the whole table again and checks every step, but for
+/// `lost` ones at most that the lookup itself says are outside.
+void check_run(const Program<double>& program, double tolerance, int lost) {
+  const auto model = kr270<double>();
+  const Built<double> built(model, program, requirements(tolerance));
+  TEST_ASSERT_EQUAL(Result::ok, built.result);
+  TableCursor cursor;
+  const auto steps = static_cast<int>(1000 * (program.size() - 1));
+  for (int i = 0; i < steps; ++i) {
+    const JointVector<double, 6> q = on_program(program, i / 1000.0);
+    if (look_up<double, 6>(built.table, q, &cursor).outside > 0) {
+      --lost;
+      continue;
+    }
+    const TableError<double> error = table_error_at<double, 6>(model, built.table, q, &cursor);
+    TEST_ASSERT_TRUE(error.position <= static_cast<double>(built.table.header().position_error));
+  }
+  TEST_ASSERT_TRUE(lost >= 0);
+}
+
+Program<double> zigzag(const std::vector<std::pair<Eigen::Index, double>>& moves) {
+  Program<double> points = {loop_angles<double>(0)};
+  for (const auto& [joint, angle] : moves) {
+    points.push_back(points.back() + angle * JointVector<double, 6>::Unit(joint));
+  }
+  return points;
+}
+
+void corners_of_every_angle_keep_the_certificate() {
+  check_run(zigzag({{1, 0.05}, {2, -0.08}, {1, 0.05}, {3, 0.1}}), 1e-7, 0);
+  Program<double> spikes = zigzag({{1, 0.05}});
+  for (const double bend : {0.5, 0.1, 0.02, -0.3}) {
+    JointVector<double, 6> back = spikes[spikes.size() - 2] - spikes.back();
+    back[2] += bend * back.norm();
+    spikes.push_back(spikes.back() + back);
+  }
+  check_run(spikes, 1e-7, 0);
+}
+
+/// Plunge, retract along the same line, move on: when the program turns off the lookup is still on the
+/// plunge, and has to find the new segment a few ahead.
+void a_program_that_runs_back_on_itself_is_followed() {
+  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {3, 0.2}, {2, 0.1}, {2, -0.1}, {1, 0.03}}), 2e-7, 10);
+}
+
+void repeated_points_do_no_harm() {
+  Program<double> program = loop<double>();
+  Program<double> doubled;
+  for (const auto& point : program) {
+    doubled.push_back(point);
+    doubled.push_back(point);
+  }
+  const Built<double> plain(kr270<double>(), program, requirements(1e-6));
+  const Built<double> repeated(kr270<double>(), doubled, requirements(1e-6));
+  TEST_ASSERT_EQUAL(Result::ok, repeated.result);
+  TEST_ASSERT_EQUAL(plain.size, repeated.size);
+  TEST_ASSERT_EQUAL_MEMORY(plain.words.data(), repeated.words.data(), plain.size);
+}
+
+void off_the_program_the_distance_is_told() {
+  const Built<double> built(kr270<double>(), loop<double>(), requirements(1e-6));
+  JointVector<double, 6> q = loop_angles<double>(1);
+  TableCursor cursor;
+  q[5] += 0.02;
+  locate<double, 6>(built.table, q, &cursor);
+  const double outside = look_up<double, 6>(built.table, q, &cursor).outside;
+  TEST_ASSERT_TRUE(outside > 0.01 && outside < 0.02);
+}
+
+/// An open program: before its beginning and past its end the nearest end counts.
+void beyond_the_ends_nothing_is_extrapolated() {
+  Program<double> line = {loop_angles<double>(0), loop_angles<double>(0)};
+  line[1][1] += 0.1;
+  const Built<double> built(kr270<double>(), line, requirements(1e-6));
+  TEST_ASSERT_EQUAL(0, built.table.header().closed);
+  TableCursor cursor;
+  for (const double beyond : {-0.05, 0.05}) {
+    JointVector<double, 6> q = beyond < 0 ? line[0] : line[1];
+    locate<double, 6>(built.table, q, &cursor);
+    const auto at_end = look_up<double, 6>(built.table, q, &cursor);
+    q[1] += beyond;
+    locate<double, 6>(built.table, q, &cursor);
+    const auto past_end = look_up<double, 6>(built.table, q, &cursor);
+    TEST_ASSERT_TRUE((at_end.jacobian - past_end.jacobian).cwiseAbs().maxCoeff() < 1e-6);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.05, past_end.outside);
+  }
+}
+
+void what_cannot_be_built_is_named() {
+  const auto model = kr270<double>();
+  const Program<double> program = loop<double>();
+  std::vector<std::uint32_t> words(1 << 16);
+  std::size_t size = 0;
+  const auto build = [&](const RobotModel<double, 6>& robot, const Program<double>& points,
+                         const TableRequirements<double>& wanted, std::size_t capacity) {
+    return build_path_table<double, 6>(robot, points.data(), points.size(), wanted, words.data(),
+                                       capacity, &size);
+  };
+  const std::size_t all = 4 * words.size();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  TEST_ASSERT_EQUAL(Result::buffer_too_small, build(model, program, requirements(1e-6), 2000));
+  TEST_ASSERT_EQUAL(Result::buffer_too_small, build(model, program, requirements(1e-6), 10));
+  TEST_ASSERT_EQUAL(Result::tolerance_not_met, build(model, program, requirements(1e-11), all));
+  TEST_ASSERT_EQUAL(Result::bad_path, build(model, {}, requirements(1e-6), all));
+  TEST_ASSERT_EQUAL(Result::bad_path, build(model, {program[0], program[0]}, requirements(1e-6), all));
+  Program<double> broken = program;
+  broken[5][3] = nan;
+  TEST_ASSERT_EQUAL(Result::bad_path, build(model, broken, requirements(1e-6), all));
+  RobotModel<double, 6> impossible = model;
+  impossible.joints[0].compliance = -1;
+  TEST_ASSERT_EQUAL(Result::bad_model, build(impossible, program, requirements(1e-6), all));
+  for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
+    TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, requirements(bad), all));
+  }
+  TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, {-1, 0, 1e-6, 1e-6, 0}, all));
+  TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, {0, 0, 1e-6, 1e-6, 0}, all));
+  TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, {10, 0, 1e-6, 1e-6, nan}, all));
+  TEST_ASSERT_EQUAL(Result::bad_argument,
+                    (build_path_table<double, 6>(model, program.data(), program.size(),
+                                                 requirements(1e-6), nullptr, all, &size)));
+  TEST_ASSERT_EQUAL(Result::bad_argument,
+                    (build_path_table<double, 6>(
+                        model, program.data(), program.size(), requirements(1e-6),
+                        reinterpret_cast<unsigned char*>(words.data()) + 1, all - 4, &size)));
+}
+
+/// A wrist singularity is no obstacle for joint springs, but base springs cannot be made up for.
+void a_wrist_singularity_is_fine_for_joint_springs_alone() {
+  Program<double> straight_wrist = loop<double>();
+  for (auto& q : straight_wrist) {
+    q[4] = 0;
+  }
+  const Built<double> joints(kr270<double>(), straight_wrist, requirements(1e-6));
+  TEST_ASSERT_EQUAL(Result::ok, joints.result);
+  auto soft_base = kr270<double>();
+  soft_base.base_compliance << 0, 0, 0, 1e-6, 1e-6, 1e-6;
+  const Built<double> base(soft_base, straight_wrist, requirements(1e-6));
+  TEST_ASSERT_EQUAL(Result::tolerance_not_met, base.result);
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(no_place_on_the_program_exceeds_the_certificate);
+  RUN_TEST(nor_with_every_kind_of_spring_and_weight);
+  RUN_TEST(nor_when_the_target_itself_builds_the_table);
+  RUN_TEST(the_worst_wrench_is_no_better_than_any_other);
+  RUN_TEST(following_the_program_either_way_keeps_the_certificate);
+  RUN_TEST(a_finer_tolerance_costs_about_the_square_root_in_nodes);
+  RUN_TEST(corners_of_every_angle_keep_the_certificate);
+  RUN_TEST(a_program_that_runs_back_on_itself_is_followed);
+  RUN_TEST(repeated_points_do_no_harm);
+  RUN_TEST(off_the_program_the_distance_is_told);
+  RUN_TEST(beyond_the_ends_nothing_is_extrapolated);
+  RUN_TEST(what_cannot_be_built_is_named);
+  RUN_TEST(a_wrist_singularity_is_fine_for_joint_springs_alone);
+  return UNITY_END();
+}
