@@ -21,6 +21,10 @@ bool is_fresh(Scalar age, Scalar limit) {
   return age >= Scalar(0) && age <= limit;
 }
 
+std::uint32_t bit_if(bool condition, StatusBit bit) {
+  return condition ? static_cast<std::uint32_t>(bit) : 0U;
+}
+
 /// Periods in a time, rounded up; `valid` turns false where that is more than a counter holds.
 template <typename Scalar>
 std::uint32_t periods(Scalar time, Scalar period, bool* valid) {
@@ -114,7 +118,8 @@ Result Compensator<Scalar, Joints>::reset() {
 
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::check_setpoint(const Input& input) const {
-  std::uint32_t faults = is_fresh(input.setpoint_age, config_.setpoint_age_limit) ? 0U : kSetpointStale;
+  std::uint32_t faults =
+      bit_if(!is_fresh(input.setpoint_age, config_.setpoint_age_limit), kSetpointStale);
   if (!input.setpoint.allFinite()) {
     return faults | kSetpointNotFinite;
   }
@@ -122,21 +127,22 @@ std::uint32_t Compensator<Scalar, Joints>::check_setpoint(const Input& input) co
     const Scalar q = input.setpoint[static_cast<Eigen::Index>(i)];
     const bool inside = q >= static_cast<Scalar>(table_.header().joint_lower[i]) &&
                         q <= static_cast<Scalar>(table_.header().joint_upper[i]);
-    faults |= inside ? 0U : kSetpointOutOfRange;
+    faults |= bit_if(!inside, kSetpointOutOfRange);
   }
   if (has_setpoint_) {
     // The last setpoint may have been old when it was used: that much more time has passed.
     const Scalar elapsed = config_.period + setpoint_age_;
     const Angles step = (input.setpoint - setpoint_).cwiseAbs();
     const bool possible = (step.array() <= (config_.joint_speed * elapsed).array()).all();
-    faults |= possible ? 0U : kSetpointJump;
+    faults |= bit_if(!possible, kSetpointJump);
   }
   return faults;
 }
 
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::check_wrench(const Input& input) const {
-  std::uint32_t faults = is_fresh(input.wrench_age, config_.wrench_age_limit) ? 0U : kWrenchStale;
+  std::uint32_t faults =
+      bit_if(!is_fresh(input.wrench_age, config_.wrench_age_limit), kWrenchStale);
   if (!input.wrench.allFinite()) {
     return faults | kWrenchNotFinite;
   }
@@ -146,13 +152,13 @@ std::uint32_t Compensator<Scalar, Joints>::check_wrench(const Input& input) cons
   const bool inside = force.cwiseAbs().maxCoeff() <= Scalar(1) &&
                       moment.cwiseAbs().maxCoeff() <= Scalar(1) &&
                       force.squaredNorm() <= Scalar(1) && moment.squaredNorm() <= Scalar(1);
-  return faults | (inside ? 0U : kWrenchOutOfRange);
+  return faults | bit_if(!inside, kWrenchOutOfRange);
 }
 
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::check(const Input& input) const {
   return check_setpoint(input) | check_wrench(input) |
-         (input.external_fault ? kExternalFault : 0U);
+         bit_if(input.external_fault, kExternalFault);
 }
 
 template <typename Scalar, int Joints>
@@ -242,8 +248,8 @@ std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
     const auto joint = static_cast<Eigen::Index>(i);
     output->correction[joint] =
         guards_[i].advance(correcting ? fade_ * aim_[joint] : Scalar(0));
-    remarks |= guards_[i].limited_by_value() ? kValueLimited : 0U;
-    remarks |= guards_[i].limited_by_rate() ? kRateLimited : 0U;
+    remarks |= bit_if(guards_[i].limited_by_value(), kValueLimited);
+    remarks |= bit_if(guards_[i].limited_by_rate(), kRateLimited);
     at_rest = at_rest && guards_[i].is_at_rest_at_zero();
   }
   if (state_ == State::fading_out && fade_ == Scalar(0) && at_rest) {
@@ -270,7 +276,7 @@ auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
   fade();
   status |= move(&output);
   output.setpoint = setpoint_ + output.correction;
-  output.status = status | (has_setpoint_ ? 0U : kNoSetpoint);
+  output.status = status | bit_if(!has_setpoint_, kNoSetpoint);
   output.latched_faults = latched_faults_;
   output.state = state_;
   return output;

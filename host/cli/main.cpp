@@ -63,6 +63,13 @@ int main(int argc, char** argv) {
   flexcomp::cli::add_simulate(&app, &action);
   flexcomp::cli::add_circularity(&app, &action);
   flexcomp::cli::add_report(&app, &action);
+  const auto is_asked_for = [&](const CLI::App* command) {
+    return command->get_name() == argv[1];
+  };
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked_for).empty()) {
+    complain(fmt::format("unknown command '{}' (see --help)", argv[1]));
+    return flexcomp::cli::kUnusableInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -32,6 +32,7 @@ struct BuildOptions {
 struct VerifyOptions {
   std::string model;
   std::string table;
+  std::string path;
   std::size_t samples = 100000;
   bool json = false;
 };
@@ -122,22 +123,45 @@ int run_build(const BuildOptions& options) {
   return kDone;
 }
 
-/// Largest error over many places of the chart: a lattice along the path, random points in a grid.
+using Places = std::function<JointVector<double, 6>(double, std::mt19937_64*)>;
+
+/// Places of the table's own chart: in order along the chords between the nodes of a path, at random
+/// in a grid. The first argument runs from 0 to 1.
+Places chart_places(const Table& table) {
+  return [&table](double along, std::mt19937_64* random) {
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const double place[kMaxGridAxes] = {
+        table.chart() == Chart::path ? along : uniform(*random), uniform(*random),
+        uniform(*random), uniform(*random)};
+    return chart_angles<double, 6>(table, place);
+  };
+}
+
+/// Places of a program, in order.
+Places program_places(const recording::Samples& q_cmd) {
+  return [&q_cmd](double along, std::mt19937_64* /*random*/) {
+    const double row = along * static_cast<double>(q_cmd.rows() - 1);
+    const auto from = std::min(static_cast<Eigen::Index>(row), q_cmd.rows() - 2);
+    const JointVector<double, 6> start = q_cmd.row(from).transpose();
+    const JointVector<double, 6> end = q_cmd.row(from + 1).transpose();
+    return JointVector<double, 6>(start + (row - static_cast<double>(from)) * (end - start));
+  };
+}
+
 TableError<double> largest_error(const model::Robot& robot, const Table& table,
-                                 std::size_t samples) {
+                                 std::size_t samples, const Places& places) {
   Progress progress("verifying", samples);
   std::mt19937_64 random(20170601);
   std::uniform_real_distribution<double> uniform(0, 1);
   TableCursor cursor;
   TableError<double> worst;
   for (std::size_t i = 0; i < samples; ++i) {
-    double place[kMaxGridAxes] = {uniform(random), uniform(random), uniform(random),
-                                  uniform(random)};
-    if (table.chart() == Chart::path) {
-      place[0] = (static_cast<double>(i) + place[0]) / static_cast<double>(samples);
+    const double along = (static_cast<double>(i) + uniform(random)) / static_cast<double>(samples);
+    const JointVector<double, 6> q = places(along, &random);
+    if (look_up<double, 6>(table, q, &cursor).outside > 0) {
+      locate<double, 6>(table, q, &cursor);
     }
-    const auto error = table_error_at<double, 6>(
-        robot.elastic, table, chart_angles<double, 6>(table, place), &cursor);
+    const auto error = table_error_at<double, 6>(robot.elastic, table, q, &cursor);
     worst.position = std::max(worst.position, error.position);
     worst.orientation = std::max(worst.orientation, error.orientation);
     progress.show(i);
@@ -145,10 +169,28 @@ TableError<double> largest_error(const model::Robot& robot, const Table& table,
   return worst;
 }
 
+TableError<double> largest_error(const VerifyOptions& options, const model::Robot& robot,
+                                 const Table& table) {
+  TableError<double> worst = largest_error(robot, table, options.samples, chart_places(table));
+  if (!options.path.empty()) {
+    const recording::Recording path = recording::read_recording(options.path);
+    const recording::Samples& q_cmd =
+        recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
+    if (q_cmd.rows() < 2) {
+      throw InputError(fmt::format("{}: expected two rows or more", options.path));
+    }
+    const TableError<double> on_path =
+        largest_error(robot, table, options.samples, program_places(q_cmd));
+    worst.position = std::max(worst.position, on_path.position);
+    worst.orientation = std::max(worst.orientation, on_path.orientation);
+  }
+  return worst;
+}
+
 int run_verify(const VerifyOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   const TableFile file = read_table(options.table, robot);
-  const TableError<double> worst = largest_error(robot, file.table, options.samples);
+  const TableError<double> worst = largest_error(options, robot, file.table);
   const TableHeader& header = file.table.header();
   const bool holds =
       worst.position <= header.position_error && worst.orientation <= header.orientation_error;
@@ -199,6 +241,8 @@ void add_table(CLI::App* app, Action* action) {
       "hold, 2 if the file is damaged or belongs to another robot.");
   check->add_option("table", verify->table, "table to check")->required();
   check->add_option("--model", verify->model, "robot.yaml")->required();
+  check->add_option("--path", verify->path,
+                    "look along this program too, besides the chords between the table's nodes");
   check->add_option("--samples", verify->samples, "places to look at")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}));
   check->add_flag("--json", verify->json, "print the result as JSON");

@@ -1,5 +1,6 @@
 #include "files/text_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -21,17 +22,45 @@ namespace fs = std::filesystem;
 
 std::string last_error() { return std::strerror(errno); }
 
-void write_directly(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+/// Writes into `file`; messages speak of `asked`, the path that the caller knows.
+void write_into(const fs::path& file, const fs::path& asked,
+                const std::function<void(std::ostream&)>& write) {
   errno = 0;
-  std::ofstream stream(path, std::ios::binary);
+  std::ofstream stream(file, std::ios::binary);
   if (!stream) {
-    fail(path, fmt::format("cannot be written: {}", last_error()));
+    fail(asked, fmt::format("cannot be written: {}", last_error()));
   }
   write(stream);
-  stream.flush();
+  stream.close();
   if (!stream) {
-    fail(path, fmt::format("cannot be written: {}", last_error()));
+    fail(asked, fmt::format("cannot be written: {}", last_error()));
   }
+}
+
+/// A full disk or a power cut may otherwise leave an empty file under the new name.
+void flush_to_disk(const fs::path& file, const fs::path& asked) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  const bool flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const std::string reason = last_error();
+  if (descriptor >= 0) {
+    ::close(descriptor);
+  }
+  if (!flushed) {
+    fail(asked, fmt::format("cannot be written: {}", reason));
+  }
+}
+
+/// What a path stands for: a link is written through, so its target is replaced, not the link.
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(fs::symlink_status(path, error))) {
+    return path;
+  }
+  fs::path target = fs::canonical(path, error);
+  if (error) {
+    fail(path, fmt::format("cannot be written: {}", error.message()));
+  }
+  return target;
 }
 
 /// Removes a temporary file unless it has taken its place.
@@ -49,11 +78,11 @@ class TemporaryFile {
 
   const fs::path& path() const { return path_; }
 
-  void replace(const fs::path& target) {
+  void replace(const fs::path& target, const fs::path& asked) {
     std::error_code error;
     fs::rename(path_, target, error);
     if (error) {
-      fail(target, fmt::format("cannot be written: {}", error.message()));
+      fail(asked, fmt::format("cannot be written: {}", error.message()));
     }
     kept_ = true;
   }
@@ -111,18 +140,17 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
     fail(path, "is a directory; expected a file to write");
   }
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    write_directly(path, write);
+    write_into(path, path, write);
     return;
   }
-  // A link is written through: what it points to is replaced, not the link.
-  const fs::path target = fs::is_symlink(fs::symlink_status(path, error)) ? fs::canonical(path) : path;
+  const fs::path target = resolved(path);
   TemporaryFile temporary(target.string() + fmt::format(".{}.part", ::getpid()));
-  try {
-    write_directly(temporary.path(), write);
-  } catch (const InputError&) {
-    fail(path, fmt::format("cannot be written: {}", last_error()));
+  write_into(temporary.path(), path, write);
+  flush_to_disk(temporary.path(), path);
+  if (fs::exists(status)) {
+    fs::permissions(temporary.path(), status.permissions(), error);
   }
-  temporary.replace(target);
+  temporary.replace(target, path);
 }
 
 }  // namespace flexcomp::files

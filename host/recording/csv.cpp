@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,10 @@
 
 namespace flexcomp::recording {
 namespace {
+
+/// Longest line that is looked at: a recording's has some hundred characters, and one of a gigabyte
+/// without a line end is no table.
+constexpr std::size_t kLongestLine = 1 << 16;
 
 std::string_view trimmed(std::string_view cell) {
   const auto begin = cell.find_first_not_of(" \t");
@@ -69,42 +74,60 @@ class Lines {
   std::size_t number_ = 0;
 };
 
-/// A cell as it may be shown in a message: not too long, nothing unprintable.
-std::string shown(std::string_view cell) {
-  std::string text;
-  for (const char c : cell.substr(0, 30)) {
-    text += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
+void refuse_long_line(const std::string& file, const Lines& lines, std::string_view line) {
+  if (line.size() > kLongestLine) {
+    throw InputError(fmt::format("{}:{}: the line has {} characters; expected at most {}", file,
+                                 lines.number(), line.size(), kLongestLine));
   }
-  return cell.size() > 30 ? text + "…" : text;
+}
+
+std::vector<std::string> read_header(const std::string& file, Lines* lines) {
+  std::string_view line;
+  if (!lines->next(&line)) {
+    throw InputError(fmt::format("{}: the file is blank", file));
+  }
+  if (lines->number() != 1) {
+    throw InputError(fmt::format("{}:1: the line is blank; expected the columns' names", file));
+  }
+  refuse_long_line(file, *lines, line);
+  std::vector<std::string> columns;
+  std::set<std::string_view> names;
+  for (const std::string_view name : split(line)) {
+    if (name.empty()) {
+      throw InputError(fmt::format("{}:1: column {} has no name", file, columns.size() + 1));
+    }
+    if (!names.insert(name).second) {
+      throw InputError(fmt::format("{}:1: column '{}' appears twice", file, printable(name)));
+    }
+    columns.emplace_back(name);
+  }
+  return columns;
 }
 
 }  // namespace
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t kLongest = 30;
+  std::string shown;
+  for (const char c : text.substr(0, kLongest)) {
+    shown += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
+  }
+  return text.size() > kLongest ? shown + "…" : shown;
+}
 
 NumberTable read_csv(const std::filesystem::path& path) {
   const std::string text = files::read_text(path);
   NumberTable table;
   table.file = path.string();
   Lines lines(text);
+  table.columns = read_header(table.file, &lines);
   std::string_view line;
-  if (!lines.next(&line)) {
-    throw InputError(fmt::format("{}: the file is blank", table.file));
-  }
-  std::set<std::string_view> names;
-  for (const std::string_view name : split(line)) {
-    const std::size_t column = table.columns.size() + 1;
-    if (name.empty() || !names.insert(name).second) {
-      throw InputError(fmt::format("{}:{}: column {}: {}", table.file, lines.number(), column,
-                                   name.empty() ? "has no name"
-                                                : fmt::format("'{}' appears twice", shown(name))));
-    }
-    table.columns.emplace_back(name);
-  }
   while (lines.next(&line)) {
+    refuse_long_line(table.file, lines, line);
     const std::vector<std::string_view> cells = split(line);
     if (cells.size() != table.columns.size()) {
       throw InputError(fmt::format("{}:{}: expected {} cells as in the header, found {}",
-                                   table.file, lines.number(), table.columns.size(),
-                                   cells.size()));
+                                   table.file, lines.number(), table.columns.size(), cells.size()));
     }
     std::vector<double> row(cells.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -115,7 +138,7 @@ NumberTable read_csv(const std::filesystem::path& path) {
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), row[i]);
       if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(row[i])) {
         throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a finite number", table.file,
-                                     lines.number(), shown(table.columns[i]), shown(cell)));
+                                     lines.number(), printable(table.columns[i]), printable(cell)));
       }
     }
     table.rows.push_back(std::move(row));

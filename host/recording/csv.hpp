@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexcomp::recording {
@@ -19,12 +20,16 @@ struct NumberTable {
   std::vector<std::size_t> lines;
 };
 
-/// Reads a CSV file of numbers: one header line, the same number of cells in every line, decimal
-/// points, empty cells allowed. A byte-order mark, CRLF line ends and blank lines are skipped.
+/// Reads a CSV file of numbers: the columns' names in line 1, the same number of cells in every
+/// line, decimal points, empty cells allowed. A byte-order mark, CRLF line ends and blank lines are
+/// skipped.
 ///
-/// Throws InputError with file, line and column for a wrong number of cells, a cell that is no finite
-/// number, a column that is unnamed or named twice, or no rows.
+/// Throws InputError with file, line and column for a wrong number of cells, a cell that is no
+/// finite number, a column that is unnamed or named twice, a line of more than 64 KiB, or no rows.
 NumberTable read_csv(const std::filesystem::path& path);
+
+/// A cell or name from a file as a message may show it: not too long, nothing unprintable.
+std::string printable(std::string_view text);
 
 /// Appends a number in the shortest form that reads back to the same bits; nothing for NaN.
 void append_number(double value, std::string* text);

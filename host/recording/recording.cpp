@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <stdexcept>
 
 #include "error.hpp"
 #include "files/text_file.hpp"
@@ -56,10 +57,11 @@ void refuse_unknown_columns(const NumberTable& table) {
       known = known || std::count(group.names.begin(), group.names.end(), column) > 0;
     }
     if (!known) {
-      throw InputError(fmt::format(
-          "{}:1: column '{}' is unknown; expected t, q_cmd_1..6, q_meas_1..6, q_link_1..6, tau_1..6, "
-          "fx..mz, x,y,z or temp_c",
-          table.file, column));
+      throw InputError(
+          fmt::format("{}:1: column '{}' is unknown; expected t, q_cmd_1..6, q_meas_1..6, "
+                      "q_link_1..6, tau_1..6, "
+                      "fx..mz, x,y,z or temp_c",
+                      table.file, printable(column)));
     }
   }
 }
@@ -113,6 +115,35 @@ std::optional<Samples> read_group(const NumberTable& table, const std::vector<st
   return samples;
 }
 
+[[noreturn]] void fail_to_write(const std::string& what) {
+  throw std::invalid_argument("a recording to be written " + what);
+}
+
+/// A recording that could not be read back is a fault of the program that made it.
+void check_readable(const Recording& recording) {
+  if (recording.size() == 0) {
+    fail_to_write("has no rows");
+  }
+  for (Eigen::Index row = 0; row < recording.size(); ++row) {
+    if (!std::isfinite(recording.time[row]) ||
+        (row > 0 && recording.time[row] <= recording.time[row - 1])) {
+      fail_to_write("has a time that does not increase");
+    }
+  }
+  for (const Columns& group : layout()) {
+    const std::optional<Samples>& samples = recording.*group.group;
+    if (samples && (samples->rows() != recording.size() ||
+                    samples->cols() != static_cast<Eigen::Index>(group.names.size()))) {
+      fail_to_write(fmt::format("has {}×{} samples from {} on, not {}×{}", samples->rows(),
+                                samples->cols(), group.names.front(), recording.size(),
+                                group.names.size()));
+    }
+    if (samples && samples->array().isInf().any()) {
+      fail_to_write(fmt::format("has an infinite sample from {} on", group.names.front()));
+    }
+  }
+}
+
 }  // namespace
 
 std::string Recording::place(Eigen::Index row) const {
@@ -135,6 +166,7 @@ Recording read_recording(const std::filesystem::path& path) {
 }
 
 void write_recording(const std::filesystem::path& path, const Recording& recording) {
+  check_readable(recording);
   files::write_file(path, [&](std::ostream& stream) {
     std::string line = "t";
     for (const Columns& group : layout()) {

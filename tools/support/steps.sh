@@ -3,6 +3,7 @@
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 log_dir=$source_dir/build/logs
+# shellcheck disable=SC2034 # the tools use it
 jobs=$(nproc)
 
 # Prints the comment block at the top of the calling script, which is its manual.

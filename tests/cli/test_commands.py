@@ -1,0 +1,324 @@
+"""The flexcomp command as its users drive it."""
+
+import json
+import os
+import pathlib
+import shutil
+import stat
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+FLEXCOMP = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "flexcomp"
+SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
+ROBOTS = SOURCE / "host" / "robots"
+KR270 = ROBOTS / "kr270" / "robot.yaml"
+HEADER_BYTES = 268
+
+
+def flexcomp(*arguments):
+    return subprocess.run(
+        [str(FLEXCOMP), *(str(argument) for argument in arguments)], capture_output=True, text=True
+    )
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+
+    def file(self, name, content):
+        path = self.folder / name
+        if isinstance(content, bytes):
+            path.write_bytes(content)
+        else:
+            path.write_text(content)
+        return path
+
+    def run_well(self, *arguments):
+        done = flexcomp(*arguments)
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertEqual("", done.stderr)
+        return done.stdout
+
+    def assert_refused(self, *arguments, saying):
+        """One clear line on standard error, exit code 2, nothing left behind."""
+        before = sorted(self.folder.rglob("*"))
+        done = flexcomp(*arguments)
+        self.assertEqual(2, done.returncode, done.stderr)
+        self.assertEqual("", done.stdout)
+        self.assertEqual(1, done.stderr.count("\n"), done.stderr)
+        self.assertIn(saying, done.stderr)
+        self.assertEqual(before, sorted(self.folder.rglob("*")))
+
+    def plan(self, model=KR270, *more):
+        path = self.folder / "path.csv"
+        self.run_well("plan", "circle", "--model", model, "--center", "1.6,0,1.2", "--plane", "xz",
+                      "--points", "120", "--out", path, *more)
+        return path
+
+    def table(self, path, model=KR270, *more):
+        table = self.folder / "table.fct"
+        self.run_well("table", "--model", model, "--path", path, "--tolerance", "1e-6",
+                      "--out", table, *more)
+        return table
+
+    def circularity(self, recording):
+        return json.loads(self.run_well("circularity", recording, "--columns", "x,z", "--json"))
+
+
+class MainJob(Command):
+    def test_the_corrected_circle_keeps_less_than_two_percent_of_the_error(self):
+        for robot in ("kr100", "kr270", "kr360", "kr500"):
+            with self.subTest(robot=robot):
+                model = ROBOTS / robot / "robot.yaml"
+                path = self.plan(model)
+                table = self.table(path, model)
+                corrected, before, after = (self.folder / name for name in ("c.csv", "b.csv", "a.csv"))
+                self.run_well("compensate", "--model", model, "--table", table, "--path", path,
+                              "--out", corrected)
+                self.run_well("simulate", "--model", model, "--path", path, "--out", before)
+                self.run_well("simulate", "--model", model, "--path", corrected, "--out", after)
+                error = self.circularity(before)["lsc"]["circularity"]
+                left = self.circularity(after)["lsc"]["circularity"]
+                self.assertGreater(error, 1e-4)
+                self.assertLess(left, 0.02 * error)
+
+    def test_wrong_springs_leave_their_share_of_the_error(self):
+        path = self.plan()
+        table = self.table(path)
+        corrected, before, after = (self.folder / name for name in ("c.csv", "b.csv", "a.csv"))
+        self.run_well("compensate", "--model", KR270, "--table", table, "--path", path,
+                      "--out", corrected)
+        self.run_well("simulate", "--model", KR270, "--path", path, "--out", before)
+        self.run_well("simulate", "--model", KR270, "--path", corrected, "--compliance-scale", "1.2",
+                      "--out", after)
+        error = self.circularity(before)["lsc"]["circularity"]
+        left = self.circularity(after)["lsc"]["circularity"]
+        self.assertAlmostEqual(0.2, left / error, delta=0.01)
+
+    def test_weight_and_every_spring_are_corrected_too(self):
+        robot = self.folder / "robot"
+        shutil.copytree(ROBOTS / "kr270", robot)
+        text = (robot / "robot.yaml").read_text().replace("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]")
+        (robot / "robot.yaml").write_text(
+            text + "base_compliance: [1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8]\n"
+            "tool_compliance: [2e-8, 2e-8, 1e-8, 1e-7, 1e-7, 1e-7]\n"
+            "payload: {mass: 120, com: [0, 0, 0.15]}\n")
+        model = robot / "robot.yaml"
+        path = self.plan(model)
+        table = self.table(path, model)
+        summary = json.loads(self.run_well(
+            "compensate", "--model", model, "--table", table, "--path", path, "--json",
+            "--out", self.folder / "c.csv"))
+        self.assertGreater(summary["before"]["position"], 3e-3)
+        self.assertLess(summary["after"]["position"], 0.01 * summary["before"]["position"])
+        self.assertLess(summary["after"]["orientation"], 0.01 * summary["before"]["orientation"])
+
+    def test_both_directions_and_every_plane_can_be_planned(self):
+        for plane, tool_axis in (("xy", "0,0,-1"), ("xz", "0,1,0"), ("yz", "1,0,0")):
+            for more in ((), ("--clockwise",)):
+                with self.subTest(plane=plane, more=more):
+                    path = self.folder / "path.csv"
+                    self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.0",
+                                  "--plane", plane, "--tool-axis", tool_axis, "--points", "60",
+                                  "--out", path, *more)
+                    recording = self.folder / "r.csv"
+                    self.run_well("simulate", "--model", KR270, "--path", path,
+                                  "--compliance-scale", "1e-9", "--out", recording)
+                    measured = json.loads(self.run_well(
+                        "circularity", recording, "--columns", ",".join(plane), "--json"))
+                    self.assertAlmostEqual(0.1, measured["mcc"]["r_max"], delta=1e-8)
+                    self.assertLess(measured["mzc"]["circularity"], 1e-8)
+
+    def test_the_report_is_one_page_with_pictures(self):
+        path = self.plan()
+        recording = self.folder / "r.csv"
+        self.run_well("simulate", "--model", KR270, "--path", path, "--out", recording)
+        page = self.folder / "page.html"
+        self.run_well("report", "--model", KR270, "--recording", f"a <name>={recording}",
+                      "--columns", "x,z", "--table", self.table(path), "--out", page)
+        html = page.read_text()
+        self.assertEqual(2, html.count("<svg"))
+        self.assertIn("a &lt;name&gt;", html)
+        self.assertIn("certificate", html)
+        self.assertNotIn("src=", html)
+
+
+class Tables(Command):
+    def test_the_certificate_of_a_fresh_table_holds(self):
+        path = self.plan()
+        table = self.table(path)
+        result = json.loads(self.run_well("table", "verify", table, "--model", KR270, "--path", path,
+                                          "--json"))
+        self.assertTrue(result["holds"])
+        self.assertLessEqual(result["largest_position_error"], result["certified_position_error"])
+        self.assertLessEqual(result["certified_position_error"], 1e-6 * 1.000001)
+
+    def test_a_bound_that_does_not_hold_is_exit_code_1(self):
+        path = self.plan()
+        table = self.table(path)
+        blob = bytearray(table.read_bytes())
+        struct.pack_into("<f", blob, HEADER_BYTES - 12, 1e-9)  # the certified position error
+        struct.pack_into("<I", blob, 12, 0)
+        struct.pack_into("<I", blob, 12, zlib.crc32(bytes(blob)))
+        forged = self.file("forged.fct", bytes(blob))
+        done = flexcomp("table", "verify", forged, "--model", KR270)
+        self.assertEqual(1, done.returncode, done.stderr)
+        self.assertIn("DOES NOT HOLD", done.stdout)
+
+    def test_damaged_and_foreign_tables_are_refused(self):
+        path = self.plan()
+        table = self.table(path)
+        blob = bytearray(table.read_bytes())
+        blob[700] ^= 4
+        damaged = self.file("damaged.fct", bytes(blob))
+        for command in (("table", "verify", damaged, "--model", KR270),
+                        ("compensate", "--table", damaged, "--model", KR270, "--path", path,
+                         "--out", self.folder / "c.csv")):
+            self.assert_refused(*command, saying="damaged")
+        self.assert_refused("table", "verify", self.file("short.fct", table.read_bytes()[:500]),
+                            "--model", KR270, saying="shorter than it says")
+        self.assert_refused("table", "verify", path, "--model", KR270, saying="not a flexcomp table")
+        self.assert_refused("table", "verify", table, "--model", ROBOTS / "kr500" / "robot.yaml",
+                            saying="another robot")
+
+    def test_a_path_off_the_table_is_refused_with_its_row(self):
+        path = self.plan()
+        table = self.table(path)
+        lines = path.read_text().splitlines()
+        cells = lines[40].split(",")
+        cells[3] = str(float(cells[3]) + 0.05)
+        lines[40] = ",".join(cells)
+        wrong = self.file("wrong.csv", "\n".join(lines) + "\n")
+        self.assert_refused("compensate", "--model", KR270, "--table", table, "--path", wrong,
+                            "--out", self.folder / "c.csv", saying="wrong.csv:41: outside the table")
+
+    def test_a_wrench_beyond_the_certificate_is_refused(self):
+        path = self.plan()
+        table = self.table(path, KR270, "--force", "1000")
+        self.assert_refused("compensate", "--model", KR270, "--table", table, "--path", path,
+                            "--out", self.folder / "c.csv", saying="wrench beyond")
+
+
+class BadInput(Command):
+    """A missing file, a directory, an empty file, a binary file, and worse."""
+
+    def commands_reading(self, bad):
+        path = self.file("ok.csv", "t,q_cmd_1,q_cmd_2,q_cmd_3,q_cmd_4,q_cmd_5,q_cmd_6,fx,fy,fz,mx,my,mz\n"
+                         "0,0,-1,1,0,1,0,100,0,0,0,0,0\n1,0,-1.1,1,0,1,0,100,0,0,0,0,0\n")
+        out = self.folder / "out"
+        return [
+            ("simulate", "--model", bad, "--path", path, "--out", out),
+            ("simulate", "--model", KR270, "--path", bad, "--out", out),
+            ("table", "--model", KR270, "--path", bad, "--out", out),
+            ("table", "verify", bad, "--model", KR270),
+            ("compensate", "--model", KR270, "--table", bad, "--path", path, "--out", out),
+            ("circularity", bad),
+            ("report", "--model", KR270, "--recording", f"a={bad}", "--out", out),
+            ("plan", "circle", "--model", bad, "--center", "1.6,0,1.2", "--out", out),
+        ]
+
+    def test_files_that_cannot_be_read(self):
+        bad_files = {
+            "no such file": self.folder / "missing",
+            "is a directory": self.folder,
+            "empty": self.file("empty", ""),
+        }
+        for saying, bad in bad_files.items():
+            for command in self.commands_reading(bad):
+                with self.subTest(saying=saying, command=command[:2]):
+                    self.assert_refused(*command, saying=saying)
+
+    def test_binary_files(self):
+        binary = self.file("binary", bytes(range(256)) * 20)
+        for command in self.commands_reading(binary):
+            with self.subTest(command=command[:2]):
+                self.assert_refused(*command, saying=str(binary))
+
+    def test_cells_and_columns(self):
+        cases = {
+            "t,x,z\n0,1,2\n1,abc,2\n": ":3: column 'x': 'abc'",
+            "t,x,z\n0,1,2\n1,2\n": ":3: expected 3 cells",
+            "t,x,z\n0,1,2\n1,nan,2\n": ":3: column 'x': 'nan'",
+            "x\n1\n": "columns x, y, z",
+            "x,z\n1,1\n2,2\n3,3\n": "on a line",
+            "x,z\n1,1\n2,2\n": "three distinct points",
+        }
+        for content, saying in cases.items():
+            with self.subTest(content=content):
+                self.assert_refused("circularity", self.file("bad.csv", content), saying=saying)
+
+    def test_a_robot_with_five_joints(self):
+        robot = self.folder / "robot"
+        shutil.copytree(ROBOTS / "kr270", robot)
+        urdf = (robot / "kr270.urdf").read_text()
+        (robot / "kr270.urdf").write_text(urdf.replace(
+            '<joint name="joint_a4" type="revolute">', '<joint name="joint_a4" type="fixed">'))
+        self.assert_refused("plan", "circle", "--model", robot / "robot.yaml", "--center", "1.6,0,1.2",
+                            "--out", self.folder / "p.csv", saying="six revolute joints")
+
+    @unittest.skipUnless(stat.S_ISCHR(os.stat("/dev/full").st_mode), "/dev/full is not a device here")
+    def test_a_full_disk(self):
+        path = self.plan()
+        table = self.table(path)
+        for command in (
+                ("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2"),
+                ("table", "--model", KR270, "--path", path),
+                ("compensate", "--model", KR270, "--table", table, "--path", path),
+                ("simulate", "--model", KR270, "--path", path)):
+            with self.subTest(command=command[:2]):
+                self.assert_refused(*command, "--out", "/dev/full", saying="No space left")
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([str(FLEXCOMP), "circularity", str(self.file(
+                "c.csv", "x,z\n1,0\n0,1\n-1,0\n"))], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(2, done.returncode)
+        self.assertIn("standard output", done.stderr)
+
+    def test_an_output_folder_that_is_not_there(self):
+        self.assert_refused("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2",
+                            "--out", self.folder / "no" / "path.csv", saying="No such file")
+
+    def test_circles_out_of_reach(self):
+        self.assert_refused("plan", "circle", "--model", KR270, "--center", "9,0,1.2",
+                            "--out", self.folder / "p.csv", saying="cannot be reached")
+
+    def test_arguments_that_make_no_sense(self):
+        path = self.plan()
+        cases = [
+            ((), "subcommand"),
+            (("dance",), "dance"),
+            (("circularity",), "path"),
+            (("table", "--model", KR270), "--path"),
+            (("table", "--model", KR270, "--path", path, "--out", "x", "--tolerance", "-1"), "--tolerance"),
+            (("plan", "circle", "--model", KR270, "--center", "1,2", "--out", "x"), "--center"),
+            (("plan", "circle", "--model", KR270, "--center", "1,2,3", "--plane", "xx", "--out", "x"), "xx"),
+            (("simulate", "--model", KR270, "--path", path, "--out", "x", "--compliance-scale", "0"),
+             "--compliance-scale"),
+            (("report", "--model", KR270, "--recording", "nameless", "--out", "x"), "NAME=FILE"),
+        ]
+        for arguments, saying in cases:
+            with self.subTest(arguments=arguments):
+                self.assert_refused(*arguments, saying=saying)
+
+
+class Manners(Command):
+    def test_help_and_version_go_to_standard_output(self):
+        for arguments in (("--help",), ("--version",), ("table", "--help"), ("plan", "circle", "--help")):
+            self.assertIn("flexcomp", self.run_well(*arguments))
+
+    def test_the_version_names_the_build(self):
+        self.assertRegex(self.run_well("--version"), r"^flexcomp \d+\.\d+\.\d+ \(.*\)\n$")
+
+    def test_an_existing_file_survives_a_failed_run(self):
+        kept = self.file("kept.csv", "precious\n")
+        self.assert_refused("plan", "circle", "--model", KR270, "--center", "9,0,1.2", "--out", kept,
+                            saying="cannot be reached")
+        self.assertEqual("precious\n", kept.read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,224 @@
+#include "flexcomp/flexcomp.h"
+
+#include <math.h>
+#include <string.h>
+#include <unity.h>
+
+void setUp(void) {}
+void tearDown(void) {}
+
+static const flexcomp_pose_t identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
+
+/* Two arms of 1 m along x that bend about y; the wrist joints sit at the tip. */
+static flexcomp_model_t two_arms(void) {
+  flexcomp_model_t model;
+  memset(&model, 0, sizeof model);
+  model.tool = identity;
+  static const float axes[6][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+  for (int i = 0; i < FLEXCOMP_JOINTS; ++i) {
+    model.joints[i].origin = identity;
+    memcpy(model.joints[i].axis, axes[i], sizeof axes[i]);
+    model.joints[i].lower = -3;
+    model.joints[i].upper = 3;
+    model.joints[i].compliance = 1e-6f;
+  }
+  model.joints[2].origin.position[0] = 1;
+  model.joints[3].origin.position[0] = 1;
+  return model;
+}
+
+static uint32_t memory[1 << 14];
+
+static size_t build_table(const flexcomp_model_t* model) {
+  const float program[12] = {0, 0, 0.5f, 0.1f, 0.4f, 0, 0.1f, 0.1f, 0.6f, 0.1f, 0.5f, 0};
+  const flexcomp_table_requirements_t wanted = {1000, 10, 1e-5f, 1e-5f, 0};
+  size_t size = 0;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_build_path(model, program, 2, &wanted, memory,
+                                                           sizeof memory, &size));
+  return size;
+}
+
+static flexcomp_config_t good_config(const flexcomp_model_t* model) {
+  flexcomp_config_t config;
+  memset(&config, 0, sizeof config);
+  config.period = 1e-3f;
+  config.model_hash = flexcomp_model_hash(model);
+  config.gain = 1;
+  config.force_range = 2000;
+  config.moment_range = 200;
+  config.setpoint_age_limit = 0.01f;
+  config.wrench_age_limit = 0.01f;
+  config.deflection_limit = 0.01f;
+  config.chart_margin = 0.01f;
+  config.hold_time = 0.01f;
+  config.fade_time = 0.05f;
+  config.ready_ticks = 1;
+  for (int i = 0; i < FLEXCOMP_JOINTS; ++i) {
+    config.joint_speed[i] = 10;
+    config.limits[i] = (flexcomp_limits_t){0.05f, 1, 100};
+  }
+  return config;
+}
+
+/* 1000 N upwards at 2 m and 1 m: joints 2 and 3 wind up by 2 and 1 mrad, lifting the tip 5 mm. */
+static void deflection_follows_from_the_levers(void) {
+  const flexcomp_model_t model = two_arms();
+  const float q[6] = {0};
+  const float wrench[6] = {0, 0, 1000, 0, 0, 0};
+  float deflection[6];
+  float correction[6];
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_model_respond(&model, q, wrench, deflection, correction));
+  TEST_ASSERT_FLOAT_WITHIN(1e-8f, 5e-3f, deflection[2]);
+  TEST_ASSERT_FLOAT_WITHIN(1e-9f, 2e-3f, correction[1]);
+  TEST_ASSERT_FLOAT_WITHIN(1e-9f, 1e-3f, correction[2]);
+  flexcomp_pose_t tcp;
+  float compliance[36];
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_model_evaluate(&model, q, &tcp, compliance));
+  TEST_ASSERT_EQUAL_FLOAT(2, tcp.position[0]);
+  TEST_ASSERT_FLOAT_WITHIN(1e-12f, 5e-6f, compliance[2 * 6 + 2]);
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_model_respond(&model, q, wrench, NULL, NULL));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_model_evaluate(&model, q, NULL, NULL));
+}
+
+static void a_table_says_what_it_is(void) {
+  const flexcomp_model_t model = two_arms();
+  const size_t size = build_table(&model);
+  flexcomp_table_t table;
+  flexcomp_table_info_t info;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_open(memory, size, &table));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_describe(&table, &info));
+  TEST_ASSERT_TRUE(info.is_path);
+  TEST_ASSERT_TRUE(info.model_hash == flexcomp_model_hash(&model));
+  TEST_ASSERT_TRUE(info.size == size);
+  TEST_ASSERT_TRUE(info.position_error <= 1e-5f && info.position_error > 0);
+  memory[40] ^= 1;
+  TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_CORRUPT, flexcomp_table_open(memory, size, &table));
+}
+
+static void a_grid_table_can_be_built_too(void) {
+  const flexcomp_model_t model = two_arms();
+  const float lower[4] = {0, 0.5f, 0, 0.4f};
+  const float upper[4] = {0.1f, 0.6f, 0, 0.4f};
+  const flexcomp_table_requirements_t wanted = {1000, 10, 2e-5f, 2e-5f, 0};
+  size_t size = 0;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_build_grid(&model, lower, upper, &wanted, memory,
+                                                           sizeof memory, &size));
+  flexcomp_table_t table;
+  flexcomp_table_info_t info;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_open(memory, size, &table));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_describe(&table, &info));
+  TEST_ASSERT_FALSE(info.is_path);
+}
+
+static void a_loop_corrects_fades_and_resets(void) {
+  const flexcomp_model_t model = two_arms();
+  const size_t size = build_table(&model);
+  flexcomp_table_t table;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_open(memory, size, &table));
+  flexcomp_compensator_t compensator;
+  const flexcomp_config_t config = good_config(&model);
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_init(&compensator, &config));
+  TEST_ASSERT_EQUAL(FLEXCOMP_NO_TABLE, flexcomp_compensator_arm(&compensator));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_set_table(&compensator, &table));
+  flexcomp_input_t input = {{0, 0, 0.5f, 0.1f, 0.4f, 0}, 0, {0, 0, 500, 0, 0, 0}, 0, false};
+  flexcomp_output_t output;
+  for (int tick = 0; tick < 500; ++tick) {
+    TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_tick(&compensator, &input, &output));
+    if (tick == 1) {
+      TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_arm(&compensator));
+    }
+  }
+  TEST_ASSERT_EQUAL(FLEXCOMP_STATE_ACTIVE, output.state);
+  float expected[6];
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK,
+                    flexcomp_model_respond(&model, input.setpoint, input.wrench, NULL, expected));
+  for (int i = 0; i < FLEXCOMP_JOINTS; ++i) {
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, expected[i], output.correction[i]);
+    TEST_ASSERT_EQUAL_FLOAT(input.setpoint[i] + output.correction[i], output.setpoint[i]);
+  }
+  input.wrench[0] = NAN;
+  for (int tick = 0; tick < 500; ++tick) {
+    flexcomp_compensator_tick(&compensator, &input, &output);
+  }
+  TEST_ASSERT_EQUAL(FLEXCOMP_STATE_LATCHED, output.state);
+  TEST_ASSERT_EQUAL_HEX32(FLEXCOMP_WRENCH_NOT_FINITE, output.latched_faults);
+  TEST_ASSERT_EQUAL_FLOAT(0, output.correction[1]);
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_reset(&compensator));
+  flexcomp_compensator_disarm(&compensator);
+}
+
+static void null_pointers_are_refused(void) {
+  const flexcomp_model_t model = two_arms();
+  const flexcomp_config_t config = good_config(&model);
+  const flexcomp_table_requirements_t wanted = {1000, 10, 1e-5f, 1e-5f, 0};
+  const float six[6] = {0};
+  flexcomp_compensator_t compensator;
+  flexcomp_table_t table = {NULL, NULL};
+  flexcomp_table_info_t info;
+  flexcomp_input_t input = {{0}, 0, {0}, 0, false};
+  flexcomp_output_t output;
+  size_t size = 0;
+  const flexcomp_result_t bad = FLEXCOMP_BAD_ARGUMENT;
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_validate(NULL));
+  TEST_ASSERT_TRUE(flexcomp_model_hash(NULL) == 0);
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_evaluate(NULL, six, NULL, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_evaluate(&model, NULL, NULL, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_respond(&model, six, NULL, NULL, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(NULL, six, 1, &wanted, memory, 100, &size));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, NULL, 2, &wanted, memory, 100, &size));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, six, 1, NULL, memory, 100, &size));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, six, 1, &wanted, NULL, 100, &size));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, six, 1, &wanted, memory, 100, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_grid(&model, NULL, six, &wanted, memory, 100, &size));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_open(NULL, 100, &table));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_open(memory, 100, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_describe(NULL, &info));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_describe(&table, NULL));
+  TEST_ASSERT_EQUAL(FLEXCOMP_NO_TABLE, flexcomp_table_describe(&table, &info));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_init(NULL, &config));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_init(&compensator, NULL));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_init(&compensator, &config));
+  TEST_ASSERT_EQUAL(FLEXCOMP_NO_TABLE, flexcomp_compensator_set_table(&compensator, &table));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_set_table(&compensator, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_set_table(NULL, &table));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_arm(NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_reset(NULL));
+  flexcomp_compensator_disarm(NULL);
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_tick(NULL, &input, &output));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_tick(&compensator, NULL, &output));
+  TEST_ASSERT_EQUAL(bad, flexcomp_compensator_tick(&compensator, &input, NULL));
+}
+
+static void numbers_that_are_not_finite_are_refused(void) {
+  flexcomp_model_t model = two_arms();
+  const float q[6] = {0, NAN, 0, 0, 0, 0};
+  const float zero[6] = {0};
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_model_evaluate(&model, q, NULL, NULL));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_model_respond(&model, zero, q, NULL, NULL));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_model_validate(&model));
+  model.joints[3].compliance = NAN;
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_MODEL, flexcomp_model_validate(&model));
+  flexcomp_config_t config = good_config(&model);
+  config.period = INFINITY;
+  flexcomp_compensator_t compensator;
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_CONFIG, flexcomp_compensator_init(&compensator, &config));
+}
+
+static void everything_has_words(void) {
+  TEST_ASSERT_EQUAL_STRING("ok", flexcomp_describe_result(FLEXCOMP_OK));
+  TEST_ASSERT_EQUAL_STRING("active", flexcomp_describe_state(FLEXCOMP_STATE_ACTIVE));
+  TEST_ASSERT_EQUAL_STRING("wrench stale", flexcomp_describe_status_bit(FLEXCOMP_WRENCH_STALE));
+  TEST_ASSERT_NOT_NULL(strchr(flexcomp_version(), '.'));
+}
+
+int main(void) {
+  UNITY_BEGIN();
+  RUN_TEST(deflection_follows_from_the_levers);
+  RUN_TEST(a_table_says_what_it_is);
+  RUN_TEST(a_grid_table_can_be_built_too);
+  RUN_TEST(a_loop_corrects_fades_and_resets);
+  RUN_TEST(null_pointers_are_refused);
+  RUN_TEST(numbers_that_are_not_finite_are_refused);
+  RUN_TEST(everything_has_words);
+  return UNITY_END();
+}
