@@ -1,9 +1,8 @@
-#include "flexcomp/flexcomp.h"
-
 #include <cstring>
 #include <new>
 
 #include "flexcomp/compensator.hpp"
+#include "flexcomp/flexcomp.h"
 #include "flexcomp/table_builder.hpp"
 
 namespace {
@@ -83,8 +82,8 @@ flexcomp::CompensatorConfig<float, kJoints> convert(const flexcomp_config_t& fro
 }
 
 flexcomp::TableRequirements<float> convert(const flexcomp_table_requirements_t& from) {
-  return {from.force_bound, from.moment_bound, from.position_tolerance,
-          from.orientation_tolerance, from.largest_gain};
+  return {from.force_bound, from.moment_bound, from.position_tolerance, from.orientation_tolerance,
+          from.largest_gain};
 }
 
 /// The C view of a table is the C++ view itself.
@@ -188,9 +187,8 @@ flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const
 
 flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table) {
   flexcomp::Table opened;
-  const flexcomp::Result result =
-      table == nullptr ? flexcomp::Result::bad_argument
-                       : flexcomp::Table::open(data, size, &opened);
+  const flexcomp::Result result = table == nullptr ? flexcomp::Result::bad_argument
+                                                   : flexcomp::Table::open(data, size, &opened);
   if (result == flexcomp::Result::ok) {
     std::memcpy(table, static_cast<const void*>(&opened), sizeof opened);
   }
@@ -207,10 +205,10 @@ flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
     return FLEXCOMP_NO_TABLE;
   }
   const flexcomp::TableHeader& header = opened.header();
-  *info = {opened.model_hash(),     opened.chart() == flexcomp::Chart::path,
-           header.node_count,       header.size,
-           header.force_bound,      header.moment_bound,
-           header.position_error,   header.orientation_error,
+  *info = {opened.model_hash(),   opened.chart() == flexcomp::Chart::path,
+           header.node_count,     header.size,
+           header.force_bound,    header.moment_bound,
+           header.position_error, header.orientation_error,
            header.largest_gain};
   return FLEXCOMP_OK;
 }
@@ -252,13 +250,14 @@ flexcomp_result_t flexcomp_compensator_tick(flexcomp_compensator_t* compensator,
   if (compensator == nullptr || input == nullptr || output == nullptr) {
     return FLEXCOMP_BAD_ARGUMENT;
   }
-  const Compensator::Output ticked = object(compensator)->tick({
-      vector6(input->setpoint),
-      input->setpoint_age,
-      vector6(input->wrench),
-      input->wrench_age,
-      input->external_fault,
-  });
+  const Compensator::Output ticked = object(compensator)
+                                         ->tick({
+                                             vector6(input->setpoint),
+                                             input->setpoint_age,
+                                             vector6(input->wrench),
+                                             input->wrench_age,
+                                             input->external_fault,
+                                         });
   copy(ticked.setpoint, output->setpoint);
   copy(ticked.correction, output->correction);
   copy(ticked.deflection, output->deflection);

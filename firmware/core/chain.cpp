@@ -72,16 +72,16 @@ Jacobian<Scalar, Joints> geometric_jacobian(const Kinematics<Scalar, Joints>& ki
   return jacobian;
 }
 
-#define FLEXCOMP_CHAIN(Scalar, Joints)                                             \
-  template Kinematics<Scalar, Joints> forward_kinematics(                          \
-      const RobotModel<Scalar, Joints>&, const JointVector<Scalar, Joints>&);      \
-  template Jacobian<Scalar, Joints> geometric_jacobian(                            \
-      const Kinematics<Scalar, Joints>&, const Vector3<Scalar>&);
+#define FLEXCOMP_CHAIN(Scalar, Joints)                                                        \
+  template Kinematics<Scalar, Joints> forward_kinematics(const RobotModel<Scalar, Joints>&,   \
+                                                         const JointVector<Scalar, Joints>&); \
+  template Jacobian<Scalar, Joints> geometric_jacobian(const Kinematics<Scalar, Joints>&,     \
+                                                       const Vector3<Scalar>&);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_CHAIN)
 
-#define FLEXCOMP_POSE(Scalar)                                                           \
-  template Matrix3<Scalar> axis_rotation(const Vector3<Scalar>&, Scalar);               \
-  template Twist<Scalar> pose_difference(const Pose<Scalar>&, const Pose<Scalar>&);     \
+#define FLEXCOMP_POSE(Scalar)                                                       \
+  template Matrix3<Scalar> axis_rotation(const Vector3<Scalar>&, Scalar);           \
+  template Twist<Scalar> pose_difference(const Pose<Scalar>&, const Pose<Scalar>&); \
   template Pose<Scalar> displaced(const Pose<Scalar>&, const Twist<Scalar>&);
 FLEXCOMP_POSE(float)
 FLEXCOMP_POSE(double)

@@ -39,13 +39,12 @@ std::uint32_t periods(Scalar time, Scalar period, bool* valid) {
 template <typename Scalar, int Joints>
 Result Compensator<Scalar, Joints>::configure(const Config& config) {
   constexpr Scalar kTwoPi = Scalar(6.283185307179586);
-  bool valid = is_positive(config.period) && is_positive(config.gain) &&
-               config.gain <= Scalar(1) && std::isfinite(config.filter_cutoff) &&
-               config.filter_cutoff >= Scalar(0) && is_positive(config.force_range) &&
-               is_positive(config.moment_range) && is_positive(config.setpoint_age_limit) &&
-               is_positive(config.wrench_age_limit) && config.joint_speed.allFinite() &&
-               config.joint_speed.minCoeff() > Scalar(0) && is_positive(config.deflection_limit) &&
-               is_positive(config.chart_margin);
+  bool valid = is_positive(config.period) && is_positive(config.gain) && config.gain <= Scalar(1) &&
+               std::isfinite(config.filter_cutoff) && config.filter_cutoff >= Scalar(0) &&
+               is_positive(config.force_range) && is_positive(config.moment_range) &&
+               is_positive(config.setpoint_age_limit) && is_positive(config.wrench_age_limit) &&
+               config.joint_speed.allFinite() && config.joint_speed.minCoeff() > Scalar(0) &&
+               is_positive(config.deflection_limit) && is_positive(config.chart_margin);
   const std::uint32_t hold_ticks = periods(config.hold_time, config.period, &valid);
   const std::uint32_t fade_ticks = periods(config.fade_time, config.period, &valid);
   std::array<Guard<Scalar>, Joints> guards;
@@ -157,8 +156,7 @@ std::uint32_t Compensator<Scalar, Joints>::check_wrench(const Input& input) cons
 
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::check(const Input& input) const {
-  return check_setpoint(input) | check_wrench(input) |
-         bit_if(input.external_fault, kExternalFault);
+  return check_setpoint(input) | check_wrench(input) | bit_if(input.external_fault, kExternalFault);
 }
 
 template <typename Scalar, int Joints>
@@ -168,8 +166,8 @@ void Compensator<Scalar, Joints>::take_setpoint(const Input& input, std::uint32_
     setpoint_ = input.setpoint;
     has_setpoint_ = true;
   }
-  const bool known_age = usable && input.setpoint_age >= Scalar(0) &&
-                         std::isfinite(input.setpoint_age);
+  const bool known_age =
+      usable && input.setpoint_age >= Scalar(0) && std::isfinite(input.setpoint_age);
   setpoint_age_ = known_age ? input.setpoint_age : setpoint_age_ + config_.period;
 }
 
@@ -187,8 +185,7 @@ void Compensator<Scalar, Joints>::filter(const Wrench<Scalar>& wrench) {
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::aim(Output* output) {
   const TableEntry<Scalar, Joints> entry = look_up<Scalar, Joints>(table_, setpoint_, &cursor_);
-  const TableResponse<Scalar, Joints> response =
-      respond<Scalar, Joints>(table_, entry, wrench_);
+  const TableResponse<Scalar, Joints> response = respond<Scalar, Joints>(table_, entry, wrench_);
   if (!response.deflection.allFinite() || !response.correction.allFinite()) {
     return kNotComputable;
   }
@@ -246,8 +243,7 @@ std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
   const bool correcting = state_ != State::off && state_ != State::latched;
   for (std::size_t i = 0; i < Joints; ++i) {
     const auto joint = static_cast<Eigen::Index>(i);
-    output->correction[joint] =
-        guards_[i].advance(correcting ? fade_ * aim_[joint] : Scalar(0));
+    output->correction[joint] = guards_[i].advance(correcting ? fade_ * aim_[joint] : Scalar(0));
     remarks |= bit_if(guards_[i].limited_by_value(), kValueLimited);
     remarks |= bit_if(guards_[i].limited_by_rate(), kRateLimited);
     at_rest = at_rest && guards_[i].is_at_rest_at_zero();
@@ -271,7 +267,8 @@ auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
     status |= aim(&output);
   }
   const std::uint32_t faults = status & kFaultBits;
-  good_ticks_ = faults != 0 ? 0 : (good_ticks_ < config_.ready_ticks ? good_ticks_ + 1 : good_ticks_);
+  good_ticks_ =
+      faults != 0 ? 0 : (good_ticks_ < config_.ready_ticks ? good_ticks_ + 1 : good_ticks_);
   change_state(faults);
   fade();
   status |= move(&output);

@@ -76,8 +76,7 @@ JointVector<Scalar, Joints> weight_torque(const RobotModel<Scalar, Joints>& mode
     const Joint<Scalar>& joint = model.joints[i];
     const Pose<Scalar>& link = kinematics.links[i];
     beyond.add(joint.mass, link.position + link.rotation * joint.center_of_mass, model.gravity);
-    torque[static_cast<Eigen::Index>(i)] =
-        kinematics.axes[i].dot(beyond.moment_at(link.position));
+    torque[static_cast<Eigen::Index>(i)] = kinematics.axes[i].dot(beyond.moment_at(link.position));
   }
   return torque;
 }
@@ -89,8 +88,7 @@ JointVector<Scalar, Joints> joint_windup(const RobotModel<Scalar, Joints>& model
   for (std::size_t i = 0; i < Joints; ++i) {
     const Scalar t = torque[static_cast<Eigen::Index>(i)];
     const Joint<Scalar>& joint = model.joints[i];
-    windup[static_cast<Eigen::Index>(i)] =
-        (joint.compliance + joint.cubic_compliance * t * t) * t;
+    windup[static_cast<Eigen::Index>(i)] = (joint.compliance + joint.cubic_compliance * t * t) * t;
   }
   return windup;
 }
@@ -195,24 +193,24 @@ JointVector<Scalar, Joints> setpoint_correction(const RobotModel<Scalar, Joints>
   return -bent.windup - joint_motion<Scalar, Joints>(jacobian, structure);
 }
 
-#define FLEXCOMP_COMPLIANCE(Scalar, Joints)                                                     \
-  template JointVector<Scalar, Joints> weight_torque(const RobotModel<Scalar, Joints>&,         \
-                                                     const Kinematics<Scalar, Joints>&);        \
-  template JointVector<Scalar, Joints> joint_windup(const RobotModel<Scalar, Joints>&,          \
-                                                    const JointVector<Scalar, Joints>&);        \
-  template Compliance<Scalar> structure_compliance(const RobotModel<Scalar, Joints>&,           \
-                                                   const Kinematics<Scalar, Joints>&);          \
-  template Twist<Scalar> structure_weight_deflection(const RobotModel<Scalar, Joints>&,         \
-                                                     const Kinematics<Scalar, Joints>&);        \
-  template Compliance<Scalar> tcp_compliance(const RobotModel<Scalar, Joints>&,                 \
-                                             const Kinematics<Scalar, Joints>&);                \
-  template Deflection<Scalar, Joints> deflection(const RobotModel<Scalar, Joints>&,             \
-                                                 const JointVector<Scalar, Joints>&,            \
-                                                 const Wrench<Scalar>&);                        \
-  template JointVector<Scalar, Joints> joint_motion(const Jacobian<Scalar, Joints>&,            \
-                                                    const Twist<Scalar>&);                      \
-  template JointVector<Scalar, Joints> setpoint_correction(const RobotModel<Scalar, Joints>&,   \
-                                                           const JointVector<Scalar, Joints>&,  \
+#define FLEXCOMP_COMPLIANCE(Scalar, Joints)                                                    \
+  template JointVector<Scalar, Joints> weight_torque(const RobotModel<Scalar, Joints>&,        \
+                                                     const Kinematics<Scalar, Joints>&);       \
+  template JointVector<Scalar, Joints> joint_windup(const RobotModel<Scalar, Joints>&,         \
+                                                    const JointVector<Scalar, Joints>&);       \
+  template Compliance<Scalar> structure_compliance(const RobotModel<Scalar, Joints>&,          \
+                                                   const Kinematics<Scalar, Joints>&);         \
+  template Twist<Scalar> structure_weight_deflection(const RobotModel<Scalar, Joints>&,        \
+                                                     const Kinematics<Scalar, Joints>&);       \
+  template Compliance<Scalar> tcp_compliance(const RobotModel<Scalar, Joints>&,                \
+                                             const Kinematics<Scalar, Joints>&);               \
+  template Deflection<Scalar, Joints> deflection(const RobotModel<Scalar, Joints>&,            \
+                                                 const JointVector<Scalar, Joints>&,           \
+                                                 const Wrench<Scalar>&);                       \
+  template JointVector<Scalar, Joints> joint_motion(const Jacobian<Scalar, Joints>&,           \
+                                                    const Twist<Scalar>&);                     \
+  template JointVector<Scalar, Joints> setpoint_correction(const RobotModel<Scalar, Joints>&,  \
+                                                           const JointVector<Scalar, Joints>&, \
                                                            const Wrench<Scalar>&);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_COMPLIANCE)
 

@@ -82,9 +82,9 @@ TableEntry<Scalar, Joints> look_up_grid(const Table& table, const JointVector<Sc
   return entry;
 }
 
-#define FLEXCOMP_GRID_CHART(Scalar, Joints)             \
-  template TableEntry<Scalar, Joints> look_up_grid(     \
-      const Table&, const JointVector<Scalar, Joints>&);
+#define FLEXCOMP_GRID_CHART(Scalar, Joints)                      \
+  template TableEntry<Scalar, Joints> look_up_grid(const Table&, \
+                                                   const JointVector<Scalar, Joints>&);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_GRID_CHART)
 
 }  // namespace flexcomp

@@ -244,7 +244,8 @@ bool are_valid(const GridRange<Scalar> (&ranges)[4]) {
 }  // namespace
 
 template <typename Scalar, int Joints>
-Result build_grid_table(const RobotModel<Scalar, Joints>& model, const GridRange<Scalar> (&ranges)[4],
+Result build_grid_table(const RobotModel<Scalar, Joints>& model,
+                        const GridRange<Scalar> (&ranges)[4],
                         const TableRequirements<Scalar>& requirements, void* buffer,
                         std::size_t capacity, std::size_t* size) {
   const Result checked = check_build_arguments(model, requirements, buffer, capacity, size);
@@ -266,11 +267,10 @@ Result build_grid_table(const RobotModel<Scalar, Joints>& model, const GridRange
   return built;
 }
 
-#define FLEXCOMP_GRID_TABLE(Scalar, Joints)                                                     \
-  template Result build_grid_table(const RobotModel<Scalar, Joints>&,                           \
-                                   const GridRange<Scalar>(&)[4],                               \
-                                   const TableRequirements<Scalar>&, void*, std::size_t,        \
-                                   std::size_t*);
+#define FLEXCOMP_GRID_TABLE(Scalar, Joints)                             \
+  template Result build_grid_table(                                     \
+      const RobotModel<Scalar, Joints>&, const GridRange<Scalar>(&)[4], \
+      const TableRequirements<Scalar>&, void*, std::size_t, std::size_t*);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_GRID_TABLE)
 
 }  // namespace flexcomp

@@ -45,8 +45,7 @@ Scalar Guard<Scalar>::braking_step(Scalar distance) const {
   const Scalar d = distance / change;
   const Scalar whole = std::floor((std::sqrt(Scalar(1) + Scalar(8) * d) - Scalar(1)) / Scalar(2));
   const Scalar rest = d - whole * (whole + Scalar(1)) / Scalar(2);
-  const Scalar fraction =
-      std::clamp(rest / (whole + Scalar(1)), Scalar(0), Scalar(1));
+  const Scalar fraction = std::clamp(rest / (whole + Scalar(1)), Scalar(0), Scalar(1));
   return (whole + fraction) * change;
 }
 

@@ -65,9 +65,10 @@ template <typename Scalar>
 bool is_valid(const Joint<Scalar>& joint) {
   return is_rigid(joint.origin) && joint.axis.allFinite() &&
          std::abs(joint.axis.norm() - Scalar(1)) < Scalar(1e-4) && std::isfinite(joint.lower) &&
-         std::isfinite(joint.upper) && joint.lower < joint.upper && not_negative(joint.compliance) &&
-         std::isfinite(joint.cubic_compliance) && none_negative(joint.link_compliance) &&
-         not_negative(joint.mass) && joint.center_of_mass.allFinite();
+         std::isfinite(joint.upper) && joint.lower < joint.upper &&
+         not_negative(joint.compliance) && std::isfinite(joint.cubic_compliance) &&
+         none_negative(joint.link_compliance) && not_negative(joint.mass) &&
+         joint.center_of_mass.allFinite();
 }
 
 }  // namespace
@@ -122,10 +123,10 @@ std::uint64_t model_hash(const RobotModel<Scalar, Joints>& model) {
   return hash.value();
 }
 
-#define FLEXCOMP_MODEL(Scalar, Joints)                                        \
-  template Result validate(const RobotModel<Scalar, Joints>&);               \
-  template bool has_structure_springs(const RobotModel<Scalar, Joints>&);    \
-  template bool has_weight(const RobotModel<Scalar, Joints>&);               \
+#define FLEXCOMP_MODEL(Scalar, Joints)                                    \
+  template Result validate(const RobotModel<Scalar, Joints>&);            \
+  template bool has_structure_springs(const RobotModel<Scalar, Joints>&); \
+  template bool has_weight(const RobotModel<Scalar, Joints>&);            \
   template std::uint64_t model_hash(const RobotModel<Scalar, Joints>&);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_MODEL)
 

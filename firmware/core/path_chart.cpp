@@ -71,8 +71,7 @@ Find<Scalar> find_on(const Table& table, const RecordLayout& layout, std::uint32
   const float* from = table.record(segment);
   const float* to = table.record(segment + 1);
   const Scalar t = place_on_segment<Scalar, Joints>(from, to, layout, q).blend();
-  return {segment, t,
-          off_chord<Scalar, Joints>(from + layout.angles, to + layout.angles, t, q)};
+  return {segment, t, off_chord<Scalar, Joints>(from + layout.angles, to + layout.angles, t, q)};
 }
 
 }  // namespace

@@ -130,7 +130,8 @@ class PathTableBuilder {
     const Scalar most = std::min(tolerance_.position / curvature.position,
                                  tolerance_.orientation / curvature.orientation);
     const Scalar longest = std::sqrt(Scalar(8 * kCurvatureShare) * most);
-    const auto steps = static_cast<std::uint32_t>(std::ceil(Scalar(1) / std::min(longest, Scalar(1))));
+    const auto steps =
+        static_cast<std::uint32_t>(std::ceil(Scalar(1) / std::min(longest, Scalar(1))));
     const Scalar step = Scalar(1) / static_cast<Scalar>(steps);
     const Scalar between = step * step / Scalar(8);
     for (std::uint32_t i = 0; i <= steps && check->holds; ++i) {
@@ -162,8 +163,8 @@ class PathTableBuilder {
                              .norm();
     // Nodes are rounded to float, so the ends of a program piece may lie outside by that much.
     const Scalar slack = Scalar(1e-6) + Scalar(1e-3) * chord;
-    const Scalar lowest = std::min(std::min(first.gone, first.left),
-                                   std::min(second.gone, second.left));
+    const Scalar lowest =
+        std::min(std::min(first.gone, first.left), std::min(second.gone, second.left));
     return lowest >= -slack && span >= Scalar(0.7) * chord ? span : Scalar(0);
   }
 
@@ -172,17 +173,15 @@ class PathTableBuilder {
     const RecordLayout& layout = writer_.layout();
     const Angles zero = Angles::Zero();
     const Scalar speed = motion.norm();
-    const Scalar lean =
-        (Eigen::Map<const JointVector<float, Joints>>(to + layout.normal_in) -
-         Eigen::Map<const JointVector<float, Joints>>(from + layout.normal_out))
-            .template cast<Scalar>()
-            .norm();
+    const Scalar lean = (Eigen::Map<const JointVector<float, Joints>>(to + layout.normal_in) -
+                         Eigen::Map<const JointVector<float, Joints>>(from + layout.normal_out))
+                            .template cast<Scalar>()
+                            .norm();
     const SegmentMotion<Scalar> segment{motion.cwiseAbs().sum(), speed / span,
                                         Scalar(2) * speed * speed * lean / (span * span)};
-    return segment_curvature(bounds_,
-                             blend_segment<Scalar, Joints>(from, to, layout, Scalar(0), zero),
-                             blend_segment<Scalar, Joints>(from, to, layout, Scalar(1), zero),
-                             bound_, segment);
+    return segment_curvature(
+        bounds_, blend_segment<Scalar, Joints>(from, to, layout, Scalar(0), zero),
+        blend_segment<Scalar, Joints>(from, to, layout, Scalar(1), zero), bound_, segment);
   }
 
   const RobotModel<Scalar, Joints>& model_;
@@ -210,19 +209,17 @@ Result build_path_table(const RobotModel<Scalar, Joints>& model,
     return Result::bad_path;
   }
   TableWriter writer(model, requirements, Chart::path, buffer, capacity);
-  const Result built =
-      PathTableBuilder<Scalar, Joints>(model, path, requirements, &writer).build();
+  const Result built = PathTableBuilder<Scalar, Joints>(model, path, requirements, &writer).build();
   if (built == Result::ok) {
     *size = writer.header().size;
   }
   return built;
 }
 
-#define FLEXCOMP_PATH_TABLE(Scalar, Joints)                                                     \
-  template Result build_path_table(const RobotModel<Scalar, Joints>&,                           \
-                                   const JointVector<Scalar, Joints>*, std::size_t,             \
-                                   const TableRequirements<Scalar>&, void*, std::size_t,        \
-                                   std::size_t*);
+#define FLEXCOMP_PATH_TABLE(Scalar, Joints)                                               \
+  template Result build_path_table(                                                       \
+      const RobotModel<Scalar, Joints>&, const JointVector<Scalar, Joints>*, std::size_t, \
+      const TableRequirements<Scalar>&, void*, std::size_t, std::size_t*);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_PATH_TABLE)
 
 }  // namespace flexcomp

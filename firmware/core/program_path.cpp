@@ -108,8 +108,9 @@ auto ProgramPath<Scalar, Joints>::advanced(Place from, Scalar length) const -> P
       if (next == count_) {
         return place;
       }
-      const bool sharp = piece_motion(place.piece).normalized().dot(
-                             piece_motion(next).normalized()) < Scalar(kSharpCosine);
+      const bool sharp =
+          piece_motion(place.piece).normalized().dot(piece_motion(next).normalized()) <
+          Scalar(kSharpCosine);
       const bool moved = place.piece != from.piece || place.fraction != from.fraction;
       if (sharp && moved) {
         return place;

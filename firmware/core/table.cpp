@@ -11,7 +11,7 @@
 namespace flexcomp {
 namespace {
 
-static_assert(sizeof(TableHeader) == 4 * 67, "the header is written to files: no padding");
+static_assert(sizeof(TableHeader) == 268, "the header is written to files: no padding");
 
 std::uint32_t table_crc(const void* data, std::uint32_t size) {
   constexpr std::size_t kBefore = offsetof(TableHeader, crc);
@@ -121,11 +121,11 @@ TableResponse<Scalar, Joints> respond(const Table& table, const TableEntry<Scala
   return response;
 }
 
-#define FLEXCOMP_TABLE(Scalar, Joints)                                                           \
-  template TableEntry<Scalar, Joints> look_up(const Table&, const JointVector<Scalar, Joints>&,  \
-                                              TableCursor*);                                     \
-  template TableResponse<Scalar, Joints> respond(                                                \
-      const Table&, const TableEntry<Scalar, Joints>&, const Wrench<Scalar>&);
+#define FLEXCOMP_TABLE(Scalar, Joints)                                                            \
+  template TableEntry<Scalar, Joints> look_up(const Table&, const JointVector<Scalar, Joints>&,   \
+                                              TableCursor*);                                      \
+  template TableResponse<Scalar, Joints> respond(const Table&, const TableEntry<Scalar, Joints>&, \
+                                                 const Wrench<Scalar>&);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE)
 
 }  // namespace flexcomp

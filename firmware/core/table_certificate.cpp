@@ -77,9 +77,9 @@ TableError<Scalar> cubic_error(const RobotModel<Scalar, Joints>& model,
                           std::abs(exact.weight_torque[i]) + torque_change;
     const Scalar windup = cubic * torque * torque * torque;
     const Scalar windup_change = Scalar(3) * cubic * torque * torque * torque_change;
-    error.position += change_linear * windup +
-                      (linear_norm<Scalar, Joints>(exact.jacobian, i) + change_linear) *
-                          windup_change;
+    error.position +=
+        change_linear * windup +
+        (linear_norm<Scalar, Joints>(exact.jacobian, i) + change_linear) * windup_change;
     error.orientation += change_angular * windup + (Scalar(1) + change_angular) * windup_change;
   }
   return error;
@@ -99,8 +99,7 @@ struct Reach {
     const Scalar payload = model.tool.position.norm() + model.payload_center.norm();
     Scalar force = model.payload_mass * gravity;
     Scalar moment = force * payload;
-    Scalar farthest =
-        force > Scalar(0) ? payload : static_cast<Scalar>(model.tool.position.norm());
+    Scalar farthest = force > Scalar(0) ? payload : static_cast<Scalar>(model.tool.position.norm());
     for (std::size_t i = Joints; i-- > 0;) {
       const auto joint = static_cast<Eigen::Index>(i);
       const Scalar own_weight = model.joints[i].mass * gravity;
@@ -143,9 +142,8 @@ ModelBounds<Scalar, Joints> model_bounds(const RobotModel<Scalar, Joints>& model
   const Reach<Scalar, Joints> reach(model);
   ModelBounds<Scalar, Joints> bounds;
   bounds.lever = reach.lever;
-  bounds.torque =
-      bound.force * reach.lever + JointVector<Scalar, Joints>::Constant(bound.moment) +
-      reach.weight_torque;
+  bounds.torque = bound.force * reach.lever + JointVector<Scalar, Joints>::Constant(bound.moment) +
+                  reach.weight_torque;
   TableError<Scalar> magnitude;
   for (std::size_t i = 0; i < Joints; ++i) {
     const auto joint = static_cast<Eigen::Index>(i);
@@ -162,13 +160,13 @@ ModelBounds<Scalar, Joints> model_bounds(const RobotModel<Scalar, Joints>& model
                                      bound.force + reach.weight[joint], torque));
   }
   const Scalar payload = model.payload_mass * model.gravity.norm();
-  bounds.structure_curvature = sum(
-      bounds.structure_curvature,
-      sum(spring_curvature<Scalar>(
-              model.base_compliance, reach.base_lever, bound.force + reach.weight[0],
-              bound.moment + bound.force * reach.base_lever + reach.base_weight_moment),
-          spring_curvature<Scalar>(model.tool_compliance, Scalar(0), bound.force + payload,
-                                   bound.moment + payload * model.payload_center.norm())));
+  bounds.structure_curvature =
+      sum(bounds.structure_curvature,
+          sum(spring_curvature<Scalar>(
+                  model.base_compliance, reach.base_lever, bound.force + reach.weight[0],
+                  bound.moment + bound.force * reach.base_lever + reach.base_weight_moment),
+              spring_curvature<Scalar>(model.tool_compliance, Scalar(0), bound.force + payload,
+                                       bound.moment + payload * model.payload_center.norm())));
   // Some thirty roundings in a row at worst, each of half a unit in the last place.
   constexpr Scalar kRounding = Scalar(16) * Scalar(std::numeric_limits<float>::epsilon());
   bounds.rounding = {
@@ -194,9 +192,9 @@ TableError<Scalar> entry_error(const RobotModel<Scalar, Joints>& model,
       entry_springs.lazyProduct(entry.weight_torque) + entry.structure_weight -
       exact_springs.lazyProduct(exact.weight_torque) - exact.structure_weight;
 
-  const Compliance<Scalar> left =
-      exact_springs.lazyProduct(exact.jacobian.transpose()) - blended + exact.structure -
-      exact.jacobian.lazyProduct(entry.structure_motion);
+  const Compliance<Scalar> left = exact_springs.lazyProduct(exact.jacobian.transpose()) - blended +
+                                  exact.structure -
+                                  exact.jacobian.lazyProduct(entry.structure_motion);
   const Twist<Scalar> left_weight =
       exact_springs.lazyProduct(exact.weight_torque - entry.weight_torque) +
       exact.structure_weight - exact.jacobian.lazyProduct(entry.structure_weight_motion);
@@ -268,15 +266,16 @@ TableError<Scalar> box_curvature(const ModelBounds<Scalar, Joints>& bounds) {
   return curvature;
 }
 
-#define FLEXCOMP_TABLE_CERTIFICATE(Scalar, Joints)                                                \
-  template ModelBounds<Scalar, Joints> model_bounds(const RobotModel<Scalar, Joints>&,            \
-                                                    const WrenchBound<Scalar>&);                  \
-  template TableError<Scalar> entry_error(                                                        \
-      const RobotModel<Scalar, Joints>&, const TableEntry<Scalar, Joints>&,                       \
-      const TableEntry<Scalar, Joints>&, const WrenchBound<Scalar>&);                             \
-  template TableError<Scalar> segment_curvature(                                                  \
-      const ModelBounds<Scalar, Joints>&, const TableEntry<Scalar, Joints>&,                      \
-      const TableEntry<Scalar, Joints>&, const WrenchBound<Scalar>&, const SegmentMotion<Scalar>&); \
+#define FLEXCOMP_TABLE_CERTIFICATE(Scalar, Joints)                                     \
+  template ModelBounds<Scalar, Joints> model_bounds(const RobotModel<Scalar, Joints>&, \
+                                                    const WrenchBound<Scalar>&);       \
+  template TableError<Scalar> entry_error(                                             \
+      const RobotModel<Scalar, Joints>&, const TableEntry<Scalar, Joints>&,            \
+      const TableEntry<Scalar, Joints>&, const WrenchBound<Scalar>&);                  \
+  template TableError<Scalar> segment_curvature(                                       \
+      const ModelBounds<Scalar, Joints>&, const TableEntry<Scalar, Joints>&,           \
+      const TableEntry<Scalar, Joints>&, const WrenchBound<Scalar>&,                   \
+      const SegmentMotion<Scalar>&);                                                   \
   template TableError<Scalar> box_curvature(const ModelBounds<Scalar, Joints>&);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE_CERTIFICATE)
 

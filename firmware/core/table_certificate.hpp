@@ -33,15 +33,16 @@ template <typename Scalar, int Joints>
 ModelBounds<Scalar, Joints> model_bounds(const RobotModel<Scalar, Joints>& model,
                                          const WrenchBound<Scalar>& bound);
 
-/// Error of an entry for the worst wrench within the bound: the larger of the error of the predicted
-/// deflection and of what is left of the true deflection after the entry's correction.
+/// Error of an entry for the worst wrench within the bound: the larger of the error of the
+/// predicted deflection and of what is left of the true deflection after the entry's correction.
 template <typename Scalar, int Joints>
 TableError<Scalar> entry_error(const RobotModel<Scalar, Joints>& model,
                                const TableEntry<Scalar, Joints>& exact,
                                const TableEntry<Scalar, Joints>& entry,
                                const WrenchBound<Scalar>& bound);
 
-/// How fast blends of two records can bend away from the model along a straight move in joint space.
+/// How fast blends of two records can bend away from the model along a straight move in joint
+/// space.
 template <typename Scalar>
 struct SegmentMotion {
   Scalar joint_speed;         ///< 1-norm of the joint velocity
@@ -49,7 +50,8 @@ struct SegmentMotion {
   Scalar blend_acceleration;  ///< second derivative of the blend
 };
 
-/// Bound on the second derivative of `entry_error`'s error vectors between the records of a segment.
+/// Bound on the second derivative of `entry_error`'s error vectors between the records of a
+/// segment.
 template <typename Scalar, int Joints>
 TableError<Scalar> segment_curvature(const ModelBounds<Scalar, Joints>& bounds,
                                      const TableEntry<Scalar, Joints>& from,

@@ -96,10 +96,10 @@ TableEntry<Scalar, Joints> exact_entry(const RobotModel<Scalar, Joints>& model,
   return entry;
 }
 
-#define FLEXCOMP_TABLE_RECORD(Scalar, Joints)                                                    \
-  template void pack(const TableEntry<Scalar, Joints>&, const RecordLayout&, float*);            \
-  template TableEntry<Scalar, Joints> unpack(const Scalar*, const RecordLayout&);                \
-  template TableEntry<Scalar, Joints> exact_entry(const RobotModel<Scalar, Joints>&,             \
+#define FLEXCOMP_TABLE_RECORD(Scalar, Joints)                                         \
+  template void pack(const TableEntry<Scalar, Joints>&, const RecordLayout&, float*); \
+  template TableEntry<Scalar, Joints> unpack(const Scalar*, const RecordLayout&);     \
+  template TableEntry<Scalar, Joints> exact_entry(const RobotModel<Scalar, Joints>&,  \
                                                   const JointVector<Scalar, Joints>&);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE_RECORD)
 

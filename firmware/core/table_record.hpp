@@ -16,9 +16,9 @@ struct RecordLayout {
   std::uint32_t normal_in;   ///< path: unit normal of the plane that ends the blend of the segment
                              ///< before the node; the same but at a sharp corner
   std::uint32_t normal_out;  ///< path: and of that which begins the blend of the segment after it
-  std::uint32_t width;       ///< path: rad, how far the program strays from the chord to the next node
-  std::uint32_t blended;     ///< from here on the record is interpolated
-  std::uint32_t jacobian;    ///< column by column
+  std::uint32_t width;    ///< path: rad, how far the program strays from the chord to the next node
+  std::uint32_t blended;  ///< from here on the record is interpolated
+  std::uint32_t jacobian;  ///< column by column
   std::uint32_t weight_torque;
   std::uint32_t structure;         ///< lower triangle, row by row
   std::uint32_t structure_motion;  ///< column by column

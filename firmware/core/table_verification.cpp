@@ -16,8 +16,7 @@ TableError<Scalar> table_error_at(const RobotModel<Scalar, Joints>& model, const
 }
 
 template <typename Scalar, int Joints>
-JointVector<Scalar, Joints> chart_angles(const Table& table,
-                                         const Scalar (&place)[kMaxGridAxes]) {
+JointVector<Scalar, Joints> chart_angles(const Table& table, const Scalar (&place)[kMaxGridAxes]) {
   const TableHeader& header = table.header();
   JointVector<Scalar, Joints> q;
   if (table.chart() == Chart::path) {
@@ -47,13 +46,10 @@ JointVector<Scalar, Joints> chart_angles(const Table& table,
   return q;
 }
 
-#define FLEXCOMP_TABLE_VERIFICATION(Scalar, Joints)                                      \
-  template TableError<Scalar> table_error_at(const RobotModel<Scalar, Joints>&,          \
-                                             const Table&,                               \
-                                             const JointVector<Scalar, Joints>&,         \
-                                             TableCursor*);                              \
-  template JointVector<Scalar, Joints> chart_angles(const Table&,                        \
-                                                    const Scalar(&)[kMaxGridAxes]);
+#define FLEXCOMP_TABLE_VERIFICATION(Scalar, Joints)                                             \
+  template TableError<Scalar> table_error_at(const RobotModel<Scalar, Joints>&, const Table&,   \
+                                             const JointVector<Scalar, Joints>&, TableCursor*); \
+  template JointVector<Scalar, Joints> chart_angles(const Table&, const Scalar(&)[kMaxGridAxes]);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE_VERIFICATION)
 
 }  // namespace flexcomp

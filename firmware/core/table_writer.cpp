@@ -38,8 +38,8 @@ TableWriter::TableWriter(const RobotModel<Scalar, Joints>& model,
   header_->model_hash_low = static_cast<std::uint32_t>(hash);
   header_->model_hash_high = static_cast<std::uint32_t>(hash >> 32);
   header_->chart = static_cast<std::uint32_t>(chart);
-  header_->contents = (layout_.has_weight ? Table::kWeight : 0U) |
-                      (layout_.has_structure ? Table::kStructure : 0U);
+  header_->contents =
+      (layout_.has_weight ? Table::kWeight : 0U) | (layout_.has_structure ? Table::kStructure : 0U);
   header_->joints = Joints;
   header_->record_size = layout_.size;
   for (std::size_t i = 0; i < Joints; ++i) {
@@ -81,8 +81,8 @@ Result check_build_arguments(const RobotModel<Scalar, Joints>& model,
       std::isfinite(requirements.moment_bound) && requirements.moment_bound >= Scalar(0) &&
       is_positive(requirements.force_bound + requirements.moment_bound) &&
       is_positive(requirements.position_tolerance) &&
-      is_positive(requirements.orientation_tolerance) &&
-      std::isfinite(requirements.largest_gain) && requirements.largest_gain >= Scalar(0);
+      is_positive(requirements.orientation_tolerance) && std::isfinite(requirements.largest_gain) &&
+      requirements.largest_gain >= Scalar(0);
   if (!valid) {
     return Result::bad_argument;
   }
@@ -95,12 +95,11 @@ Result check_build_arguments(const RobotModel<Scalar, Joints>& model,
 template void TableWriter::finish(std::uint32_t, const TableError<float>&);
 template void TableWriter::finish(std::uint32_t, const TableError<double>&);
 
-#define FLEXCOMP_TABLE_WRITER(Scalar, Joints)                                                 \
-  template TableWriter::TableWriter(const RobotModel<Scalar, Joints>&,                        \
-                                    const TableRequirements<Scalar>&, Chart, void*,           \
-                                    std::size_t);                                             \
-  template Result check_build_arguments(const RobotModel<Scalar, Joints>&,                    \
-                                        const TableRequirements<Scalar>&, const void*,        \
+#define FLEXCOMP_TABLE_WRITER(Scalar, Joints)                                                     \
+  template TableWriter::TableWriter(const RobotModel<Scalar, Joints>&,                            \
+                                    const TableRequirements<Scalar>&, Chart, void*, std::size_t); \
+  template Result check_build_arguments(const RobotModel<Scalar, Joints>&,                        \
+                                        const TableRequirements<Scalar>&, const void*,            \
                                         std::size_t, const std::size_t*);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE_WRITER)
 

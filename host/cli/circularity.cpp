@@ -1,3 +1,5 @@
+#include "geometry/circularity.hpp"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -6,7 +8,6 @@
 #include "cli/command.hpp"
 #include "cli/position_columns.hpp"
 #include "error.hpp"
-#include "geometry/circularity.hpp"
 
 namespace flexcomp::cli {
 namespace {

@@ -27,8 +27,8 @@ struct Options {
   bool json = false;
 };
 
-/// The core as an offline tool: no filter, no fading, and limits that only a fault would meet, so that
-/// every row gets its full correction.
+/// The core as an offline tool: no filter, no fading, and limits that only a fault would meet, so
+/// that every row gets its full correction.
 Core::Config offline_config(const model::Robot& robot, const Table& table) {
   Core::Config config;
   config.period = 1;
@@ -73,8 +73,8 @@ class OfflineCompensator {
 
   JointVector<double, 6> corrected(Eigen::Index row) {
     Core::Output output = tick(row);
-    // Where the program has run back on itself and turns off, the core looks for the new segment over
-    // a few ticks; here there is time for that.
+    // Where the program has run back on itself and turns off, the core looks for the new segment
+    // over a few ticks; here there is time for that.
     for (std::uint32_t i = 0; i < nodes_ && (output.status & kChartEdge) != 0; ++i) {
       output = tick(row);
     }
@@ -93,8 +93,8 @@ class OfflineCompensator {
     std::string reasons;
     for (std::uint32_t bit = 1; bit != 0 && bit <= kNoSetpoint; bit <<= 1) {
       if ((status & bit) != 0) {
-        reasons += (reasons.empty() ? "" : ", ") +
-                   std::string(describe(static_cast<StatusBit>(bit)));
+        reasons +=
+            (reasons.empty() ? "" : ", ") + std::string(describe(static_cast<StatusBit>(bit)));
       }
     }
     throw InputError(fmt::format("{}: {}; make the table from this path, for its largest wrench",
@@ -109,12 +109,12 @@ class OfflineCompensator {
 };
 
 /// Distance of the bent TCP from where it should be.
-TableError<double> tcp_error(const RobotModel<double, 6>& model, const JointVector<double, 6>& wanted,
+TableError<double> tcp_error(const RobotModel<double, 6>& model,
+                             const JointVector<double, 6>& wanted,
                              const JointVector<double, 6>& commanded,
                              const Wrench<double>& wrench) {
-  const Twist<double> off =
-      pose_difference(forward_kinematics<double, 6>(model, wanted).tcp,
-                      simulation::settle(model, commanded, wrench).tcp);
+  const Twist<double> off = pose_difference(forward_kinematics<double, 6>(model, wanted).tcp,
+                                            simulation::settle(model, commanded, wrench).tcp);
   return {off.head<3>().norm(), off.tail<3>().norm()};
 }
 
@@ -164,13 +164,16 @@ void add_compensate(CLI::App* app, Action* action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "compensate",
-      "Correct a program: the same rows, with q_cmd moved so that the TCP of the bent robot stands,\n"
+      "Correct a program: the same rows, with q_cmd moved so that the TCP of the bent robot "
+      "stands,\n"
       "in position and orientation, where the given q_cmd would put that of a stiff one. Runs the\n"
       "controller's own core, tick by tick, without filter and fading.\n"
-      "Example: flexcomp compensate --model robot.yaml --table t.fct --path path.csv --out out.csv");
+      "Example: flexcomp compensate --model robot.yaml --table t.fct --path path.csv --out "
+      "out.csv");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command->add_option("--table", options->table, "made by flexcomp table")->required();
-  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")->required();
+  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")
+      ->required();
   command->add_option("--out", options->out, "recording to write")->required();
   command->add_flag("--json", options->json, "print the summary as JSON");
   command->callback([=] { *action = [=] { return run(*options); }; });

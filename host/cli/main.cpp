@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <exception>
 #include <new>
 
@@ -39,9 +40,7 @@ int run(const Action& action) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
       "From model to corrected path:\n"
@@ -51,7 +50,8 @@ int main(int argc, char** argv) {
       "  flexcomp simulate …      where the bending robot really goes\n"
       "  flexcomp circularity …   how round that is\n"
       "  flexcomp report …        all of it on one page\n\n"
-      "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not hold,\n"
+      "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not "
+      "hold,\n"
       "2 unusable input or arguments, 3 internal fault.");
   app.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
   app.require_subcommand(1);
@@ -63,9 +63,7 @@ int main(int argc, char** argv) {
   flexcomp::cli::add_simulate(&app, &action);
   flexcomp::cli::add_circularity(&app, &action);
   flexcomp::cli::add_report(&app, &action);
-  const auto is_asked_for = [&](const CLI::App* command) {
-    return command->get_name() == argv[1];
-  };
+  const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked_for).empty()) {
     complain(fmt::format("unknown command '{}' (see --help)", argv[1]));
     return flexcomp::cli::kUnusableInput;
@@ -80,4 +78,15 @@ int main(int argc, char** argv) {
     return flexcomp::cli::kUnusableInput;
   }
   return run(action);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (...) {
+    std::fputs("flexcomp: internal fault\n", stderr);
+    return flexcomp::cli::kInternalFault;
+  }
 }

@@ -66,10 +66,13 @@ void add_plan(CLI::App* app, Action* action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = plan->add_subcommand(
       "circle",
-      "A milled circle: joint angles by inverse kinematics, tool orientation constant, and a wrench\n"
-      "that turns with the path. Force and moment are given as {out of the circle, along the feed,\n"
+      "A milled circle: joint angles by inverse kinematics, tool orientation constant, and a "
+      "wrench\n"
+      "that turns with the path. Force and moment are given as {out of the circle, along the "
+      "feed,\n"
       "along the plane's normal}; the defaults are those of the study by Klimchik et al. (2017).\n"
-      "Example: flexcomp plan circle --model robot.yaml --center 1.6,0,1.2 --plane xz --out path.csv");
+      "Example: flexcomp plan circle --model robot.yaml --center 1.6,0,1.2 --plane xz --out "
+      "path.csv");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command->add_option("--out", options->out, "recording to write: t, q_cmd, wrench")->required();
   add_vector(command, "--center", &options->center, "centre, m, base frame")->required();

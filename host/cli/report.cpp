@@ -23,8 +23,8 @@ struct Options {
 };
 
 /// "name=file".
-report::NamedCircle read_circle(const std::string& argument, const std::vector<std::string>& columns,
-                                std::string* plane) {
+report::NamedCircle read_circle(const std::string& argument,
+                                const std::vector<std::string>& columns, std::string* plane) {
   const std::size_t equals = argument.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw InputError(fmt::format("--recording: expected NAME=FILE, found '{}'", argument));
@@ -58,9 +58,11 @@ void add_report(CLI::App* app, Action* action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "report",
-      "Recorded circles side by side on one self-contained HTML page: circularity, the polar plot with\n"
+      "Recorded circles side by side on one self-contained HTML page: circularity, the polar plot "
+      "with\n"
       "deviations magnified, the deviation along the circle, the table's certificate.\n"
-      "Example: flexcomp report --model robot.yaml --recording before=a.csv --recording after=b.csv \\\n"
+      "Example: flexcomp report --model robot.yaml --recording before=a.csv --recording "
+      "after=b.csv \\\n"
       "           --columns x,z --table t.fct --out report.html");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command

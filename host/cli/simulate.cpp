@@ -50,12 +50,15 @@ void add_simulate(CLI::App* app, Action* action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "simulate",
-      "Where the robot really goes: its springs bent by the wrench and, with gravity in the model, by\n"
-      "its weight, at rest at every row (quasi-static). Writes the rows with q_meas (the motors follow\n"
+      "Where the robot really goes: its springs bent by the wrench and, with gravity in the model, "
+      "by\n"
+      "its weight, at rest at every row (quasi-static). Writes the rows with q_meas (the motors "
+      "follow\n"
       "the command) and x, y, z of the TCP; free of noise.\n"
       "Example: flexcomp simulate --model robot.yaml --path path.csv --out recording.csv");
   command->add_option("--model", options->model, "robot.yaml")->required();
-  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")->required();
+  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")
+      ->required();
   command->add_option("--out", options->out, "recording to write")->required();
   command->add_option("--compliance-scale", options->compliance_scale,
                       "all springs this many times as soft: a robot that is not as its model says");

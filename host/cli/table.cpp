@@ -40,10 +40,9 @@ struct VerifyOptions {
 /// What is asked of the table; where the wrench bounds are not given, a tenth above the path's.
 TableRequirements<double> requirements(const BuildOptions& options,
                                        const recording::Recording& path) {
-  TableRequirements<double> wanted{options.force, options.moment, options.tolerance,
-                                   options.orientation_tolerance > 0 ? options.orientation_tolerance
-                                                                     : options.tolerance,
-                                   0};
+  TableRequirements<double> wanted{
+      options.force, options.moment, options.tolerance,
+      options.orientation_tolerance > 0 ? options.orientation_tolerance : options.tolerance, 0};
   const recording::Samples& wrench = recording::require(path, path.wrench, "fx..mz");
   const double force = wrench.leftCols<3>().rowwise().norm().maxCoeff();
   const double moment = wrench.rightCols<3>().rowwise().norm().maxCoeff();
@@ -115,7 +114,8 @@ int run_build(const BuildOptions& options) {
   } else {
     const TableHeader& header = table.header();
     fmt::print(
-        "{}: {} nodes, {} bytes\ncertified: no deflection or corrected position is off by more than "
+        "{}: {} nodes, {} bytes\ncertified: no deflection or corrected position is off by more "
+        "than "
         "{:.3g} µm and {:.3g} µrad\nfor any force up to {:.6g} N and moment up to {:.6g} N·m\n",
         options.out, header.node_count, header.size, 1e6 * header.position_error,
         1e6 * header.orientation_error, header.force_bound, header.moment_bound);
@@ -125,14 +125,13 @@ int run_build(const BuildOptions& options) {
 
 using Places = std::function<JointVector<double, 6>(double, std::mt19937_64*)>;
 
-/// Places of the table's own chart: in order along the chords between the nodes of a path, at random
-/// in a grid. The first argument runs from 0 to 1.
+/// Places of the table's own chart: in order along the chords between the nodes of a path, at
+/// random in a grid. The first argument runs from 0 to 1.
 Places chart_places(const Table& table) {
   return [&table](double along, std::mt19937_64* random) {
     std::uniform_real_distribution<double> uniform(0, 1);
-    const double place[kMaxGridAxes] = {
-        table.chart() == Chart::path ? along : uniform(*random), uniform(*random),
-        uniform(*random), uniform(*random)};
+    const double place[kMaxGridAxes] = {table.chart() == Chart::path ? along : uniform(*random),
+                                        uniform(*random), uniform(*random), uniform(*random)};
     return chart_angles<double, 6>(table, place);
   };
 }
@@ -148,8 +147,8 @@ Places program_places(const recording::Samples& q_cmd) {
   };
 }
 
-TableError<double> largest_error(const model::Robot& robot, const Table& table,
-                                 std::size_t samples, const Places& places) {
+TableError<double> largest_error(const model::Robot& robot, const Table& table, std::size_t samples,
+                                 const Places& places) {
   Progress progress("verifying", samples);
   std::mt19937_64 random(20170601);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -174,8 +173,7 @@ TableError<double> largest_error(const VerifyOptions& options, const model::Robo
   TableError<double> worst = largest_error(robot, table, options.samples, chart_places(table));
   if (!options.path.empty()) {
     const recording::Recording path = recording::read_recording(options.path);
-    const recording::Samples& q_cmd =
-        recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
+    const recording::Samples& q_cmd = recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
     if (q_cmd.rows() < 2) {
       throw InputError(fmt::format("{}: expected two rows or more", options.path));
     }

@@ -21,20 +21,20 @@ struct Circularity {
   double value() const { return r_max - r_min; }
 };
 
-/// The four below throw InputError for a point that is not finite, fewer than three distinct points,
-/// or points on one line. They are exact to rounding, global (where there are local optima the best
-/// is found), and at home with repeated points and coordinates far from the origin.
+/// The four below throw InputError for a point that is not finite, fewer than three distinct
+/// points, or points on one line. They are exact to rounding, global (where there are local optima
+/// the best is found), and at home with repeated points and coordinates far from the origin.
 
-/// LSC: the centre of the circle with the least sum of squared distances, by Newton–Raphson from the
-/// algebraic fit (Klimchik et al. 2017, eqs. 13 and 14). O(n) a step, a handful of steps.
+/// LSC: the centre of the circle with the least sum of squared distances, by Newton–Raphson from
+/// the algebraic fit (Klimchik et al. 2017, eqs. 13 and 14). O(n) a step, a handful of steps.
 Circularity least_squares_circularity(const Points& points);
 
 /// MZC: the centre for which the two concentric circles that enclose all points are closest. Among
 /// centres at a finite distance: a short arc may lie between two parallel lines that are closer.
 ///
 /// The problem is solved by trying all candidates on a few points, adding those it left out, until
-/// none is left out: the optimum over a part of the points is never wider than that over all, so when
-/// the two agree neither can be beaten. O(n) a round, some ten rounds.
+/// none is left out: the optimum over a part of the points is never wider than that over all, so
+/// when the two agree neither can be beaten. O(n) a round, some ten rounds.
 Circularity minimum_zone_circularity(const Points& points);
 
 /// MIC: the centre of the largest circle that holds no point and whose centre lies in the convex

@@ -47,8 +47,8 @@ struct EmptyCircle {
 /// Largest circle with its centre in the hull that holds none of a few points.
 ///
 /// Inside the hull it touches three points and has its centre in their triangle. On an edge of the
-/// hull it can be no larger than half the edge, so only long edges, as across the gap of an arc, are
-/// looked at.
+/// hull it can be no larger than half the edge, so only long edges, as across the gap of an arc,
+/// are looked at.
 class EmptyCircleOfFew {
  public:
   EmptyCircleOfFew(const Profile& profile, const std::vector<std::size_t>& hull,

@@ -7,8 +7,8 @@
 namespace flexcomp::geometry {
 namespace {
 
-/// Minimiser of Σ(|p|² − 2 c·p − k)², linear in the centre c: close to the least-squares centre for a
-/// full circle, and a fair start for an arc (Kåsa 1976).
+/// Minimiser of Σ(|p|² − 2 c·p − k)², linear in the centre c: close to the least-squares centre for
+/// a full circle, and a fair start for an arc (Kåsa 1976).
 Eigen::Vector2d algebraic_center(const Profile& profile) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();

@@ -36,8 +36,8 @@ bool bisectors_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Ei
   return center->allFinite();
 }
 
-/// Minimum zone of a few points by trying every centre that four contacts can fix: two points on each
-/// circle, or three on one and one on the other. Every local optimum is such a centre.
+/// Minimum zone of a few points by trying every centre that four contacts can fix: two points on
+/// each circle, or three on one and one on the other. Every local optimum is such a centre.
 class ZoneOfFew {
  public:
   ZoneOfFew(const Profile& profile, const std::vector<std::size_t>& indices)

@@ -54,9 +54,8 @@ Profile::Profile(const Points& points) {
   const Eigen::Vector2d b = points_[farthest_from(points_, a)];
   const double length = (b - a).norm();
   // What the given coordinates can resolve.
-  const double resolution =
-      4 * std::numeric_limits<double>::epsilon() *
-      std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  const double resolution = 4 * std::numeric_limits<double>::epsilon() *
+                            std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   double height = 0;
   std::size_t elsewhere = 0;
   for (const Eigen::Vector2d& point : points_) {
@@ -93,8 +92,7 @@ Profile::Range Profile::range(const Eigen::Vector2d& center) const {
 Circularity Profile::about(const Eigen::Vector2d& center, std::vector<std::size_t> inner_support,
                            std::vector<std::size_t> outer_support) const {
   const Range at = range(center);
-  return {origin_ + center, at.r_min, at.r_max, std::move(inner_support),
-          std::move(outer_support)};
+  return {origin_ + center, at.r_min, at.r_max, std::move(inner_support), std::move(outer_support)};
 }
 
 bool circumcenter(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,

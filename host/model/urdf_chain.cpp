@@ -1,63 +1,71 @@
 #include "model/urdf_chain.hpp"
 
-#include <console_bridge/console.h>
 #include <fmt/format.h>
-#include <urdf_parser/urdf_parser.h>
+#include <urdf_model/model.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "error.hpp"
-#include "files/text_file.hpp"
+#include "model/one_line.hpp"
+#include "model/rigid_body.hpp"
+#include "model/urdf_file.hpp"
 
 namespace flexcomp::model {
 namespace {
 
-/// A rigid body about a frame's origin: mass, first moment and inertia at the origin, so that bodies
-/// add up.
-struct Body {
-  double mass = 0;
-  Vector3<double> moment = Vector3<double>::Zero();
-  Matrix3<double> inertia = Matrix3<double>::Zero();
-
-  void add(double m, const Vector3<double>& center, const Matrix3<double>& inertia_at_center) {
-    mass += m;
-    moment += m * center;
-    inertia += inertia_at_center +
-               m * (center.squaredNorm() * Matrix3<double>::Identity() - center * center.transpose());
-  }
-
-  Vector3<double> center() const {
-    return mass > 0 ? Vector3<double>(moment / mass) : Vector3<double>::Zero();
-  }
-
-  Matrix3<double> inertia_at_center() const {
-    const Vector3<double> c = center();
-    return inertia - mass * (c.squaredNorm() * Matrix3<double>::Identity() - c * c.transpose());
-  }
-};
+Vector3<double> vector(const urdf::Vector3& from) { return {from.x, from.y, from.z}; }
 
 Pose<double> pose(const urdf::Pose& from) {
   const Eigen::Quaterniond rotation(from.rotation.w, from.rotation.x, from.rotation.y,
                                     from.rotation.z);
-  return {rotation.normalized().toRotationMatrix(),
-          Vector3<double>(from.position.x, from.position.y, from.position.z)};
+  return {rotation.normalized().toRotationMatrix(), vector(from.position)};
+}
+
+Matrix3<double> inertia(const urdf::Inertial& from) {
+  Matrix3<double> tensor;
+  tensor << from.ixx, from.ixy, from.ixz,  //
+      from.ixy, from.iyy, from.iyz,        //
+      from.ixz, from.iyz, from.izz;
+  return tensor;
+}
+
+/// Rounding may make a principal moment of a thin body a little negative.
+bool has_negative_principal_moment(const Matrix3<double>& inertia) {
+  const Vector3<double> moments =
+      Eigen::SelfAdjointEigenSolver<Matrix3<double>>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  return moments.minCoeff() < -1e-6 * moments.cwiseAbs().maxCoeff();
+}
+
+const char* type_name(const urdf::Joint& joint) {
+  switch (joint.type) {
+    case urdf::Joint::REVOLUTE:
+      return "revolute";
+    case urdf::Joint::CONTINUOUS:
+      return "continuous, so without limits";
+    case urdf::Joint::PRISMATIC:
+      return "prismatic";
+    case urdf::Joint::FLOATING:
+      return "floating";
+    case urdf::Joint::PLANAR:
+      return "planar";
+    default:
+      return "of no known type";
+  }
 }
 
 class ChainReader {
  public:
-  ChainReader(const std::filesystem::path& file, Robot* robot) : file_(file), robot_(*robot) {}
+  ChainReader(const std::filesystem::path& file, Robot* robot)
+      : file_(file), robot_(*robot), tree_(read_urdf(file)) {}
 
   void read() {
-    console_bridge::noOutputHandler();
-    const urdf::ModelInterfaceSharedPtr tree = urdf::parseURDF(files::read_text(file_));
-    console_bridge::restorePreviousOutputHandler();
-    if (!tree) {
-      fail("not a valid URDF (malformed XML, or a link or joint that contradicts itself)");
-    }
-    const std::vector<urdf::JointConstSharedPtr> joints = joints_between(*tree);
+    const std::vector<urdf::JointConstSharedPtr> joints = joints_between();
+    refuse_unless_six_revolute(joints);
     Pose<double> offset;
     std::size_t index = 0;
     for (const urdf::JointConstSharedPtr& joint : joints) {
@@ -66,7 +74,7 @@ class ChainReader {
         continue;
       }
       read_joint(*joint, offset, index);
-      read_body(*tree, *joint, joints, index);
+      read_body(*joint, joints, index);
       offset = Pose<double>{};
       ++index;
     }
@@ -78,15 +86,22 @@ class ChainReader {
     throw InputError(fmt::format("{}: {}", file_.string(), why));
   }
 
-  /// Joints from base to tool, checked to hold six revolute ones.
-  std::vector<urdf::JointConstSharedPtr> joints_between(const urdf::ModelInterface& tree) const {
+  [[noreturn]] void fail(const urdf::Joint& joint, const std::string& why) const {
+    fail(fmt::format("joint '{}': {}", one_line(joint.name), why));
+  }
+
+  [[noreturn]] void fail(const urdf::Link& link, const std::string& why) const {
+    fail(fmt::format("link '{}': {}", one_line(link.name), why));
+  }
+
+  std::vector<urdf::JointConstSharedPtr> joints_between() const {
     for (const std::string& name : {robot_.base_link, robot_.tool_link}) {
-      if (!tree.getLink(name)) {
-        fail(fmt::format("has no link '{}'", name));
+      if (!tree_->getLink(name)) {
+        fail(fmt::format("has no link '{}'", one_line(name)));
       }
     }
     std::vector<urdf::JointConstSharedPtr> joints;
-    urdf::LinkConstSharedPtr link = tree.getLink(robot_.tool_link);
+    urdf::LinkConstSharedPtr link = tree_->getLink(robot_.tool_link);
     while (link && link->name != robot_.base_link) {
       if (link->parent_joint) {
         joints.push_back(link->parent_joint);
@@ -98,39 +113,40 @@ class ChainReader {
                        robot_.base_link));
     }
     std::reverse(joints.begin(), joints.end());
+    return joints;
+  }
+
+  void refuse_unless_six_revolute(const std::vector<urdf::JointConstSharedPtr>& joints) const {
+    const std::string expected = fmt::format("expected six revolute joints between '{}' and '{}'",
+                                             robot_.base_link, robot_.tool_link);
     std::size_t revolute = 0;
     for (const urdf::JointConstSharedPtr& joint : joints) {
       if (joint->type == urdf::Joint::FIXED) {
         continue;
       }
       if (joint->type != urdf::Joint::REVOLUTE) {
-        fail(fmt::format("joint '{}' is not revolute with limits; six such joints are expected "
-                         "between '{}' and '{}'",
-                         joint->name, robot_.base_link, robot_.tool_link));
+        fail(*joint, fmt::format("is {}; {}", type_name(*joint), expected));
       }
       ++revolute;
     }
-    if (revolute != 6) {
-      fail(fmt::format("expected six revolute joints between '{}' and '{}', found {}",
-                       robot_.base_link, robot_.tool_link, revolute));
+    if (revolute != robot_.joint_names.size()) {
+      fail(fmt::format("{}, found {}", expected, revolute));
     }
-    return joints;
   }
 
   void read_joint(const urdf::Joint& from, const Pose<double>& origin, std::size_t index) {
-    if (!from.limits || !(from.limits->lower < from.limits->upper)) {
-      fail(fmt::format("joint '{}': expected limits with lower below upper", from.name));
-    }
     if (from.mimic) {
-      fail(fmt::format("joint '{}': a joint that mimics another is not supported", from.name));
+      fail(from, "mimics another; expected joints that move by themselves");
     }
-    const Vector3<double> axis(from.axis.x, from.axis.y, from.axis.z);
-    if (!(axis.norm() > 1e-9)) {
-      fail(fmt::format("joint '{}': the axis must not be zero", from.name));
+    if (!from.limits || !(from.limits->lower < from.limits->upper)) {
+      fail(from, "expected limits with lower below upper");
+    }
+    if (from.limits->effort < 0 || from.limits->velocity < 0) {
+      fail(from, "the limits of effort and velocity must not be negative");
     }
     Joint<double>& to = robot_.elastic.joints[index];
     to.origin = origin;
-    to.axis = axis.normalized();
+    to.axis = axis(from);
     to.lower = from.limits->lower;
     to.upper = from.limits->upper;
     robot_.joint_names[index] = from.name;
@@ -138,53 +154,66 @@ class ChainReader {
     robot_.dynamics[index].velocity = from.limits->velocity;
   }
 
-  /// Sums what moves with a joint: its link and everything fixed to it.
-  void read_body(const urdf::ModelInterface& tree, const urdf::Joint& joint,
-                 const std::vector<urdf::JointConstSharedPtr>& chain, std::size_t index) {
-    Body body;
-    add_link(*tree.getLink(joint.child_link_name), Pose<double>{}, chain, &body);
-    if (body.mass < 0) {
-      fail(fmt::format("link '{}': the mass must not be negative", joint.child_link_name));
+  /// Takes figures that were rounded to three digits, but nothing that was not meant as a unit
+  /// vector.
+  Vector3<double> axis(const urdf::Joint& joint) const {
+    const Vector3<double> given = vector(joint.axis);
+    const double length = given.norm();
+    if (!(std::abs(length - 1) < 2e-3)) {
+      fail(joint, fmt::format("the axis has length {:.6g}; expected a unit vector", length));
     }
-    robot_.elastic.joints[index].mass = body.mass;
-    robot_.elastic.joints[index].center_of_mass = body.center();
+    return given / length;
+  }
+
+  void read_body(const urdf::Joint& joint, const std::vector<urdf::JointConstSharedPtr>& chain,
+                 std::size_t index) {
+    const RigidBody body = body_moved_by(joint, chain);
+    robot_.elastic.joints[index].mass = body.mass();
+    robot_.elastic.joints[index].center_of_mass = body.center_of_mass();
     robot_.link_inertia[index] = body.inertia_at_center();
   }
 
-  void add_link(const urdf::Link& link, const Pose<double>& frame,
-                const std::vector<urdf::JointConstSharedPtr>& chain, Body* body) const {
-    if (link.inertial) {
-      const urdf::Inertial& own = *link.inertial;
-      const Pose<double> center = frame * pose(own.origin);
-      Matrix3<double> inertia;
-      inertia << own.ixx, own.ixy, own.ixz, own.ixy, own.iyy, own.iyz, own.ixz, own.iyz, own.izz;
-      body->add(own.mass, center.position,
-                center.rotation * inertia * center.rotation.transpose());
-    }
-    for (const urdf::JointSharedPtr& joint : link.child_joints) {
-      const bool moves_on = joint->type != urdf::Joint::FIXED &&
-                            std::find(chain.begin(), chain.end(), joint) != chain.end();
-      if (moves_on) {
-        continue;
-      }
-      const urdf::LinkSharedPtr child = child_of(link, *joint);
-      if (child) {
-        add_link(*child, frame * pose(joint->parent_to_joint_origin_transform), chain, body);
+  /// A joint's link and all that hangs on it up to the chain's next moving joint.
+  RigidBody body_moved_by(const urdf::Joint& joint,
+                          const std::vector<urdf::JointConstSharedPtr>& chain) const {
+    RigidBody body;
+    std::vector<std::pair<urdf::LinkConstSharedPtr, Pose<double>>> open;
+    open.emplace_back(tree_->getLink(joint.child_link_name), Pose<double>{});
+    while (!open.empty()) {
+      const auto [link, frame] = open.back();
+      open.pop_back();
+      add_link(*link, frame, &body);
+      for (const urdf::JointSharedPtr& child : link->child_joints) {
+        const bool is_next = child->type != urdf::Joint::FIXED &&
+                             std::find(chain.begin(), chain.end(), child) != chain.end();
+        if (!is_next) {
+          open.emplace_back(tree_->getLink(child->child_link_name),
+                            frame * pose(child->parent_to_joint_origin_transform));
+        }
       }
     }
+    return body;
   }
 
-  static urdf::LinkSharedPtr child_of(const urdf::Link& link, const urdf::Joint& joint) {
-    for (const urdf::LinkSharedPtr& child : link.child_links) {
-      if (child->name == joint.child_link_name) {
-        return child;
-      }
+  void add_link(const urdf::Link& link, const Pose<double>& frame, RigidBody* body) const {
+    if (!link.inertial) {
+      return;
     }
-    return nullptr;
+    const urdf::Inertial& own = *link.inertial;
+    if (own.mass < 0) {
+      fail(link, fmt::format("the mass must not be negative, found {}", own.mass));
+    }
+    if (has_negative_principal_moment(inertia(own))) {
+      fail(link, "no body has this inertia: a principal moment is negative");
+    }
+    const Pose<double> center = frame * pose(own.origin);
+    body->add(own.mass, center.position,
+              center.rotation * inertia(own) * center.rotation.transpose());
   }
 
   const std::filesystem::path& file_;
   Robot& robot_;
+  urdf::ModelInterfaceSharedPtr tree_;
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "model/robot.hpp"
 
@@ -9,10 +8,14 @@ namespace flexcomp::model {
 
 /// Reads a URDF and fills what it says about the chain from `robot->base_link` to
 /// `robot->tool_link`: joint names, geometry, limits, masses, inertias, efforts and velocities.
-/// Fixed joints between, and bodies fixed beside, are folded into the links that carry them.
+///
+/// Fixed joints between are folded into the joints' origins. All that hangs on a link beside the
+/// chain counts as part of it: what is fixed to it, and what moves on it (a gripper's fingers) as
+/// it stands at zero.
 ///
 /// Throws InputError naming the file and the link or joint if the file is no URDF, a link is not
-/// there, or there are not exactly six revolute joints with limits between the two.
+/// there, a body is impossible, or there are not exactly six revolute joints with limits between
+/// the two links.
 void read_urdf_chain(const std::filesystem::path& urdf, Robot* robot);
 
 }  // namespace flexcomp::model

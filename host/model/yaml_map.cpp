@@ -2,84 +2,153 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "model/one_line.hpp"
 
 namespace flexcomp::model {
+namespace {
 
-YamlMap::YamlMap(YAML::Node node, std::string file, std::string where)
-    : node_(std::move(node)), file_(std::move(file)), where_(std::move(where)) {
+std::string line_of(const std::string& file, const YAML::Mark& mark) {
+  return mark.is_null() ? file : fmt::format("{}:{}", file, mark.line + 1);
+}
+
+std::string description(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      return "'" + one_line(node.Scalar()) + "'";
+    case YAML::NodeType::Sequence:
+      return fmt::format("a list of {}", node.size());
+    case YAML::NodeType::Map:
+      return "keys and values";
+    default:
+      return "nothing";
+  }
+}
+
+/// Letters to insert, drop or replace to make one word of the other (Levenshtein).
+std::size_t edit_distance(const std::string& from, const std::string& to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  for (std::size_t j = 0; j <= to.size(); ++j) {
+    row[j] = j;
+  }
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row[to.size()];
+}
+
+/// "did you mean" for a slip of the pen that is near to one key alone, else all there are.
+std::string expectation(const std::string& found, const std::vector<std::string>& keys) {
+  std::multimap<std::size_t, std::string> by_distance;
+  for (const std::string& key : keys) {
+    by_distance.emplace(edit_distance(found, key), key);
+  }
+  const auto [distance, nearest] = *by_distance.begin();
+  if (by_distance.count(distance) == 1 && 2 * distance <= nearest.size()) {
+    return fmt::format("did you mean '{}'?", nearest);
+  }
+  return fmt::format("expected one of: {}", fmt::join(keys, ", "));
+}
+
+}  // namespace
+
+YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string where)
+    : node_(node), file_(std::move(file)), where_(std::move(where)) {
   if (!node_.IsMap()) {
-    throw InputError(fmt::format("{}: expected keys and values", location(node_, where_)));
+    throw InputError(fmt::format("{}: expected keys and values, found {}", location(node_, where_),
+                                 description(node_)));
   }
   std::set<std::string> seen;
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar()) {
-      throw InputError(fmt::format("{}: a key must be a word", location(entry.first, where_)));
+      throw InputError(fmt::format("{}: expected a word as key, found {}",
+                                   location(entry.first, where_), description(entry.first)));
     }
     if (!seen.insert(entry.first.Scalar()).second) {
-      throw InputError(fmt::format("{}: key appears twice",
-                                   location(entry.first, entry.first.Scalar())));
+      throw InputError(
+          fmt::format("{}: the key appears twice", location(entry.first, entry.first.Scalar())));
     }
   }
 }
 
 std::string YamlMap::location(const YAML::Node& node, const std::string& key) const {
-  const YAML::Mark mark = node.Mark();
   const std::string path = where_.empty() || key == where_ ? key : where_ + "." + key;
-  const std::string line = mark.is_null() ? file_ : fmt::format("{}:{}", file_, mark.line + 1);
-  return path.empty() ? line : fmt::format("{}: '{}'", line, path);
+  const std::string line = line_of(file_, node.Mark());
+  return path.empty() ? line : fmt::format("{}: '{}'", line, one_line(path));
 }
 
 void YamlMap::refuse(const std::string& key, const std::string& why) const {
-  const YAML::Node child = node_[key];
-  throw InputError(fmt::format("{}: {}", location(child.IsDefined() ? child : node_, key), why));
+  YAML::Node at = node_;
+  for (const auto& entry : node_) {
+    if (entry.first.Scalar() == key) {
+      at = entry.first;
+      break;
+    }
+  }
+  throw InputError(fmt::format("{}: {}", location(at, key), why));
 }
 
-bool YamlMap::has(const std::string& key) {
-  known_.insert(key);
-  return static_cast<bool>(node_[key]);
+void YamlMap::allow_only(const std::vector<std::string>& keys, const std::string& why) const {
+  for (const auto& entry : node_) {
+    const std::string& found = entry.first.Scalar();
+    if (std::find(keys.begin(), keys.end(), found) == keys.end()) {
+      throw InputError(
+          fmt::format("{}: {}; {}", location(entry.first, found), why, expectation(found, keys)));
+    }
+  }
 }
 
-YAML::Node YamlMap::required(const std::string& key) {
+bool YamlMap::has(const std::string& key) const { return node_[key].IsDefined(); }
+
+YAML::Node YamlMap::required(const std::string& key) const {
   if (!has(key)) {
-    throw InputError(fmt::format("{}: missing", location(node_, key)));
+    refuse(key, "missing");
   }
   return node_[key];
 }
 
-std::string YamlMap::text(const std::string& key) {
+std::string YamlMap::text(const std::string& key) const {
   const YAML::Node child = required(key);
   if (!child.IsScalar() || child.Scalar().empty()) {
-    refuse(key, "expected a text");
+    refuse(key, fmt::format("expected a text, found {}", description(child)));
   }
   return child.Scalar();
 }
 
-YamlMap YamlMap::map(const std::string& key) {
-  return {required(key), file_, where_.empty() ? key : where_ + "." + key};
+YamlMap YamlMap::map(const std::string& key) const {
+  const YAML::Node child = required(key);
+  if (!child.IsMap()) {
+    refuse(key, fmt::format("expected keys and values, found {}", description(child)));
+  }
+  return {child, file_, where_.empty() ? key : where_ + "." + key};
 }
 
 double YamlMap::scalar(const YAML::Node& node, const std::string& key) const {
   double value = 0;
   if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {
-    const std::string found = node.IsScalar() ? "'" + node.Scalar() + "'" : "something else";
-    throw InputError(
-        fmt::format("{}: expected a finite number, found {}", location(node, key), found));
+    refuse(key, fmt::format("expected a finite number, found {}", description(node)));
   }
   return value;
 }
 
-double YamlMap::number(const std::string& key) { return scalar(required(key), key); }
+double YamlMap::number(const std::string& key) const { return scalar(required(key), key); }
 
-double YamlMap::number_or(const std::string& key, double fallback) {
+double YamlMap::number_or(const std::string& key, double fallback) const {
   return has(key) ? number(key) : fallback;
 }
 
-double YamlMap::positive_number(const std::string& key) {
+double YamlMap::non_negative(const std::string& key) const {
   const double value = number(key);
   if (value < 0) {
     refuse(key, fmt::format("must not be negative, found {}", value));
@@ -87,46 +156,34 @@ double YamlMap::positive_number(const std::string& key) {
   return value;
 }
 
-double YamlMap::positive_number_or(const std::string& key, double fallback) {
-  return has(key) ? positive_number(key) : fallback;
+double YamlMap::non_negative_or(const std::string& key, double fallback) const {
+  return has(key) ? non_negative(key) : fallback;
 }
 
-void YamlMap::read_numbers(const std::string& key, double* values, std::size_t count) {
+void YamlMap::read_numbers(const std::string& key, double* values, std::size_t count) const {
   const YAML::Node child = required(key);
   if (!child.IsSequence() || child.size() != count) {
-    refuse(key, fmt::format("expected a list of {} numbers", count));
+    refuse(key, fmt::format("expected a list of {} numbers, found {}", count, description(child)));
   }
   for (std::size_t i = 0; i < count; ++i) {
     values[i] = scalar(child[i], key);
   }
 }
 
-void YamlMap::refuse_other_keys() const {
-  for (const auto& entry : node_) {
-    if (known_.count(entry.first.Scalar()) == 0) {
-      std::string expected;
-      for (const std::string& key : known_) {
-        expected += (expected.empty() ? "" : ", ") + key;
-      }
-      throw InputError(fmt::format("{}: unknown key; known here: {}",
-                                   location(entry.first, entry.first.Scalar()), expected));
-    }
-  }
-}
-
-YamlMap load_yaml(const std::string& file) {
+YamlMap load_yaml(const std::filesystem::path& file) {
   const std::string text = files::read_text(file);
+  std::vector<YAML::Node> documents;
   try {
-    const YAML::Node document = YAML::Load(text);
-    if (!document.IsMap()) {
-      throw InputError(fmt::format("{}: not a YAML file with keys and values", file));
-    }
-    return {document, file, ""};
+    documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
-    const std::string line =
-        error.mark.is_null() ? file : fmt::format("{}:{}", file, error.mark.line + 1);
-    throw InputError(fmt::format("{}: not valid YAML: {}", line, error.msg));
+    throw InputError(fmt::format("{}: not valid YAML: {}", line_of(file.string(), error.mark),
+                                 one_line(error.msg, 200)));
   }
+  if (documents.size() != 1) {
+    throw InputError(
+        fmt::format("{}: expected one YAML document, found {}", file.string(), documents.size()));
+  }
+  return {documents.front(), file.string(), ""};
 }
 
 }  // namespace flexcomp::model

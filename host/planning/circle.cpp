@@ -28,8 +28,8 @@ Matrix3<double> path_frame(const CirclePlan& plan, double angle) {
 
 /// Tool orientation with z along the tool axis and x as near as can be to the base's x (or z).
 Matrix3<double> tool_orientation(const Vector3<double>& tool_axis) {
-  const Vector3<double> aim = std::abs(tool_axis.x()) < 0.9 ? Vector3<double>::UnitX()
-                                                            : Vector3<double>::UnitZ();
+  const Vector3<double> aim =
+      std::abs(tool_axis.x()) < 0.9 ? Vector3<double>::UnitX() : Vector3<double>::UnitZ();
   const Vector3<double> y = tool_axis.cross(aim).normalized();
   Matrix3<double> orientation;
   orientation << y.cross(tool_axis), y, tool_axis;
@@ -46,8 +46,9 @@ class CirclePlanner {
   recording::Samples plan(const std::function<void(int)>& progress) {
     const std::vector<Angles> starts = solve_all(model_, target(0));
     if (starts.empty()) {
-      throw InputError("the circle cannot be reached: no posture within the joint limits reaches its "
-                       "first point with this tool axis");
+      throw InputError(
+          "the circle cannot be reached: no posture within the joint limits reaches its "
+          "first point with this tool axis");
     }
     recording::Samples path(plan_.points + 1, 6);
     int farthest = 0;
@@ -64,14 +65,11 @@ class CirclePlanner {
         360.0 * farthest / plan_.points));
   }
 
-  double angle(int point) const {
-    return (plan_.clockwise ? -2 : 2) * kPi * point / plan_.points;
-  }
+  double angle(int point) const { return (plan_.clockwise ? -2 : 2) * kPi * point / plan_.points; }
 
  private:
   Pose<double> target(int point) const {
-    return {orientation_,
-            plan_.center + plan_.radius * path_frame(plan_, angle(point)).col(0)};
+    return {orientation_, plan_.center + plan_.radius * path_frame(plan_, angle(point)).col(0)};
   }
 
   /// Number of points reached.

@@ -104,7 +104,8 @@ std::string curves(const CircleReport& report) {
   return plots + "\n";
 }
 
-/// The circle as a ballbar prints it: the zero line is the mean circle, deviations stand out from it.
+/// The circle as a ballbar prints it: the zero line is the mean circle, deviations stand out from
+/// it.
 std::string polar_plot(const CircleReport& report, const std::vector<Deviation>& deviations,
                        double largest) {
   const double scale = round_up(largest);
@@ -150,9 +151,9 @@ std::string circularity_rows(const CircleReport& report) {
       rows += fmt::format("<td>{:.4f}</td>", 1e3 * result.value());
     }
     const geometry::Circularity& fit = results[0];
-    rows += fmt::format("<td>{:.4f}</td><td>{:.4f}</td><td>{:.4f}</td></tr>\n",
-                        1e3 * fit.center.x(), 1e3 * fit.center.y(),
-                        1e3 * (fit.r_min + fit.r_max) / 2);
+    rows +=
+        fmt::format("<td>{:.4f}</td><td>{:.4f}</td><td>{:.4f}</td></tr>\n", 1e3 * fit.center.x(),
+                    1e3 * fit.center.y(), 1e3 * (fit.r_min + fit.r_max) / 2);
   }
   return rows;
 }
@@ -161,9 +162,11 @@ std::string certificate(const Table& table) {
   const TableHeader& header = table.header();
   return fmt::format(
       "<h2>The table's certificate</h2>\n"
-      "<p>{} nodes, {} bytes, robot fingerprint <code>{:016x}</code>. For any force up to {:.6g} N and "
+      "<p>{} nodes, {} bytes, robot fingerprint <code>{:016x}</code>. For any force up to {:.6g} N "
+      "and "
       "moment up to {:.6g} N·m, anywhere on its path, neither the predicted deflection nor the "
-      "corrected TCP is further than <b>{:.3g} µm</b> and <b>{:.3g} µrad</b> from what the model says. "
+      "corrected TCP is further than <b>{:.3g} µm</b> and <b>{:.3g} µrad</b> from what the model "
+      "says. "
       "This is a bound, not a sample: between the points that were computed, the curvature of the "
       "error is bounded from the robot's link lengths and springs.</p>\n",
       header.node_count, header.size, table.model_hash(), static_cast<double>(header.force_bound),
@@ -181,8 +184,7 @@ std::string headline(const CircleReport& report) {
   }
   const double second = lsc(1);
   return fmt::format("{}: circularity {:.3f} mm {}, {:.4f} mm {} ({:.2g} %)", report.robot, first,
-                     report.circles[0].name, second, report.circles[1].name,
-                     100 * second / first);
+                     report.circles[0].name, second, report.circles[1].name, 100 * second / first);
 }
 
 constexpr const char* kStyle =

@@ -8,7 +8,8 @@
 namespace flexcomp::simulation {
 namespace {
 
-/// Frames of the bent robot, base to tip: before each joint turns, after it, and after its link gave.
+/// Frames of the bent robot, base to tip: before each joint turns, after it, and after its link
+/// gave.
 struct BentChain {
   std::array<Pose<double>, 6> stiff;  ///< link frames before the link springs give
   std::array<Pose<double>, 6> bent;   ///< and after
@@ -38,9 +39,8 @@ BentChain bend(const RobotModel<double, 6>& model, const JointVector<double, 6>&
   for (std::size_t i = 0; i < 6; ++i) {
     const auto joint = static_cast<Eigen::Index>(i);
     frame = frame * model.joints[i].origin;
-    frame.rotation =
-        frame.rotation * axis_rotation<double>(model.joints[i].axis,
-                                               q_motor[joint] + springs.windup[joint]);
+    frame.rotation = frame.rotation * axis_rotation<double>(model.joints[i].axis,
+                                                            q_motor[joint] + springs.windup[joint]);
     chain.stiff[i] = frame;
     frame = given_way(frame, springs.link[i]);
     chain.bent[i] = frame;

@@ -10,8 +10,8 @@ namespace flexcomp {
 /// Where everything is at one set of joint angles; all in the robot base frame.
 template <typename Scalar, int Joints>
 struct Kinematics {
-  std::array<Pose<Scalar>, Joints> links;     ///< frame of the link that joint i moves
-  std::array<Vector3<Scalar>, Joints> axes;   ///< unit axis of joint i
+  std::array<Pose<Scalar>, Joints> links;    ///< frame of the link that joint i moves
+  std::array<Vector3<Scalar>, Joints> axes;  ///< unit axis of joint i
   Pose<Scalar> tcp;
 };
 

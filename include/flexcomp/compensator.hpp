@@ -33,8 +33,8 @@ enum StatusBit : std::uint32_t {
   kOutsideChart = 1U << 7,      ///< further outside the table's chart than the margin
   kExternalFault = 1U << 8,     ///< reported by the caller
   kNotComputable = 1U << 9,     ///< the table gave a number that is not finite
-  kValueLimited = 1U << 16,       ///< a joint's correction is at its largest value
-  kRateLimited = 1U << 17,        ///< a joint's correction is on its way, as fast as allowed
+  kValueLimited = 1U << 16,     ///< a joint's correction is at its largest value
+  kRateLimited = 1U << 17,      ///< a joint's correction is on its way, as fast as allowed
   kDeflectionLimited = 1U << 18,  ///< scaled down to the largest correction at the TCP
   kChartEdge = 1U << 19,          ///< outside the chart but within the margin: scaled down
   kNoSetpoint = 1U << 20,         ///< there never was a usable setpoint: do not use the output
@@ -47,21 +47,21 @@ const char* describe(StatusBit bit);
 
 template <typename Scalar, int Joints>
 struct CompensatorConfig {
-  Scalar period = 0;             ///< s, from one tick to the next
-  std::uint64_t model_hash = 0;  ///< of the robot that is there; a table of another is refused
-  Scalar gain = 1;           ///< share of the deflection that is corrected, above 0 to 1
-  Scalar filter_cutoff = 0;  ///< Hz, of the first-order low-pass on the wrench; 0: no filter
-  Scalar force_range = 0;    ///< N, largest plausible magnitude
-  Scalar moment_range = 0;   ///< N·m
+  Scalar period = 0;              ///< s, from one tick to the next
+  std::uint64_t model_hash = 0;   ///< of the robot that is there; a table of another is refused
+  Scalar gain = 1;                ///< share of the deflection that is corrected, above 0 to 1
+  Scalar filter_cutoff = 0;       ///< Hz, of the first-order low-pass on the wrench; 0: no filter
+  Scalar force_range = 0;         ///< N, largest plausible magnitude
+  Scalar moment_range = 0;        ///< N·m
   Scalar setpoint_age_limit = 0;  ///< s, beyond it a setpoint is stale
   Scalar wrench_age_limit = 0;    ///< s
   JointVector<Scalar, Joints> joint_speed =  ///< rad/s, largest plausible
       JointVector<Scalar, Joints>::Zero();
   std::array<CorrectionLimits<Scalar>, Joints> limits{};
-  Scalar deflection_limit = 0;  ///< m, largest correction at the TCP
-  Scalar chart_margin = 0;      ///< rad, outside the chart, over which the correction fades
-  Scalar hold_time = 0;         ///< s, a fault may last before fading out
-  Scalar fade_time = 0;         ///< s, from nothing to full correction and back
+  Scalar deflection_limit = 0;     ///< m, largest correction at the TCP
+  Scalar chart_margin = 0;         ///< rad, outside the chart, over which the correction fades
+  Scalar hold_time = 0;            ///< s, a fault may last before fading out
+  Scalar fade_time = 0;            ///< s, from nothing to full correction and back
   std::uint32_t ready_ticks = 10;  ///< good inputs in a row before it may be armed
 };
 
@@ -78,8 +78,8 @@ template <typename Scalar, int Joints>
 struct CompensatorOutput {
   JointVector<Scalar, Joints> setpoint;    ///< rad, corrected; always finite
   JointVector<Scalar, Joints> correction;  ///< rad, part of the above; within all limits
-  Twist<Scalar> deflection;  ///< predicted for the filtered wrench, base frame; zero when off
-  std::uint32_t status;      ///< bits of this tick
+  Twist<Scalar> deflection;      ///< predicted for the filtered wrench, base frame; zero when off
+  std::uint32_t status;          ///< bits of this tick
   std::uint32_t latched_faults;  ///< what led to the last fade-out, until `reset`
   State state;
 };
@@ -92,8 +92,8 @@ struct CompensatorOutput {
 ///
 /// Never a jump: whatever comes in, the correction obeys value, rate and acceleration limits
 /// (`Guard`), also through faults, arming, disarming and a change of table. A fault holds the
-/// correction for `hold_time`; if it lasts longer the correction fades to zero and stays there until
-/// `reset`. An unusable setpoint is replaced by the last usable one.
+/// correction for `hold_time`; if it lasts longer the correction fades to zero and stays there
+/// until `reset`. An unusable setpoint is replaced by the last usable one.
 ///
 /// Not a safety function: the robot controller's own limits and stops must hold without it.
 template <typename Scalar, int Joints>
@@ -106,9 +106,9 @@ class Compensator {
   /// Takes a configuration and forgets all that was. Returns ok or bad_config.
   Result configure(const Config& config);
 
-  /// Gives it a table, which must outlive its use. Between ticks, in any state: the correction moves
-  /// to the new table's within its limits. Cost: one look at every node. Returns ok, or no_table,
-  /// table_other_model or gain_too_high, with the table in use unchanged.
+  /// Gives it a table, which must outlive its use. Between ticks, in any state: the correction
+  /// moves to the new table's within its limits. Cost: one look at every node. Returns ok, or
+  /// no_table, table_other_model or gain_too_high, with the table in use unchanged.
   Result set_table(const Table& table);
 
   /// Starts to correct. Returns ok, or no_table, or not_ready: not off, or fewer than `ready_ticks`

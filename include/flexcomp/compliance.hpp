@@ -31,8 +31,8 @@ template <typename Scalar, int Joints>
 Twist<Scalar> structure_weight_deflection(const RobotModel<Scalar, Joints>& model,
                                           const Kinematics<Scalar, Joints>& kinematics);
 
-/// Linear compliance at the TCP, base frame: C = J K⁻¹ Jᵀ over the joint springs plus the base, link
-/// and tool springs. Klimchik et al. (2017), virtual joint model.
+/// Linear compliance at the TCP, base frame: C = J K⁻¹ Jᵀ over the joint springs plus the base,
+/// link and tool springs. Klimchik et al. (2017), virtual joint model.
 template <typename Scalar, int Joints>
 Compliance<Scalar> tcp_compliance(const RobotModel<Scalar, Joints>& model,
                                   const Kinematics<Scalar, Joints>& kinematics);
@@ -40,8 +40,8 @@ Compliance<Scalar> tcp_compliance(const RobotModel<Scalar, Joints>& model,
 /// How the robot gives way at one posture.
 template <typename Scalar, int Joints>
 struct Deflection {
-  Twist<Scalar> tcp;                     ///< displacement of the TCP, base frame
-  JointVector<Scalar, Joints> windup;    ///< part of it taken by the joint springs, rad
+  Twist<Scalar> tcp;                   ///< displacement of the TCP, base frame
+  JointVector<Scalar, Joints> windup;  ///< part of it taken by the joint springs, rad
 };
 
 /// Deflection under a wrench and, with gravity in the model, under weight, with all levers taken at

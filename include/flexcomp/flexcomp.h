@@ -24,12 +24,12 @@ extern "C" {
 /// What a call came to. Stable numbers.
 typedef enum flexcomp_result {
   FLEXCOMP_OK = 0,
-  FLEXCOMP_BAD_ARGUMENT = 1,         ///< a null pointer, a size of zero, or an unknown option
-  FLEXCOMP_BAD_MODEL = 2,            ///< a number of the model is not finite or out of its range
-  FLEXCOMP_BAD_CONFIG = 3,           ///< a number of the configuration is not finite or out of range
-  FLEXCOMP_BAD_PATH = 4,             ///< fewer than two distinct points, or one not finite
-  FLEXCOMP_BUFFER_TOO_SMALL = 5,     ///< no table within the tolerance fits
-  FLEXCOMP_TOLERANCE_NOT_MET = 6,    ///< finer than the arithmetic can certify
+  FLEXCOMP_BAD_ARGUMENT = 1,       ///< a null pointer, a size of zero, or an unknown option
+  FLEXCOMP_BAD_MODEL = 2,          ///< a number of the model is not finite or out of its range
+  FLEXCOMP_BAD_CONFIG = 3,         ///< a number of the configuration is not finite or out of range
+  FLEXCOMP_BAD_PATH = 4,           ///< fewer than two distinct points, or one not finite
+  FLEXCOMP_BUFFER_TOO_SMALL = 5,   ///< no table within the tolerance fits
+  FLEXCOMP_TOLERANCE_NOT_MET = 6,  ///< finer than the arithmetic can certify
   FLEXCOMP_CHART_NOT_INVARIANT = 7,  ///< this model needs a path table
   FLEXCOMP_TABLE_MISALIGNED = 8,     ///< a table must start at a multiple of 4 bytes
   FLEXCOMP_TABLE_TRUNCATED = 9,      ///< fewer bytes than the table says it has
@@ -88,15 +88,15 @@ typedef struct flexcomp_pose {
 } flexcomp_pose_t;
 
 typedef struct flexcomp_joint {
-  flexcomp_pose_t origin;     ///< joint frame in the previous link's frame
-  float axis[3];              ///< unit vector in the joint frame
-  float lower;                ///< rad
-  float upper;                ///< rad
-  float compliance;           ///< rad/(N·m), c1 in wind-up = c1 τ + c3 τ³
-  float cubic_compliance;     ///< rad/(N·m)³, c3
-  float link_compliance[6];   ///< m/N (3), rad/(N·m) (3), of the moved link in its frame
-  float mass;                 ///< kg, of the moved link
-  float center_of_mass[3];    ///< m, link frame
+  flexcomp_pose_t origin;    ///< joint frame in the previous link's frame
+  float axis[3];             ///< unit vector in the joint frame
+  float lower;               ///< rad
+  float upper;               ///< rad
+  float compliance;          ///< rad/(N·m), c1 in wind-up = c1 τ + c3 τ³
+  float cubic_compliance;    ///< rad/(N·m)³, c3
+  float link_compliance[6];  ///< m/N (3), rad/(N·m) (3), of the moved link in its frame
+  float mass;                ///< kg, of the moved link
+  float center_of_mass[3];   ///< m, link frame
 } flexcomp_joint_t;
 
 typedef struct flexcomp_model {
@@ -122,8 +122,8 @@ flexcomp_result_t flexcomp_model_evaluate(const flexcomp_model_t* model,
                                           const float q[FLEXCOMP_JOINTS], flexcomp_pose_t* tcp,
                                           float compliance[36]);
 
-/// Deflection of the TCP (twist) under a wrench and the weights in the model, and what to add to the
-/// joint setpoint against it (rad), straight from the model. Null outputs are left out.
+/// Deflection of the TCP (twist) under a wrench and the weights in the model, and what to add to
+/// the joint setpoint against it (rad), straight from the model. Null outputs are left out.
 /// FLEXCOMP_BAD_ARGUMENT for a null input or a number not finite. Cost: about 2,500 operations and
 /// 2 KiB of stack; with base, link or tool springs twice that.
 flexcomp_result_t flexcomp_model_respond(const flexcomp_model_t* model,
@@ -151,8 +151,8 @@ flexcomp_result_t flexcomp_table_build_path(const flexcomp_model_t* model, const
                                             void* buffer, size_t capacity, size_t* size);
 
 /// Builds a joint-grid table over joints 2 to 5; `lower[i] == upper[i]` fixes a joint. As above;
-/// also CHART_NOT_INVARIANT for a robot whose joints 1 and 6 may not turn freely (base, link or tool
-/// springs; a TCP off the last axis; weight not along axis 1). Cost: the product of the nodes.
+/// also CHART_NOT_INVARIANT for a robot whose joints 1 and 6 may not turn freely (base, link or
+/// tool springs; a TCP off the last axis; weight not along axis 1). Cost: the product of the nodes.
 flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const float lower[4],
                                             const float upper[4],
                                             const flexcomp_table_requirements_t* requirements,
@@ -166,7 +166,7 @@ typedef struct flexcomp_table {
 
 typedef struct flexcomp_table_info {
   uint64_t model_hash;
-  bool is_path;             ///< else a joint grid
+  bool is_path;  ///< else a joint grid
   uint32_t node_count;
   uint32_t size;            ///< bytes
   float force_bound;        ///< N

@@ -13,15 +13,15 @@ namespace flexcomp {
 /// The link frame coincides with the joint frame turned by the joint angle about `axis`.
 template <typename Scalar>
 struct Joint {
-  Pose<Scalar> origin;                             ///< joint frame in the previous link's frame
+  Pose<Scalar> origin;                              ///< joint frame in the previous link's frame
   Vector3<Scalar> axis = Vector3<Scalar>::UnitZ();  ///< unit vector in the joint frame
-  Scalar lower = 0;                                ///< rad, smallest allowed angle
-  Scalar upper = 0;                                ///< rad, largest allowed angle
-  Scalar compliance = 0;                           ///< rad/(N·m), c1 in wind-up = c1 τ + c3 τ³
-  Scalar cubic_compliance = 0;                     ///< rad/(N·m)³, c3; below zero for a hardening spring
-  DiagonalCompliance<Scalar> link_compliance =     ///< of the moved link, in its frame, at its origin
+  Scalar lower = 0;                                 ///< rad, smallest allowed angle
+  Scalar upper = 0;                                 ///< rad, largest allowed angle
+  Scalar compliance = 0;                            ///< rad/(N·m), c1 in wind-up = c1 τ + c3 τ³
+  Scalar cubic_compliance = 0;  ///< rad/(N·m)³, c3; below zero for a hardening spring
+  DiagonalCompliance<Scalar> link_compliance =  ///< of the moved link, in its frame, at its origin
       DiagonalCompliance<Scalar>::Zero();
-  Scalar mass = 0;                                 ///< kg, of the moved link
+  Scalar mass = 0;                                           ///< kg, of the moved link
   Vector3<Scalar> center_of_mass = Vector3<Scalar>::Zero();  ///< m, in the link frame
 };
 
@@ -44,7 +44,8 @@ struct RobotModel {
 };
 
 /// Checks that every number is finite, axes have unit length, rotations are orthonormal, limits are
-/// ordered, and compliances and masses are not negative (the cubic term may be: a hardening spring).
+/// ordered, and compliances and masses are not negative (the cubic term may be: a hardening
+/// spring).
 ///
 /// Returns `Result::ok` or `Result::bad_model`.
 template <typename Scalar, int Joints>

@@ -21,8 +21,8 @@ enum class Result : std::uint8_t {
   table_corrupt = 12,       ///< the CRC-32 or a field contradicts the content
   table_other_model = 13,   ///< made for another robot, tool or payload
   gain_too_high = 14,       ///< above the largest safe gain in the table
-  not_ready = 15,           ///< too few good inputs in a row to arm, or not in the state for the call
-  no_table = 16,            ///< there is no table yet
+  not_ready = 15,  ///< too few good inputs in a row to arm, or not in the state for the call
+  no_table = 16,   ///< there is no table yet
 };
 
 /// A few words for a person; never null.

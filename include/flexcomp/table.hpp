@@ -40,16 +40,16 @@ struct TableHeader {
   std::uint32_t grid_axes;
   std::uint32_t grid_joint[kMaxGridAxes];  ///< index of the joint along each axis, from 0
   std::uint32_t grid_nodes[kMaxGridAxes];
-  float grid_lower[kMaxGridAxes];  ///< rad
-  float grid_step[kMaxGridAxes];   ///< rad
+  float grid_lower[kMaxGridAxes];   ///< rad
+  float grid_step[kMaxGridAxes];    ///< rad
   float fixed_angle[kTableJoints];  ///< grid: rad, where the middle joints off the axes must stand
   float first_axis[3];              ///< grid: axis of joint 1, base frame
   float joint_lower[kTableJoints];  ///< rad, limits of the robot
   float joint_upper[kTableJoints];
   float compliance[kTableJoints];        ///< rad/(N·m)
   float cubic_compliance[kTableJoints];  ///< rad/(N·m)³
-  float force_bound;        ///< N, the certificate holds for forces up to this
-  float moment_bound;       ///< N·m
+  float force_bound;                     ///< N, the certificate holds for forces up to this
+  float moment_bound;                    ///< N·m
   float position_error;     ///< m, certified largest error of deflection and of correction
   float orientation_error;  ///< rad
   float largest_gain;       ///< largest safe correction gain; 0 where it was not analysed
@@ -61,8 +61,8 @@ class Table {
  public:
   Table() = default;
 
-  /// Checks everything: alignment (4 bytes), magic number, version, size, CRC-32, consistent fields.
-  /// Cost: one pass over the bytes. Call it before use, not in the control tick.
+  /// Checks everything: alignment (4 bytes), magic number, version, size, CRC-32, consistent
+  /// fields. Cost: one pass over the bytes. Call it before use, not in the control tick.
   ///
   /// Returns ok, or bad_argument, table_misaligned, table_truncated, table_not_a_table,
   /// table_version, table_corrupt; `table` is untouched unless ok.
@@ -108,7 +108,7 @@ struct TableEntry {
 /// How the robot gives way and what to add to the setpoint against it.
 template <typename Scalar, int Joints>
 struct TableResponse {
-  Twist<Scalar> deflection;                 ///< of the TCP, base frame
+  Twist<Scalar> deflection;                ///< of the TCP, base frame
   JointVector<Scalar, Joints> correction;  ///< rad, to add to the joint setpoint
 };
 
@@ -118,10 +118,10 @@ template <typename Scalar, int Joints>
 void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
 
 /// Reads the table at joint angles `q` (rad, finite). Constant time: a path table moves its cursor
-/// at most two segments a call, and where `q` has left the segment sideways (a program that runs back
-/// on itself and then turns off) looks at four more, further on each call, for one that it is on; a
-/// grid blends the 2^axes corners of one box. Outside the chart the
-/// nearest edge is used and `outside` says how far off `q` is; nothing is extrapolated.
+/// at most two segments a call, and where `q` has left the segment sideways (a program that runs
+/// back on itself and then turns off) looks at four more, further on each call, for one that it is
+/// on; a grid blends the 2^axes corners of one box. Outside the chart the nearest edge is used and
+/// `outside` says how far off `q` is; nothing is extrapolated.
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up(const Table& table, const JointVector<Scalar, Joints>& q,
                                    TableCursor* cursor);

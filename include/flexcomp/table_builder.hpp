@@ -52,7 +52,8 @@ Result build_path_table(const RobotModel<Scalar, Joints>& model,
 /// must allow it: no base, link or tool springs, the TCP on the last axis, and weight, if it acts,
 /// along axis 1 with the last link and payload balanced about theirs; else chart_not_invariant.
 template <typename Scalar, int Joints>
-Result build_grid_table(const RobotModel<Scalar, Joints>& model, const GridRange<Scalar> (&ranges)[4],
+Result build_grid_table(const RobotModel<Scalar, Joints>& model,
+                        const GridRange<Scalar> (&ranges)[4],
                         const TableRequirements<Scalar>& requirements, void* buffer,
                         std::size_t capacity, std::size_t* size);
 

@@ -1,8 +1,8 @@
-#include "flexcomp/flexcomp.h"
-
 #include <math.h>
 #include <string.h>
 #include <unity.h>
+
+#include "flexcomp/flexcomp.h"
 
 void setUp(void) {}
 void tearDown(void) {}
@@ -14,7 +14,8 @@ static flexcomp_model_t two_arms(void) {
   flexcomp_model_t model;
   memset(&model, 0, sizeof model);
   model.tool = identity;
-  static const float axes[6][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+  static const float axes[6][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 0},
+                                   {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
   for (int i = 0; i < FLEXCOMP_JOINTS; ++i) {
     model.joints[i].origin = identity;
     memcpy(model.joints[i].axis, axes[i], sizeof axes[i]);

@@ -86,8 +86,8 @@ void float_and_double_agree() {
     const double reach = exact.tcp.position.norm() + 1;
     TEST_ASSERT_TRUE((rounded.tcp.position.cast<double>() - exact.tcp.position).norm() <
                      1e-5 * reach);
-    const auto difference = geometric_jacobian<float, 6>(rounded).cast<double>() -
-                            geometric_jacobian<double, 6>(exact);
+    const Eigen::Matrix<double, 6, 6> difference =
+        geometric_jacobian<float, 6>(rounded).cast<double>() - geometric_jacobian<double, 6>(exact);
     TEST_ASSERT_TRUE(difference.cwiseAbs().maxCoeff() < 1e-5 * reach);
   }
 }

@@ -31,10 +31,10 @@ std::vector<std::uint32_t> build_table(const RobotModel<float, 6>& model, float 
   }
   std::vector<std::uint32_t> words(1 << 16);
   std::size_t size = 0;
-  TEST_ASSERT_EQUAL(Result::ok,
-                    (build_path_table<float, 6>(model, program.data(), program.size(),
-                                                {2000, 50, 5e-6F, 5e-6F, largest_gain}, words.data(),
-                                                4 * words.size(), &size)));
+  TEST_ASSERT_EQUAL(
+      Result::ok, (build_path_table<float, 6>(model, program.data(), program.size(),
+                                              {2000, 50, 5e-6F, 5e-6F, largest_gain}, words.data(),
+                                              4 * words.size(), &size)));
   words.resize(size / 4);
   return words;
 }
@@ -111,8 +111,8 @@ void it_corrects_by_what_the_model_says() {
   TEST_ASSERT_TRUE(running.output.state == State::active);
   TEST_ASSERT_EQUAL_HEX32(0, running.output.status & kFaultBits);
   const Core::Input input = input_at(running.now - 1);
-  const auto exact = setpoint_correction<double, 6>(
-      kr270<double>(), input.setpoint.cast<double>(), input.wrench.cast<double>());
+  const auto exact = setpoint_correction<double, 6>(kr270<double>(), input.setpoint.cast<double>(),
+                                                    input.wrench.cast<double>());
   const auto twist = deflection<double, 6>(kr270<double>(), input.setpoint.cast<double>(),
                                            input.wrench.cast<double>())
                          .tcp;
@@ -137,8 +137,8 @@ void the_gain_scales_the_correction() {
   Running full(config);
   config.gain = 0.5F;
   Running half(config);
-  TEST_ASSERT_TRUE(
-      (full.output.correction - 2 * half.output.correction).cwiseAbs().maxCoeff() < 1e-5F);
+  TEST_ASSERT_TRUE((full.output.correction - 2 * half.output.correction).cwiseAbs().maxCoeff() <
+                   1e-5F);
 }
 
 /// A first-order low-pass answers a step with 1 − e^(−2π f t).
@@ -185,8 +185,8 @@ void every_fault_is_named_held_faded_and_latched() {
     running.run_with(10, fault.spoil);
     TEST_ASSERT_TRUE_MESSAGE(running.output.state == State::holding, fault.name);
     TEST_ASSERT_EQUAL_HEX32_MESSAGE(fault.bit, running.output.status & fault.bit, fault.name);
-    TEST_ASSERT_TRUE_MESSAGE(
-        (running.output.correction - before).cwiseAbs().maxCoeff() < 2e-4F, fault.name);
+    TEST_ASSERT_TRUE_MESSAGE((running.output.correction - before).cwiseAbs().maxCoeff() < 2e-4F,
+                             fault.name);
     TEST_ASSERT_TRUE_MESSAGE(running.output.setpoint.allFinite(), fault.name);
     running.run_with(60, fault.spoil);
     TEST_ASSERT_TRUE_MESSAGE(running.output.state == State::fading_out, fault.name);
@@ -298,7 +298,7 @@ void tables_of_other_robots_and_unsafe_gains_are_refused() {
 
 void a_table_can_be_changed_while_correcting() {
   Running running;
-  const std::vector<std::uint32_t> copy = table_words();
+  const std::vector<std::uint32_t> copy(table_words().begin(), table_words().end());
   const Angles before = running.output.correction;
   TEST_ASSERT_EQUAL(Result::ok, running.core.set_table(open(copy)));
   running.run(1);
@@ -521,8 +521,8 @@ void no_sequence_of_a_million_ticks_breaks_a_limit() {
   }
 }
 
-/// Whatever went before, a lasting fault brings the correction to zero within the hold time, the fade
-/// time and the time to move from the largest correction to zero.
+/// Whatever went before, a lasting fault brings the correction to zero within the hold time, the
+/// fade time and the time to move from the largest correction to zero.
 void a_lasting_fault_reaches_zero_in_bounded_time() {
   const float move = kLimits.value / kLimits.rate + 2 * kLimits.rate / kLimits.acceleration;
   const auto bound = static_cast<int>((0.05F + 0.2F + move) / kPeriod) + 10;
@@ -547,7 +547,8 @@ void every_state_and_bit_has_words() {
   for (int state = 0; state <= 5; ++state) {
     TEST_ASSERT_TRUE(describe(static_cast<State>(state)) != describe(static_cast<State>(99)));
   }
-  for (const std::uint32_t bit : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 16U, 17U, 18U, 19U, 20U}) {
+  for (const std::uint32_t bit :
+       {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 16U, 17U, 18U, 19U, 20U}) {
     TEST_ASSERT_TRUE(describe(static_cast<StatusBit>(1U << bit)) !=
                      describe(static_cast<StatusBit>(1U << 31)));
   }

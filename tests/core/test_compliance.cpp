@@ -38,10 +38,10 @@ void in_the_plane_of_the_arm_the_closed_form_holds() {
     const Complex f(force(random), force(random));
     const auto point = [](const Vector3<double>& p) { return Complex(p.x(), p.z()); };
     Complex expected = 0;
-    for (const std::size_t joint : {1, 2, 4}) {
+    for (const std::size_t joint : {1U, 2U, 4U}) {
       const Complex arm = point(kinematics.tcp.position) - point(kinematics.links[joint].position);
-      expected += model.joints[joint].compliance * std::imag(std::conj(arm) * f) *
-                  Complex(0, 1) * arm;
+      expected +=
+          model.joints[joint].compliance * std::imag(std::conj(arm) * f) * Complex(0, 1) * arm;
     }
     Wrench<double> wrench = Wrench<double>::Zero();
     wrench[0] = f.real();
@@ -72,8 +72,8 @@ void weight_torque_is_the_slope_of_potential_energy() {
   const Model model = kr270_with_everything<double>();
   const auto potential = [&](const Angles& q) {
     const auto at = forward_kinematics(model, q);
-    double energy = -model.payload_mass * model.gravity.dot(at.tcp.position + at.tcp.rotation *
-                                                                                  model.payload_center);
+    double energy = -model.payload_mass *
+                    model.gravity.dot(at.tcp.position + at.tcp.rotation * model.payload_center);
     for (std::size_t i = 0; i < 6; ++i) {
       energy -= model.joints[i].mass *
                 model.gravity.dot(at.links[i].position +
@@ -181,8 +181,7 @@ void joint_motion_stays_small_at_a_wrist_singularity() {
 void joint_springs_are_corrected_by_their_windup() {
   Angles q = loop_angles<double>(0.5);
   q[4] = 0;
-  const Angles correction =
-      setpoint_correction<double, 6>(kr270<double>(), q, milling_wrench());
+  const Angles correction = setpoint_correction<double, 6>(kr270<double>(), q, milling_wrench());
   const Deflection<double, 6> bent = deflection<double, 6>(kr270<double>(), q, milling_wrench());
   TEST_ASSERT_TRUE((correction + bent.windup).isZero(0));
   const auto jacobian =

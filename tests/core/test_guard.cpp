@@ -69,8 +69,8 @@ void check_limits_hold(const CorrectionLimits<Scalar>& limits, unsigned seed, in
   double worst_step = 0;
   double worst_change = 0;
   for (int i = 0; i < ticks; ++i) {
-    const double value = guard.advance(
-        static_cast<Scalar>(targets.next(static_cast<double>(limits.value))));
+    const double value =
+        guard.advance(static_cast<Scalar>(targets.next(static_cast<double>(limits.value))));
     worst_value = std::fmax(worst_value, std::abs(value));
     worst_step = std::fmax(worst_step, std::abs(value - before));
     worst_change = std::fmax(worst_change, std::abs(value - 2 * before + before_that));
@@ -158,13 +158,14 @@ void it_returns_to_exactly_zero() {
 void limits_that_are_not_positive_finite_or_representable_are_refused() {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  const CorrectionLimits<float> bad[] = {
-      {0, 1, 1},   {1, 0, 1},   {1, 1, 0},   {-1, 1, 1},    {1, -1, 1},     {1, 1, -1},
-      {nan, 1, 1}, {1, nan, 1}, {1, 1, nan}, {inf, 1, 1},   {1, inf, 1},    {1, 1, inf},
-      {1, 1, 1e-3F}, {1, 1e-9F, 100}, {1, 1, 3e38F}};
+  const CorrectionLimits<float> bad[] = {{0, 1, 1},     {1, 0, 1},       {1, 1, 0},    {-1, 1, 1},
+                                         {1, -1, 1},    {1, 1, -1},      {nan, 1, 1},  {1, nan, 1},
+                                         {1, 1, nan},   {inf, 1, 1},     {1, inf, 1},  {1, 1, inf},
+                                         {1, 1, 1e-3F}, {1, 1e-9F, 100}, {1, 1, 3e38F}};
   for (const CorrectionLimits<float>& limits : bad) {
     Guard<float> guard;
-    TEST_ASSERT_EQUAL(Result::bad_config, guard.configure(limits, limits.acceleration > 1e38F ? 10.0F : 1e-3F));
+    TEST_ASSERT_EQUAL(Result::bad_config,
+                      guard.configure(limits, limits.acceleration > 1e38F ? 10.0F : 1e-3F));
   }
   Guard<float> guard;
   TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({0.01F, 1, 1}, 0.0F));

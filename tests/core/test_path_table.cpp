@@ -53,9 +53,8 @@ struct Built {
 template <typename Scalar>
 JointVector<Scalar, 6> on_program(const Program<Scalar>& program, double place) {
   const auto piece = static_cast<std::size_t>(place);
-  return program[piece] +
-         static_cast<Scalar>(place - static_cast<double>(piece)) *
-             (program[piece + 1] - program[piece]);
+  return program[piece] + static_cast<Scalar>(place - static_cast<double>(piece)) *
+                              (program[piece + 1] - program[piece]);
 }
 
 /// 100,000 random places on the program, with the cursor wherever a random jump left it.
@@ -192,10 +191,11 @@ void corners_of_every_angle_keep_the_certificate() {
   check_run(spikes, 1e-7, 0);
 }
 
-/// Plunge, retract along the same line, move on: when the program turns off the lookup is still on the
-/// plunge, and has to find the new segment a few ahead.
+/// Plunge, retract along the same line, move on: when the program turns off the lookup is still on
+/// the plunge, and has to find the new segment a few ahead.
 void a_program_that_runs_back_on_itself_is_followed() {
-  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {3, 0.2}, {2, 0.1}, {2, -0.1}, {1, 0.03}}), 2e-7, 10);
+  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {3, 0.2}, {2, 0.1}, {2, -0.1}, {1, 0.03}}),
+            2e-7, 10);
 }
 
 void repeated_points_do_no_harm() {
@@ -257,7 +257,8 @@ void what_cannot_be_built_is_named() {
   TEST_ASSERT_EQUAL(Result::buffer_too_small, build(model, program, requirements(1e-6), 10));
   TEST_ASSERT_EQUAL(Result::tolerance_not_met, build(model, program, requirements(1e-11), all));
   TEST_ASSERT_EQUAL(Result::bad_path, build(model, {}, requirements(1e-6), all));
-  TEST_ASSERT_EQUAL(Result::bad_path, build(model, {program[0], program[0]}, requirements(1e-6), all));
+  TEST_ASSERT_EQUAL(Result::bad_path,
+                    build(model, {program[0], program[0]}, requirements(1e-6), all));
   Program<double> broken = program;
   broken[5][3] = nan;
   TEST_ASSERT_EQUAL(Result::bad_path, build(model, broken, requirements(1e-6), all));

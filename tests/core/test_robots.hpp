@@ -12,10 +12,10 @@ namespace flexcomp::test {
 template <typename Scalar>
 RobotModel<Scalar, 6> kr270() {
   using Vector = Vector3<Scalar>;
-  const std::array<Vector, 6> origins = {
-      Vector(0, 0, Scalar(0.675)), Vector(Scalar(0.35), 0, 0), Vector(Scalar(1.25), 0, 0),
-      Vector(0, 0, Scalar(-0.055)), Vector(Scalar(1.1), 0, 0), Vector(0, 0, 0)};
-  const std::array<Vector, 6> axes = {Vector(0, 0, -1), Vector(0, 1, 0),  Vector(0, 1, 0),
+  const std::array<Vector, 6> origins = {Vector(0, 0, Scalar(0.675)), Vector(Scalar(0.35), 0, 0),
+                                         Vector(Scalar(1.25), 0, 0),  Vector(0, 0, Scalar(-0.055)),
+                                         Vector(Scalar(1.1), 0, 0),   Vector(0, 0, 0)};
+  const std::array<Vector, 6> axes = {Vector(0, 0, -1), Vector(0, 1, 0), Vector(0, 1, 0),
                                       Vector(-1, 0, 0), Vector(0, 1, 0), Vector(-1, 0, 0)};
   const std::array<double, 6> compliance = {0.54e-6, 0.29e-6, 0.42e-6, 2.79e-6, 3.48e-6, 2.07e-6};
   const std::array<double, 6> limit = {3.2, 2.5, 2.7, 6.1, 2.1, 6.1};

@@ -18,9 +18,10 @@ std::vector<std::uint32_t> small_table() {
   }
   std::vector<std::uint32_t> words(1 << 16);
   std::size_t size = 0;
-  TEST_ASSERT_EQUAL(Result::ok, (build_path_table<double, 6>(
-                                    kr270<double>(), program.data(), program.size(),
-                                    {1600, 20, 1e-4, 1e-4, 0}, words.data(), 4 * words.size(), &size)));
+  TEST_ASSERT_EQUAL(Result::ok,
+                    (build_path_table<double, 6>(kr270<double>(), program.data(), program.size(),
+                                                 {1600, 20, 1e-4, 1e-4, 0}, words.data(),
+                                                 4 * words.size(), &size)));
   words.resize(size / 4);
   return words;
 }

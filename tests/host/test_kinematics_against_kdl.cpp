@@ -1,8 +1,7 @@
+#include <array>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 #include <kdl_parser/kdl_parser.hpp>
-
-#include <array>
 #include <random>
 #include <string>
 

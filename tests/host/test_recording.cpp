@@ -54,7 +54,7 @@ std::array<std::optional<Samples> Recording::*, 7> groups() {
 }
 
 bool same_bits(double a, double b) {
-  return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
+  return (std::isnan(a) && std::isnan(b)) || (a == b && std::signbit(a) == std::signbit(b));
 }
 
 bool same(const Samples& a, const Samples& b) {

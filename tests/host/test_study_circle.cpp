@@ -69,8 +69,7 @@ geometry::Points deflected_circle(const model::Robot& robot, Complex center, int
 /// First-order circularity with the wrench turning with the path: |F| times the difference of the
 /// principal compliances in the plane, taken at the circle's centre.
 double closed_form(const model::Robot& robot, Complex center) {
-  const auto kinematics =
-      forward_kinematics<double, 6>(robot.elastic, posture(robot, center));
+  const auto kinematics = forward_kinematics<double, 6>(robot.elastic, posture(robot, center));
   const Compliance<double> c = tcp_compliance(robot.elastic, kinematics);
   const double half_difference = (c(0, 0) - c(2, 2)) / 2;
   return std::abs(kForce) * 2 * std::hypot(half_difference, c(0, 2));
@@ -96,8 +95,8 @@ struct Bound {
 };
 
 void exact_paths_stay_within_the_bound_of_the_closed_form() {
-  const Bound bounds[] = {{"kr100", 0.12e-3}, {"kr270", 0.12e-3}, {"kr360", 0.12e-3},
-                          {"kr500", 0.04e-3}};
+  const Bound bounds[] = {
+      {"kr100", 0.12e-3}, {"kr270", 0.12e-3}, {"kr360", 0.12e-3}, {"kr500", 0.04e-3}};
   for (const Bound& bound : bounds) {
     const model::Robot robot = study_robot(bound.robot);
     int centers = 0;
@@ -128,8 +127,8 @@ void shipped_robots_bend_the_reference_circles_as_given() {
   };
   const Case cases[] = {{"KR270_S", "kr270", {1.5, 1.0}, 1}, {"KR500_C", "kr500", {1.6, 1.2}, -1}};
   for (const Case& one : cases) {
-    const auto table = recording::read_csv(std::string(FLEXCOMP_TEST_DATA) + "/circle_" + one.file +
-                                           ".csv");
+    const auto table =
+        recording::read_csv(std::string(FLEXCOMP_TEST_DATA) + "/circle_" + one.file + ".csv");
     const geometry::Points points =
         deflected_circle(study_robot(one.robot), one.center, 36, one.sense);
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -3,10 +3,11 @@
 
 /* A KUKA KR 270: joint origins (m), axes, limits (rad) and joint springs (rad/(N·m)). */
 static flexcomp_model_t kr270(void) {
-  static const float origin[6][3] = {{0, 0, 0.75f}, {0.35f, 0, 0}, {1.25f, 0, 0},
-                                     {0, 0, -0.055f}, {1.1f, 0, 0}, {0.23f, 0, 0}};
-  static const float axis[6][3] = {{0, 0, -1}, {0, 1, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
-  static const float limit[6][2] = {{-3.2f, 3.2f}, {-2.5f, 0}, {-2.0f, 2.7f},
+  static const float origin[6][3] = {{0, 0, 0.75f},   {0.35f, 0, 0}, {1.25f, 0, 0},
+                                     {0, 0, -0.055f}, {1.1f, 0, 0},  {0.23f, 0, 0}};
+  static const float axis[6][3] = {{0, 0, -1}, {0, 1, 0}, {0, 1, 0},
+                                   {-1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  static const float limit[6][2] = {{-3.2f, 3.2f}, {-2.5f, 0},    {-2.0f, 2.7f},
                                     {-6.1f, 6.1f}, {-2.1f, 2.1f}, {-6.1f, 6.1f}};
   static const float compliance[6] = {0.54e-6f, 0.29e-6f, 0.42e-6f, 2.79e-6f, 3.48e-6f, 2.07e-6f};
   static const flexcomp_pose_t identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};

@@ -1,5 +1,5 @@
-#include <flexcomp/compliance.hpp>
 #include <cstdio>
+#include <flexcomp/compliance.hpp>
 
 // A single soft shoulder: joint 2 of a six-joint chain with one 1 m arm along x.
 int main() {
@@ -13,8 +13,8 @@ int main() {
   model.tool.position = flexcomp::Vector3<double>(1, 0, 0);
   flexcomp::Wrench<double> wrench;
   wrench << 0, 0, 1000, 0, 0, 0;
-  const auto bent = flexcomp::deflection<double, 6>(
-      model, flexcomp::JointVector<double, 6>::Zero(), wrench);
+  const auto bent =
+      flexcomp::deflection<double, 6>(model, flexcomp::JointVector<double, 6>::Zero(), wrench);
   std::printf("%.3f mm\n", 1e3 * bent.tcp[2]);
   return bent.tcp[2] > 0.999e-3 && bent.tcp[2] < 1.001e-3 ? 0 : 1;
 }

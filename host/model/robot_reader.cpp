@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "error.hpp"
+#include "model/one_line.hpp"
+#include "model/robot.hpp"
+#include "model/robot_schema.hpp"
+#include "model/urdf_chain.hpp"
+#include "model/yaml_map.hpp"
+
+namespace flexcomp::model {
+namespace {
+
+template <typename Vector, std::size_t Size>
+Vector vector(const std::array<double, Size>& values) {
+  return Eigen::Map<const Vector>(values.data());
+}
+
+DiagonalCompliance<double> read_compliance(const YamlMap& yaml, const std::string& key) {
+  if (!yaml.has(key)) {
+    return DiagonalCompliance<double>::Zero();
+  }
+  const auto values = yaml.numbers<6>(key);
+  if (std::any_of(values.begin(), values.end(), [](double value) { return value < 0; })) {
+    yaml.refuse(key, "a compliance must not be negative");
+  }
+  return vector<DiagonalCompliance<double>>(values);
+}
+
+void read_joint(const YamlMap& yaml, Joint<double>* spring, JointDynamics* dynamics) {
+  yaml.allow_only({"compliance", "viscous", "coulomb", "rotor_inertia", "backlash",
+                   "cubic_compliance", "link_compliance"});
+  spring->compliance = yaml.non_negative("compliance");
+  spring->cubic_compliance = yaml.number_or("cubic_compliance", 0);
+  spring->link_compliance = read_compliance(yaml, "link_compliance");
+  dynamics->viscous = yaml.non_negative_or("viscous", 0);
+  dynamics->coulomb = yaml.non_negative_or("coulomb", 0);
+  dynamics->rotor_inertia = yaml.non_negative_or("rotor_inertia", 0);
+  dynamics->backlash = yaml.non_negative_or("backlash", 0);
+}
+
+void read_joints(const YamlMap& yaml, Robot* robot) {
+  yaml.allow_only({robot->joint_names.begin(), robot->joint_names.end()},
+                  fmt::format("no revolute joint between '{}' and '{}' has this name",
+                              robot->base_link, robot->tool_link));
+  for (std::size_t i = 0; i < robot->joint_names.size(); ++i) {
+    read_joint(yaml.map(robot->joint_names[i]), &robot->elastic.joints[i], &robot->dynamics[i]);
+  }
+}
+
+void read_payload(const YamlMap& yaml, RobotModel<double, 6>* elastic) {
+  yaml.allow_only({"mass", "com"});
+  elastic->payload_mass = yaml.non_negative("mass");
+  if (yaml.has("com")) {
+    elastic->payload_center = vector<Vector3<double>>(yaml.numbers<3>("com"));
+  }
+}
+
+std::filesystem::path urdf_beside(const std::filesystem::path& file, const YamlMap& yaml) {
+  std::filesystem::path urdf = file.parent_path() / yaml.text("urdf");
+  std::error_code error;
+  if (!std::filesystem::exists(urdf, error)) {
+    yaml.refuse("urdf", fmt::format("no such file: {}", one_line(urdf.string(), 1000)));
+  }
+  return urdf;
+}
+
+bool is_computable(const Robot& robot) {
+  return validate(robot.elastic) == Result::ok &&
+         std::all_of(robot.link_inertia.begin(), robot.link_inertia.end(),
+                     [](const Matrix3<double>& inertia) { return inertia.allFinite(); });
+}
+
+}  // namespace
+
+Robot load_robot(const std::filesystem::path& file) {
+  const YamlMap yaml = load_yaml(file);
+  const std::string schema = yaml.text("schema");
+  if (schema != kRobotSchema) {
+    yaml.refuse("schema", fmt::format("expected {}, found {}", kRobotSchema, one_line(schema)));
+  }
+  yaml.allow_only({"schema", "name", "urdf", "base_link", "tool_link", "gravity", "joints",
+                   "base_compliance", "tool_compliance", "payload"});
+  Robot robot;
+  robot.yaml = file;
+  robot.name = yaml.text("name");
+  robot.urdf = urdf_beside(file, yaml);
+  robot.base_link = yaml.text("base_link");
+  robot.tool_link = yaml.text("tool_link");
+  read_urdf_chain(robot.urdf, &robot);
+
+  robot.elastic.gravity = vector<Vector3<double>>(yaml.numbers<3>("gravity"));
+  read_joints(yaml.map("joints"), &robot);
+  robot.elastic.base_compliance = read_compliance(yaml, "base_compliance");
+  robot.elastic.tool_compliance = read_compliance(yaml, "tool_compliance");
+  if (yaml.has("payload")) {
+    read_payload(yaml.map("payload"), &robot.elastic);
+  }
+  if (!is_computable(robot)) {
+    throw InputError(
+        fmt::format("{}: a length or mass is too large to compute with", robot.urdf.string()));
+  }
+  return robot;
+}
+
+}  // namespace flexcomp::model

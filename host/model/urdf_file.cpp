@@ -1,0 +1,84 @@
+#include "model/urdf_file.hpp"
+
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <tinyxml.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <string>
+
+#include "error.hpp"
+#include "files/text_file.hpp"
+#include "model/one_line.hpp"
+
+namespace flexcomp::model {
+namespace {
+
+/// Collects what urdfdom would print on standard error for as long as it lives.
+class ParserMessages : public console_bridge::OutputHandler {
+ public:
+  ParserMessages() { console_bridge::useOutputHandler(this); }
+  ParserMessages(const ParserMessages&) = delete;
+  ParserMessages& operator=(const ParserMessages&) = delete;
+  ~ParserMessages() override { console_bridge::restorePreviousOutputHandler(); }
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*filename*/,
+           int /*line*/) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
+      errors_ += (errors_.empty() ? "" : "; ") + text;
+    }
+  }
+
+  const std::string& errors() const { return errors_; }
+
+ private:
+  std::string errors_;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
+  constexpr std::size_t kLongest = 300;
+  throw InputError(fmt::format("{}: not a valid URDF: {}", file.string(), one_line(why, kLongest)));
+}
+
+/// TinyXML, which urdfdom parses with, calls itself for every level and would overflow the stack.
+void refuse_endless_nesting(const std::filesystem::path& file, const std::string& text) {
+  constexpr std::ptrdiff_t kMostElements = 10000;
+  if (std::count(text.begin(), text.end(), '<') > 2 * kMostElements) {
+    throw InputError(
+        fmt::format("{}: expected at most {} XML elements", file.string(), kMostElements));
+  }
+}
+
+/// urdfdom parses again and tells no line.
+void refuse_malformed_xml(const std::filesystem::path& file, const std::string& text) {
+  TiXmlDocument document;
+  document.Parse(text.c_str());
+  if (document.Error()) {
+    throw InputError(fmt::format("{}:{}: not valid XML: {}", file.string(), document.ErrorRow(),
+                                 document.ErrorDesc()));
+  }
+}
+
+}  // namespace
+
+urdf::ModelInterfaceSharedPtr read_urdf(const std::filesystem::path& file) {
+  const std::string text = files::read_text(file);
+  refuse_endless_nesting(file, text);
+  refuse_malformed_xml(file, text);
+  const ParserMessages messages;
+  urdf::ModelInterfaceSharedPtr tree;
+  try {
+    tree = urdf::parseURDF(text);
+  } catch (const std::exception& error) {
+    fail(file, error.what());
+  }
+  if (!tree) {
+    fail(file, messages.errors());
+  }
+  return tree;
+}
+
+}  // namespace flexcomp::model
