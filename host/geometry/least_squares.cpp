@@ -1,5 +1,4 @@
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "geometry/profile.hpp"
@@ -18,7 +17,7 @@ Eigen::Vector2d algebraic_center(const Profile& profile) {
     normal += row * row.transpose();
     right += row * p.squaredNorm();
   }
-  const Eigen::Vector3d solution = normal.fullPivHouseholderQr().solve(right);
+  const Eigen::Vector3d solution = normal.ldlt().solve(right);
   return profile.extent() * solution.head<2>();
 }
 

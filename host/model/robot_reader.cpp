@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "error.hpp"
-#include "model/one_line.hpp"
+#include "files/one_line.hpp"
 #include "model/robot.hpp"
 #include "model/robot_schema.hpp"
 #include "model/urdf_chain.hpp"
@@ -61,7 +61,7 @@ std::filesystem::path urdf_beside(const std::filesystem::path& file, const YamlM
   std::filesystem::path urdf = file.parent_path() / yaml.text("urdf");
   std::error_code error;
   if (!std::filesystem::exists(urdf, error)) {
-    yaml.refuse("urdf", fmt::format("no such file: {}", one_line(urdf.string(), 1000)));
+    yaml.refuse("urdf", fmt::format("no such file: {}", files::one_line(urdf.string(), 1000)));
   }
   return urdf;
 }
@@ -78,7 +78,8 @@ Robot load_robot(const std::filesystem::path& file) {
   const YamlMap yaml = load_yaml(file);
   const std::string schema = yaml.text("schema");
   if (schema != kRobotSchema) {
-    yaml.refuse("schema", fmt::format("expected {}, found {}", kRobotSchema, one_line(schema)));
+    yaml.refuse("schema",
+                fmt::format("expected {}, found {}", kRobotSchema, files::one_line(schema)));
   }
   yaml.allow_only({"schema", "name", "urdf", "base_link", "tool_link", "gravity", "joints",
                    "base_compliance", "tool_compliance", "payload"});

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "error.hpp"
-#include "model/one_line.hpp"
+#include "files/one_line.hpp"
 #include "model/rigid_body.hpp"
 #include "model/urdf_file.hpp"
 
@@ -87,17 +87,17 @@ class ChainReader {
   }
 
   [[noreturn]] void fail(const urdf::Joint& joint, const std::string& why) const {
-    fail(fmt::format("joint '{}': {}", one_line(joint.name), why));
+    fail(fmt::format("joint '{}': {}", files::one_line(joint.name), why));
   }
 
   [[noreturn]] void fail(const urdf::Link& link, const std::string& why) const {
-    fail(fmt::format("link '{}': {}", one_line(link.name), why));
+    fail(fmt::format("link '{}': {}", files::one_line(link.name), why));
   }
 
   std::vector<urdf::JointConstSharedPtr> joints_between() const {
     for (const std::string& name : {robot_.base_link, robot_.tool_link}) {
       if (!tree_->getLink(name)) {
-        fail(fmt::format("has no link '{}'", one_line(name)));
+        fail(fmt::format("has no link '{}'", files::one_line(name)));
       }
     }
     std::vector<urdf::JointConstSharedPtr> joints;

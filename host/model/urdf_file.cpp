@@ -11,8 +11,8 @@
 #include <string>
 
 #include "error.hpp"
+#include "files/one_line.hpp"
 #include "files/text_file.hpp"
-#include "model/one_line.hpp"
 
 namespace flexcomp::model {
 namespace {
@@ -40,7 +40,8 @@ class ParserMessages : public console_bridge::OutputHandler {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
   constexpr std::size_t kLongest = 300;
-  throw InputError(fmt::format("{}: not a valid URDF: {}", file.string(), one_line(why, kLongest)));
+  throw InputError(
+      fmt::format("{}: not a valid URDF: {}", file.string(), files::one_line(why, kLongest)));
 }
 
 /// TinyXML, which urdfdom parses with, calls itself for every level and would overflow the stack.

@@ -9,20 +9,16 @@
 #include <utility>
 
 #include "error.hpp"
-#include "files/text_file.hpp"
-#include "model/one_line.hpp"
+#include "files/one_line.hpp"
+#include "model/yaml_document.hpp"
 
 namespace flexcomp::model {
 namespace {
 
-std::string line_of(const std::string& file, const YAML::Mark& mark) {
-  return mark.is_null() ? file : fmt::format("{}:{}", file, mark.line + 1);
-}
-
 std::string description(const YAML::Node& node) {
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
-      return "'" + one_line(node.Scalar()) + "'";
+      return "'" + files::one_line(node.Scalar()) + "'";
     case YAML::NodeType::Sequence:
       return fmt::format("a list of {}", node.size());
     case YAML::NodeType::Map:
@@ -84,8 +80,9 @@ YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string where)
 
 std::string YamlMap::location(const YAML::Node& node, const std::string& key) const {
   const std::string path = where_.empty() || key == where_ ? key : where_ + "." + key;
-  const std::string line = line_of(file_, node.Mark());
-  return path.empty() ? line : fmt::format("{}: '{}'", line, one_line(path));
+  const YAML::Mark mark = node.Mark();
+  const std::string line = mark.is_null() ? file_ : fmt::format("{}:{}", file_, mark.line + 1);
+  return path.empty() ? line : fmt::format("{}: '{}'", line, files::one_line(path));
 }
 
 void YamlMap::refuse(const std::string& key, const std::string& why) const {
@@ -171,19 +168,7 @@ void YamlMap::read_numbers(const std::string& key, double* values, std::size_t c
 }
 
 YamlMap load_yaml(const std::filesystem::path& file) {
-  const std::string text = files::read_text(file);
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAll(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(fmt::format("{}: not valid YAML: {}", line_of(file.string(), error.mark),
-                                 one_line(error.msg, 200)));
-  }
-  if (documents.size() != 1) {
-    throw InputError(
-        fmt::format("{}: expected one YAML document, found {}", file.string(), documents.size()));
-  }
-  return {documents.front(), file.string(), ""};
+  return {read_yaml(file), file.string(), ""};
 }
 
 }  // namespace flexcomp::model

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "error.hpp"
+#include "files/one_line.hpp"
 #include "files/text_file.hpp"
 
 namespace flexcomp::recording {
@@ -97,7 +98,7 @@ std::vector<std::string> read_header(const std::string& file, Lines* lines) {
       throw InputError(fmt::format("{}:1: column {} has no name", file, columns.size() + 1));
     }
     if (!names.insert(name).second) {
-      throw InputError(fmt::format("{}:1: column '{}' appears twice", file, printable(name)));
+      throw InputError(fmt::format("{}:1: column '{}' appears twice", file, files::one_line(name)));
     }
     columns.emplace_back(name);
   }
@@ -105,15 +106,6 @@ std::vector<std::string> read_header(const std::string& file, Lines* lines) {
 }
 
 }  // namespace
-
-std::string printable(std::string_view text) {
-  constexpr std::size_t kLongest = 30;
-  std::string shown;
-  for (const char c : text.substr(0, kLongest)) {
-    shown += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-  }
-  return text.size() > kLongest ? shown + "…" : shown;
-}
 
 NumberTable read_csv(const std::filesystem::path& path) {
   const std::string text = files::read_text(path);
@@ -138,7 +130,8 @@ NumberTable read_csv(const std::filesystem::path& path) {
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), row[i]);
       if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(row[i])) {
         throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a finite number", table.file,
-                                     lines.number(), printable(table.columns[i]), printable(cell)));
+                                     lines.number(), files::one_line(table.columns[i]),
+                                     files::one_line(cell)));
       }
     }
     table.rows.push_back(std::move(row));

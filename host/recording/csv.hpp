@@ -28,9 +28,6 @@ struct NumberTable {
 /// finite number, a column that is unnamed or named twice, a line of more than 64 KiB, or no rows.
 NumberTable read_csv(const std::filesystem::path& path);
 
-/// A cell or name from a file as a message may show it: not too long, nothing unprintable.
-std::string printable(std::string_view text);
-
 /// Appends a number in the shortest form that reads back to the same bits; nothing for NaN.
 void append_number(double value, std::string* text);
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "error.hpp"
+#include "files/one_line.hpp"
 #include "files/text_file.hpp"
 
 namespace flexcomp::recording {
@@ -61,7 +62,7 @@ void refuse_unknown_columns(const NumberTable& table) {
           fmt::format("{}:1: column '{}' is unknown; expected t, q_cmd_1..6, q_meas_1..6, "
                       "q_link_1..6, tau_1..6, "
                       "fx..mz, x,y,z or temp_c",
-                      table.file, printable(column)));
+                      table.file, files::one_line(column)));
     }
   }
 }

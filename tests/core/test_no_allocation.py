@@ -14,8 +14,7 @@ SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
 ALLOWED = {
     "memcpy", "memmove", "memset", "memcmp", "_GLOBAL_OFFSET_TABLE_",
     "atan2", "atan2f", "cos", "cosf", "sin", "sinf", "sincos", "sincosf", "sqrt", "sqrtf",
-    "expm1", "expm1f", "ceil", "ceilf", "floor", "floorf", "nextafterf", "acos", "acosf", "hypot",
-    "hypotf",
+    "expm1", "expm1f", "ceil", "ceilf", "floor", "floorf", "nextafterf",
 }
 CORTEX_M7 = ["-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mfloat-abi=hard", "-mthumb"]
 ARM_LIBRARY_CALLS = ("__aeabi_",)  # integer division and the like: no memory

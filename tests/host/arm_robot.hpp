@@ -1,6 +1,5 @@
 #pragma once
 
-#include <regex>
 #include <stdexcept>
 #include <string>
 
@@ -37,8 +36,9 @@ inline std::string arm_urdf() {
   std::string text = "<robot name='arm'>\n<link name='base'/>\n";
   std::string parent = "base";
   for (const char* number : {"1", "2", "3", "4", "5", "6"}) {
-    const std::string link = std::regex_replace(kArmLink, std::regex("#"), number);
-    text += std::regex_replace(link, std::regex("@"), parent);
+    for (const char c : std::string(kArmLink)) {
+      text += c == '#' ? std::string(number) : c == '@' ? parent : std::string(1, c);
+    }
     parent = std::string("l") + number;
   }
   return text + R"(<joint name='bolted' type='fixed'><parent link='l3'/><child link='bracket'/>
