@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -7,10 +8,18 @@
 #include "build_info.hpp"
 #include "cli/command.hpp"
 #include "error.hpp"
+#include "files/text_file.hpp"
 
 namespace {
 
 using flexcomp::cli::Action;
+
+/// Ctrl-C leaves nothing half-written, and the shell sees what ended the program.
+void end_cleanly(int signal) {
+  flexcomp::files::remove_unfinished_file();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
 
 /// One line, whatever the message holds.
 void complain(std::string message) {
@@ -83,6 +92,8 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGINT, end_cleanly);
+  std::signal(SIGTERM, end_cleanly);
   try {
     return parse_and_run(argc, argv);
   } catch (...) {

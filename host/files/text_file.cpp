@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -63,10 +64,19 @@ fs::path resolved(const fs::path& path) {
   return target;
 }
 
+/// Name of the temporary file under way, for `remove_unfinished_file`; empty if there is none.
+std::array<char, 4096> unfinished_file{};
+
 /// Removes a temporary file unless it has taken its place.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
+  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {
+    const std::size_t length = path_.native().size();
+    if (length < unfinished_file.size()) {
+      path_.native().copy(unfinished_file.data(), length);
+      unfinished_file[length] = '\0';
+    }
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
@@ -74,6 +84,7 @@ class TemporaryFile {
     if (!kept_) {
       fs::remove(path_, ignored);
     }
+    unfinished_file[0] = '\0';
   }
 
   const fs::path& path() const { return path_; }
@@ -151,6 +162,12 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
     fs::permissions(temporary.path(), status.permissions(), error);
   }
   temporary.replace(target, path);
+}
+
+void remove_unfinished_file() noexcept {
+  if (unfinished_file[0] != '\0') {
+    ::unlink(unfinished_file.data());
+  }
 }
 
 }  // namespace flexcomp::files

@@ -120,6 +120,23 @@ void a_writer_that_throws_leaves_the_old_file_and_its_own_message() {
   TEST_ASSERT_EQUAL(1, folder.file_count());
 }
 
+void an_interrupted_write_can_be_cleaned_up() {
+  const ScratchFolder folder;
+  std::size_t during = 0;
+  std::size_t after = 1;
+  refusal([&] {
+    write_file(folder / "file", [&](std::ostream& stream) {
+      stream << "half" << std::flush;
+      during = folder.file_count();
+      flexcomp::files::remove_unfinished_file();
+      after = folder.file_count();
+      throw InputError("interrupted");
+    });
+  });
+  TEST_ASSERT_EQUAL(1, during);
+  TEST_ASSERT_EQUAL(0, after);
+}
+
 void a_device_is_written_to_and_stays_a_device() {
   write_text("/dev/null", "text");
   TEST_ASSERT_TRUE(fs::is_character_file("/dev/null"));
@@ -164,6 +181,7 @@ int main() {
   RUN_TEST(a_full_disk_leaves_the_old_file_and_no_other);
   RUN_TEST(a_full_device_is_one_clear_error);
   RUN_TEST(a_writer_that_throws_leaves_the_old_file_and_its_own_message);
+  RUN_TEST(an_interrupted_write_can_be_cleaned_up);
   RUN_TEST(a_device_is_written_to_and_stays_a_device);
   RUN_TEST(a_link_is_written_through);
   RUN_TEST(places_that_hold_no_file_are_refused);
