@@ -25,7 +25,7 @@ class InstalledPackage(unittest.TestCase):
             prefix = pathlib.Path(folder) / "prefix"
             build = pathlib.Path(folder) / "build"
             run("cmake", "--install", BUILD, "--prefix", prefix)
-            run("cmake", "-S", PROJECT, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
+            run("cmake", "-G", "Ninja", "-S", PROJECT, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
                 "-DCMAKE_C_COMPILER=" + os.environ["FLEXCOMP_C"],
                 "-DCMAKE_CXX_COMPILER=" + os.environ["FLEXCOMP_CXX"])
             run("cmake", "--build", build)
