@@ -25,6 +25,8 @@ void add_compensate(CLI::App* app, Action* action);
 void add_simulate(CLI::App* app, Action* action);
 void add_circularity(CLI::App* app, Action* action);
 void add_report(CLI::App* app, Action* action);
+void add_configure(CLI::App* app, Action* action);
+void add_plant(CLI::App* app, Action* action);
 
 /// An option of three numbers, "x,y,z".
 CLI::Option* add_vector(CLI::App* command, const std::string& name, std::array<double, 3>* value,

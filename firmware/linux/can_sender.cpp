@@ -1,0 +1,52 @@
+#include "linux/can_sender.hpp"
+
+#include <algorithm>
+
+namespace flexcomp {
+namespace {
+
+constexpr std::uint32_t kLongestWait = 64;      // ticks
+constexpr std::uint32_t kFramesToRecover = 50;
+
+}  // namespace
+
+void CanSender::send(const FrameList& frames) {
+  for (std::size_t i = 0; i < frames.count; ++i) {
+    if (waiting_ > 0 || !socket_->send(frames.frames[i])) {
+      dropped_ += static_cast<std::uint32_t>(frames.count - i);
+      if (waiting_ == 0) {
+        back_off();
+      }
+      return;
+    }
+    ++taken_;
+  }
+  if (fault_ && taken_ >= kFramesToRecover) {
+    fault_ = false;
+    wait_ = 0;
+  }
+}
+
+void CanSender::observe(CanSocket::Received event) {
+  if (event == CanSocket::Received::bus_off) {
+    back_off();
+  } else if (event == CanSocket::Received::bus_passive) {
+    fault_ = true;
+    taken_ = 0;
+  } else if (event == CanSocket::Received::bus_restarted) {
+    waiting_ = 0;
+  }
+}
+
+void CanSender::tick() {
+  waiting_ -= waiting_ > 0 ? 1U : 0U;
+}
+
+void CanSender::back_off() {
+  fault_ = true;
+  taken_ = 0;
+  wait_ = std::clamp(2 * wait_, 1U, kLongestWait);
+  waiting_ = wait_;
+}
+
+}  // namespace flexcomp

@@ -1,0 +1,111 @@
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+
+#include "linux/options.hpp"
+#include "linux/real_time_loop.hpp"
+#include "linux/real_time_thread.hpp"
+#include "linux/service.hpp"
+
+namespace flexcomp {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kUnusableInput = 2;
+constexpr int kInternalFault = 3;
+
+/// Memory for the tables, allocated once.
+struct Slots {
+  explicit Slots(std::size_t bytes) : first(bytes / 4), second(bytes / 4) {}
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> second;
+};
+
+std::optional<std::vector<char>> initial_table(const Options& options) {
+  if (!options.state_directory.empty()) {
+    std::optional<std::vector<char>> kept = SlotFiles(options.state_directory).newest();
+    if (kept) {
+      return kept;
+    }
+  }
+  if (options.table.empty()) {
+    return std::nullopt;
+  }
+  std::optional<std::vector<char>> bytes = read_bytes(options.table);
+  if (!bytes) {
+    throw std::runtime_error(options.table + ": cannot be read");
+  }
+  return bytes;
+}
+
+/// Puts the first table into slot 0. A damaged one ends the program; one that is refused for
+/// another reason is reported over the bus when somebody wants to arm.
+void load_table(const Options& options, Slots* slots, Node* node) {
+  const std::optional<std::vector<char>> bytes = initial_table(options);
+  if (!bytes) {
+    std::fprintf(stderr, "flexcompd: no table yet; waiting for one over the bus\n");
+    return;
+  }
+  if (bytes->size() > 4 * slots->first.size()) {
+    throw std::runtime_error(options.table + ": larger than a slot");
+  }
+  std::memcpy(slots->first.data(), bytes->data(), bytes->size());
+  Table table;
+  const Result opened = Table::open(slots->first.data(), bytes->size(), &table);
+  if (opened != Result::ok) {
+    throw std::runtime_error(options.table + ": " + describe(opened));
+  }
+  const Result used = node->start_with(0, table);
+  if (used == Result::gain_too_high) {
+    std::fprintf(stderr, "flexcompd: refuses to arm: gain %.4g is above the largest safe gain %.4g\n",
+                 static_cast<double>(options.node.compensator.gain),
+                 static_cast<double>(table.header().largest_gain));
+  } else if (used != Result::ok) {
+    std::fprintf(stderr, "flexcompd: refuses to arm: %s\n", describe(used));
+  }
+}
+
+int serve(const Options& options, std::function<std::optional<Options>()> reread) {
+  Service::block_signals();
+  auto node = std::make_unique<Node>();
+  Slots slots(options.table_capacity);
+  node->use_memory({slots.first.data(), slots.first.size()},
+                   {slots.second.data(), slots.second.size()});
+  if (node->configure(options.node) != Result::ok) {
+    throw std::runtime_error(describe(Result::bad_config));
+  }
+  load_table(options, &slots, node.get());
+  CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
+  auto to_real_time = std::make_unique<Channel<ToRealTime>>();
+  auto from_real_time = std::make_unique<Channel<FromRealTime>>();
+  Service service(options, std::move(reread), to_real_time.get(), from_real_time.get());
+  RealTimeLoop loop(options, node.get(), &can, to_real_time.get(), from_real_time.get());
+  const RealTimeThread thread(options.priority, [&] { loop.run(); });
+  service.run();
+  return kDone;
+}
+
+}  // namespace
+}  // namespace flexcomp
+
+int main(int argc, char** argv) {
+  try {
+    int exit_code = flexcomp::kDone;
+    const auto options = flexcomp::read_options(argc, argv, &exit_code);
+    if (!options) {
+      return exit_code;
+    }
+    return flexcomp::serve(*options, [=] {
+      int ignored = 0;
+      return flexcomp::read_options(argc, argv, &ignored);
+    });
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "flexcompd: %s\n", error.what());
+    return flexcomp::kUnusableInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "flexcompd: internal fault: %s\n", error.what());
+    return flexcomp::kInternalFault;
+  }
+}

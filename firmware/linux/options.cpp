@@ -1,0 +1,183 @@
+#include "linux/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "node/default_config.hpp"
+
+#include "linux/build_info.hpp"
+
+namespace flexcomp {
+namespace {
+
+constexpr int kUnusableInput = 2;
+
+constexpr const char* kDescription =
+    "flexcompd corrects joint setpoints for the deflection of a robot, in real time, on CAN or LCM.\n\n"
+    "It needs the hash of the robot's model and a table (flexcomp table; flexcomp configure writes a\n"
+    "configuration file that has both). It corrects nothing until it is told to arm over the bus,\n"
+    "and the sender of setpoints has said which robot it works with.\n\n"
+    "  flexcompd --config node.toml --can can0\n\n"
+    "SIGTERM and SIGINT: fade to zero, then end. SIGHUP: read the configuration file again (only\n"
+    "while nothing is corrected). SIGUSR1: write the statistics. Not a safety function.\n"
+    "Exit codes: 0 done, 2 unusable input or arguments, 3 internal fault.";
+
+/// Options as they are typed; six numbers may be given as one for all.
+struct Typed {
+  std::string model_hash;
+  std::vector<float> joint_speed = {1.5F};
+  std::vector<float> value = {0.01F};
+  std::vector<float> rate = {0.1F};
+  std::vector<float> acceleration = {5.0F};
+  bool without_identity = false;
+};
+
+template <typename Number>
+void positive(CLI::App* app, const char* name, Number* value, const char* help) {
+  app->add_option(name, *value, help)->check(CLI::PositiveNumber);
+}
+
+template <typename Number>
+void not_negative(CLI::App* app, const char* name, Number* value, const char* help) {
+  app->add_option(name, *value, help)->check(CLI::NonNegativeNumber);
+}
+
+void one_or_six(CLI::App* app, const char* name, std::vector<float>* values, const char* help) {
+  app->add_option(name, *values, help)->check(CLI::PositiveNumber)->expected(1, 6)->delimiter(',');
+}
+
+void add_links(CLI::App* app, Options* options) {
+  app->add_option("--can", options->can, "CAN interface, such as can0");
+  app->add_flag("--fd", options->fd, "answer with CAN FD frames");
+  app->add_option("--lcm", options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
+  const std::map<std::string, Trigger> triggers = {{"setpoint", Trigger::setpoint},
+                                                   {"clock", Trigger::clock},
+                                                   {"lockstep", Trigger::lockstep}};
+  app->add_option("--trigger", options->trigger, "what makes a tick: setpoint, clock or lockstep")
+      ->transform(CLI::CheckedTransformer(triggers, CLI::ignore_case));
+  app->add_option("--tolerated-losses", options->tolerated_losses,
+                  "messages in a row that may be lost without a break")
+      ->check(CLI::Range(0, 6));
+  positive(app, "--heartbeat", &options->node.heartbeat_period, "s, from one heartbeat to the next");
+}
+
+void add_table(CLI::App* app, Options* options, Typed* typed) {
+  app->add_option("--model-hash", typed->model_hash,
+                  "fingerprint of the robot, 16 hexadecimal digits (flexcomp configure)")
+      ->required();
+  app->add_option("--table", options->table, "table to start with (flexcomp table)");
+  app->add_option("--state-directory", options->state_directory,
+                  "where tables that come over the bus are kept; the last one is used at start");
+  app->add_flag("--without-identity", typed->without_identity,
+                "arm even if the sender has not said which robot it works with");
+}
+
+void add_correction(CLI::App* app, Options* options, Typed* typed) {
+  auto& core = options->node.compensator;
+  positive(app, "--period", &core.period, "s, from one tick to the next");
+  app->add_option("--gain", core.gain, "share of the deflection that is corrected")
+      ->check(CLI::Range(0.0, 1.0));
+  not_negative(app, "--filter-cutoff", &core.filter_cutoff, "Hz, low-pass on the wrench; 0: none");
+  one_or_six(app, "--correction-limit", &typed->value, "rad, largest correction; one or a joint each");
+  one_or_six(app, "--correction-rate", &typed->rate, "rad/s, of the correction");
+  one_or_six(app, "--correction-acceleration", &typed->acceleration, "rad/s^2, of the correction");
+  positive(app, "--deflection-limit", &core.deflection_limit, "m, largest correction at the TCP");
+  positive(app, "--deflection-warning", &options->node.deflection_warning, "m, predicted: remark");
+  positive(app, "--deflection-error", &options->node.deflection_error, "m, predicted: fault");
+  positive(app, "--chart-margin", &core.chart_margin,
+           "rad, outside the table, over which the correction fades");
+  not_negative(app, "--hold-time", &core.hold_time, "s, a fault may last before fading out");
+  not_negative(app, "--fade-time", &core.fade_time, "s, from nothing to full correction and back");
+  app->add_option("--ready-ticks", core.ready_ticks, "good inputs in a row before arming");
+}
+
+void add_plausibility(CLI::App* app, Options* options, Typed* typed) {
+  auto& core = options->node.compensator;
+  positive(app, "--force-range", &core.force_range, "N, largest plausible");
+  positive(app, "--moment-range", &core.moment_range, "N m, largest plausible");
+  positive(app, "--force-rate", &options->node.wrench.force_rate, "N/s, largest plausible change");
+  positive(app, "--moment-rate", &options->node.wrench.moment_rate, "N m/s, largest plausible");
+  not_negative(app, "--wrench-stuck-time", &options->node.wrench.stuck_time,
+               "s, the same wrench while the robot moves; 0: not checked");
+  positive(app, "--setpoint-age-limit", &core.setpoint_age_limit, "s, beyond it one is stale");
+  positive(app, "--wrench-age-limit", &core.wrench_age_limit, "s, beyond it one is stale");
+  one_or_six(app, "--joint-speed", &typed->joint_speed, "rad/s, largest plausible");
+  positive(app, "--late-ticks", &options->node.late_ticks, "late ticks in a row that are a fault");
+}
+
+void add_process(CLI::App* app, Options* options) {
+  app->add_option("--priority", options->priority, "SCHED_FIFO priority; 0: ordinary scheduling")
+      ->check(CLI::Range(0, 99));
+  app->add_option("--statistics", options->statistics,
+                  "file for the statistics, written at the end and on SIGUSR1");
+}
+
+/// `values` at a joint: its own, or the one for all.
+float at(const std::vector<float>& values, std::size_t joint) {
+  return values[values.size() == 1 ? 0 : joint];
+}
+
+void require_one_or_six(const std::vector<float>& values, const char* name) {
+  if (values.size() != 1 && values.size() != 6) {
+    throw CLI::ValidationError(name, "expected one number, or six");
+  }
+}
+
+std::uint64_t parse_hash(const std::string& text) {
+  const bool is_hash = text.size() == 16 &&
+                       text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+  if (!is_hash) {
+    throw CLI::ValidationError("--model-hash", "expected 16 hexadecimal digits");
+  }
+  return std::stoull(text, nullptr, 16);
+}
+
+void apply(const Typed& typed, Options* options) {
+  require_one_or_six(typed.joint_speed, "--joint-speed");
+  require_one_or_six(typed.value, "--correction-limit");
+  require_one_or_six(typed.rate, "--correction-rate");
+  require_one_or_six(typed.acceleration, "--correction-acceleration");
+  auto& core = options->node.compensator;
+  for (std::size_t i = 0; i < core.limits.size(); ++i) {
+    core.joint_speed[static_cast<Eigen::Index>(i)] = at(typed.joint_speed, i);
+    core.limits[i] = {at(typed.value, i), at(typed.rate, i), at(typed.acceleration, i)};
+  }
+  core.model_hash = parse_hash(typed.model_hash);
+  options->node.require_identity = !typed.without_identity;
+  if (options->can.empty() && options->lcm.empty()) {
+    throw CLI::ValidationError("--can or --lcm", "expected at least one of them");
+  }
+}
+
+}  // namespace
+
+std::optional<Options> read_options(int argc, const char* const* argv, int* exit_code) {
+  Options options;
+  options.node = default_node_config();
+  Typed typed;
+  CLI::App app(kDescription);
+  app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
+  app.set_config("--config", "", "file with any of these options, one a line: name = value");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  add_links(&app, &options);
+  add_table(&app, &options, &typed);
+  add_correction(&app, &options, &typed);
+  add_plausibility(&app, &options, &typed);
+  add_process(&app, &options);
+  try {
+    app.parse(argc, argv);
+    apply(typed, &options);
+    return options;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      *exit_code = app.exit(error);
+    } else {
+      std::fprintf(stderr, "flexcompd: %s (see --help)\n", error.what());
+      *exit_code = kUnusableInput;
+    }
+    return std::nullopt;
+  }
+}
+
+}  // namespace flexcomp

@@ -1,0 +1,246 @@
+#include "linux/real_time_loop.hpp"
+
+#include <sys/epoll.h>
+#include <sys/timerfd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "linux/clock.hpp"
+
+namespace flexcomp {
+namespace {
+
+constexpr int kFramesAtOnce = 128;
+constexpr int kMessagesATick = 4;            // beside the corrected setpoint
+constexpr std::uint32_t kLcmCounter = 256;   // the low byte of the sequence is judged
+constexpr std::int64_t kLargestShift = 100;  // of the period, its divisor
+constexpr std::int64_t kLockstepPatience = 500'000'000;  // ns, for setpoints to fade out on
+
+constexpr std::array<CanSocket::Filter, 2> kFilters = {{
+    {0x100, 0x7C0},  // what is sent to the node
+    {0x200, 0x7E0},  // what only the node sends
+}};
+
+void watch(int epoll, int number) {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.fd = number;
+  if (epoll_ctl(epoll, EPOLL_CTL_ADD, number, &event) < 0) {
+    throw std::runtime_error(std::string("cannot wait for input: ") + std::strerror(errno));
+  }
+}
+
+}  // namespace
+
+RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
+                           Channel<ToRealTime>* in, Channel<FromRealTime>* out)
+    : trigger_(options.trigger),
+      period_(std::llround(1e9 * static_cast<double>(options.node.compensator.period))),
+      node_(node),
+      can_(can),
+      link_(options.fd, options.tolerated_losses),
+      sender_(can),
+      use_lcm_(!options.lcm.empty()),
+      lcm_setpoint_(kLcmCounter, options.tolerated_losses),
+      lcm_wrench_(kLcmCounter, options.tolerated_losses),
+      in_(in),
+      out_(out),
+      epoll_(epoll_create1(EPOLL_CLOEXEC)),
+      timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
+  watch(epoll_.number(), in_->number());
+  watch(epoll_.number(), timer_.number());
+  if (can_->is_open()) {
+    can_->receive_only(kFilters.data(), kFilters.size());
+    watch(epoll_.number(), can_->number());
+  }
+}
+
+void RealTimeLoop::run() {
+  period_end_ = monotonic_now() + period_;
+  set_timer();
+  while (true) {
+    wait();
+    take_messages();
+    take_frames();
+    const std::int64_t now = monotonic_now();
+    if (now >= period_end_) {
+      on_period_end(now);
+    }
+    const bool given_up = trigger_ == Trigger::lockstep && now - stopping_since_ > kLockstepPatience;
+    if (stopping_ && (node_->is_at_zero() || given_up)) {
+      break;
+    }
+  }
+  out_->send(snapshot());
+  out_->send(Ended{});
+}
+
+void RealTimeLoop::wait() {
+  std::array<epoll_event, 4> events{};
+  epoll_wait(epoll_.number(), events.data(), static_cast<int>(events.size()), -1);
+}
+
+void RealTimeLoop::set_timer() {
+  itimerspec time{};
+  time.it_value.tv_sec = period_end_ / 1'000'000'000;
+  time.it_value.tv_nsec = period_end_ % 1'000'000'000;
+  timerfd_settime(timer_.number(), TFD_TIMER_ABSTIME, &time, nullptr);
+}
+
+/// Lock-step counts its own time, so that a run is the same however fast it goes.
+std::int64_t RealTimeLoop::node_time(std::int64_t now) const {
+  return trigger_ == Trigger::lockstep ? steps_ * period_ : now;
+}
+
+void RealTimeLoop::take_messages() {
+  in_->clear();
+  ToRealTime item;
+  while (in_->receive(&item)) {
+    if (auto* sample = std::get_if<LcmSample>(&item)) {
+      take(sample);
+    } else if (const auto* config = std::get_if<NodeConfig>(&item)) {
+      const Result result = node_->configure(*config);
+      node_->announce_config(result);
+      out_->send(ConfigResult{result});
+    } else if (const auto* verdict = std::get_if<Verdict>(&item)) {
+      transfer_announced_ = false;
+      if (node_->conclude_transfer(verdict->opened, verdict->table) == Result::ok) {
+        out_->send(TableInUse{node_->active_slot()});
+      }
+    } else if (std::holds_alternative<SnapshotRequest>(item)) {
+      out_->send(snapshot());
+    } else if (std::holds_alternative<Stop>(item)) {
+      stopping_ = true;
+      stopping_since_ = monotonic_now();
+      node_->disarm();
+    }
+  }
+}
+
+void RealTimeLoop::take(LcmSample* sample) {
+  const std::int64_t now = monotonic_now();
+  const std::int64_t time = node_time(now);
+  if (std::holds_alternative<SetpointMessage>(sample->message)) {
+    if (lcm_setpoint_.accept(sample->sequence, 0, time)) {
+      node_->receive(sample->message, time);
+      on_setpoint(now);
+    }
+  } else if (std::holds_alternative<WrenchMessage>(sample->message)) {
+    if (lcm_wrench_.accept(sample->sequence, 0, time)) {
+      node_->receive(sample->message, time);
+    }
+  } else {
+    node_->receive(sample->message, time);
+  }
+}
+
+void RealTimeLoop::take_frames() {
+  if (!can_->is_open()) {
+    return;
+  }
+  for (int i = 0; i < kFramesAtOnce; ++i) {
+    CanFrame frame;
+    const CanSocket::Received received = can_->receive(&frame);
+    if (received == CanSocket::Received::nothing) {
+      return;
+    }
+    if (received != CanSocket::Received::frame) {
+      sender_.observe(received);
+      continue;
+    }
+    const std::int64_t now = monotonic_now();
+    if (link_.receive(frame, node_, node_time(now))) {
+      on_setpoint(now);
+    }
+  }
+}
+
+void RealTimeLoop::on_setpoint(std::int64_t now) {
+  setpoint_at_ = now;
+  answers_setpoint_ = true;
+  if (trigger_ == Trigger::lockstep) {
+    ++steps_;
+    tick(node_time(now));
+  } else if (trigger_ == Trigger::setpoint && !ticked_ && now < period_end_) {
+    ticked_ = true;
+    tick(now);
+    follow_setpoints(now);
+  }
+}
+
+void RealTimeLoop::follow_setpoints(std::int64_t now) {
+  const std::int64_t off_middle = period_end_ - now - period_ / 2;
+  if (node_->is_at_zero()) {
+    period_end_ -= off_middle;
+  } else {
+    const std::int64_t most = period_ / kLargestShift;
+    period_end_ -= std::clamp(off_middle / 8, -most, most);
+  }
+  set_timer();
+}
+
+void RealTimeLoop::on_period_end(std::int64_t now) {
+  if (trigger_ == Trigger::clock || (trigger_ == Trigger::setpoint && !ticked_)) {
+    tick(now);
+  }
+  ticked_ = false;
+  const std::int64_t missed = (now - period_end_) / period_;
+  period_end_ += (missed + 1) * period_;
+  set_timer();
+}
+
+void RealTimeLoop::tick(std::int64_t now) {
+  if (node_->take_reset()) {
+    link_.forget_conflicts();
+    lcm_setpoint_.clear_conflict();
+    lcm_wrench_.clear_conflict();
+  }
+  LinkState state = link_.state();
+  state.setpoint = state.setpoint + lcm_setpoint_.counters;
+  state.wrench = state.wrench + lcm_wrench_.counters;
+  state.setpoint_conflict |= lcm_setpoint_.has_conflict();
+  state.wrench_conflict |= lcm_wrench_.has_conflict();
+  state.bus_fault = sender_.has_fault();
+  state.dropped_frames = sender_.dropped();
+  node_->set_link(state);
+  sender_.tick();
+
+  send(node_->tick(now));
+  if (answers_setpoint_) {
+    answers_setpoint_ = false;
+    node_->record_latency(monotonic_now() - setpoint_at_);
+  }
+  Message message;
+  for (int i = 0; i < kMessagesATick && node_->next_message(&message); ++i) {
+    send(message);
+  }
+  std::size_t size = 0;
+  const void* received = node_->received_table(&size);
+  if (received != nullptr && !transfer_announced_) {
+    transfer_announced_ = true;
+    out_->send(TableReceived{received, size});
+  }
+}
+
+void RealTimeLoop::send(const Message& message) {
+  if (can_->is_open()) {
+    sender_.send(link_.encode(message));
+  }
+  if (use_lcm_) {
+    out_->send(message);
+  }
+}
+
+Snapshot RealTimeLoop::snapshot() const {
+  Snapshot all;
+  for (std::size_t name = 0; name < all.value.size(); ++name) {
+    all.value[name] = node_->statistic(static_cast<std::uint8_t>(name), &all.exists[name]);
+  }
+  return all;
+}
+
+}  // namespace flexcomp

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "linux/can_sender.hpp"
+#include "linux/can_socket.hpp"
+#include "linux/exchange.hpp"
+#include "linux/options.hpp"
+#include "node/can_link.hpp"
+
+namespace flexcomp {
+
+/// The real-time thread: waits for frames, messages and the end of the period, and ticks the node.
+/// Allocates nothing and takes no lock; the CAN socket is read and written here without blocking,
+/// because handing frames to another thread costs more than the calls do.
+///
+/// There is exactly one tick a period, so the correction's limits hold in time as well as from tick
+/// to tick. With Trigger::setpoint a setpoint is answered at once, and the periods are shifted, by
+/// at most one percent each, so that setpoints come in their middle. A second one in the same period
+/// is answered with the next.
+class RealTimeLoop {
+ public:
+  /// Throws std::runtime_error if the system refuses what it needs.
+  RealTimeLoop(const Options& options, Node* node, CanSocket* can, Channel<ToRealTime>* in,
+               Channel<FromRealTime>* out);
+
+  /// Runs until told to stop and the correction is zero.
+  void run();
+
+ private:
+  void wait();
+  void take_messages();
+  void take(LcmSample* sample);
+  void take_frames();
+  void on_setpoint(std::int64_t now);
+  void on_period_end(std::int64_t now);
+  void follow_setpoints(std::int64_t now);
+  void tick(std::int64_t now);
+  void send(const Message& message);
+  void set_timer();
+  Snapshot snapshot() const;
+  std::int64_t node_time(std::int64_t now) const;
+
+  Trigger trigger_;
+  std::int64_t period_;  ///< ns
+  Node* node_;
+  CanSocket* can_;
+  CanLink link_;
+  CanSender sender_;
+  bool use_lcm_;
+  SequenceMonitor lcm_setpoint_;
+  SequenceMonitor lcm_wrench_;
+  Channel<ToRealTime>* in_;
+  Channel<FromRealTime>* out_;
+  FileDescriptor epoll_;
+  FileDescriptor timer_;
+
+  std::int64_t period_end_ = 0;
+  bool ticked_ = false;  ///< in this period
+  std::int64_t setpoint_at_ = 0;
+  bool answers_setpoint_ = false;
+  std::int64_t steps_ = 0;  ///< ticks of Trigger::lockstep
+  bool transfer_announced_ = false;
+  bool stopping_ = false;
+  std::int64_t stopping_since_ = 0;
+};
+
+}  // namespace flexcomp

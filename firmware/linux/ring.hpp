@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+namespace flexcomp {
+
+/// Queue from one thread to one other, without locks. Fixed memory; `Size` is a power of two.
+template <typename Item, std::size_t Size>
+class Ring {
+  static_assert((Size & (Size - 1)) == 0, "a power of two");
+
+ public:
+  /// False if it is full; the item is then dropped.
+  bool push(const Item& item) {
+    const std::size_t end = end_.load(std::memory_order_relaxed);
+    if (end - begin_.load(std::memory_order_acquire) == Size) {
+      return false;
+    }
+    items_[end % Size] = item;
+    end_.store(end + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// False if it is empty.
+  bool pop(Item* item) {
+    const std::size_t begin = begin_.load(std::memory_order_relaxed);
+    if (begin == end_.load(std::memory_order_acquire)) {
+      return false;
+    }
+    *item = items_[begin % Size];
+    begin_.store(begin + 1, std::memory_order_release);
+    return true;
+  }
+
+ private:
+  std::array<Item, Size> items_{};
+  alignas(64) std::atomic<std::size_t> begin_{0};
+  alignas(64) std::atomic<std::size_t> end_{0};
+};
+
+}  // namespace flexcomp

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+
+#include "messages/can_frame.hpp"
+#include "messages/can_layout.hpp"
+#include "messages/messages.hpp"
+
+namespace flexcomp {
+
+/// The frames of one message.
+struct FrameList {
+  std::array<CanFrame, kMaxFrameParts> frames{};
+  std::size_t count = 0;
+};
+
+/// Turns messages into frames, with counters and checksums. Fixed memory, constant time.
+class CanEncoder {
+ public:
+  /// `fd`: use the FD layout where there is one, else classic frames only.
+  explicit CanEncoder(bool fd = false) : fd_(fd) {}
+
+  /// No frames for std::monostate and for a data message with more words than the layout has.
+  FrameList encode(const Message& message);
+
+ private:
+  std::uint8_t next_counter(FrameGroup group) {
+    return counters_[static_cast<std::size_t>(group)]++;
+  }
+
+  bool fd_;
+  std::array<std::uint8_t, kFrameGroups> counters_{};
+};
+
+}  // namespace flexcomp

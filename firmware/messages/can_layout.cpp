@@ -1,0 +1,81 @@
+#include "messages/can_layout.hpp"
+
+#include <array>
+
+#include "flexcomp_can.h"
+
+namespace flexcomp {
+namespace {
+
+#define FRAME(NAME, fd, group, part, parts)                                          \
+  FrameLayout {                                                                      \
+    FLEXCOMP_CAN_##NAME##_FRAME_ID, FLEXCOMP_CAN_##NAME##_LENGTH, fd, group, part, parts \
+  }
+
+constexpr std::array<FrameLayout, 35> kLayouts = {
+    FRAME(FAULT, false, FrameGroup::fault, 0, 1),
+    FRAME(SETPOINT_A, false, FrameGroup::setpoint, 0, 3),
+    FRAME(SETPOINT_B, false, FrameGroup::setpoint, 1, 3),
+    FRAME(SETPOINT_C, false, FrameGroup::setpoint, 2, 3),
+    FRAME(SETPOINT_FD, true, FrameGroup::setpoint_fd, 0, 1),
+    FRAME(WRENCH_FORCE, false, FrameGroup::wrench, 0, 2),
+    FRAME(WRENCH_MOMENT, false, FrameGroup::wrench, 1, 2),
+    FRAME(WRENCH_FD, true, FrameGroup::wrench_fd, 0, 1),
+    FRAME(COMMAND, false, FrameGroup::command, 0, 1),
+    FRAME(IDENTITY_LOW, false, FrameGroup::identity, 0, 2),
+    FRAME(IDENTITY_HIGH, false, FrameGroup::identity, 1, 2),
+    FRAME(TRANSFER_BEGIN, false, FrameGroup::transfer_begin, 0, 1),
+    FRAME(TRANSFER_DATA, false, FrameGroup::transfer_data, 0, 1),
+    FRAME(TRANSFER_END, false, FrameGroup::transfer_end, 0, 1),
+    FRAME(TRANSFER_DATA_FD, true, FrameGroup::transfer_data_fd, 0, 1),
+    FRAME(MEASURED_A, false, FrameGroup::measured_joints, 0, 3),
+    FRAME(MEASURED_B, false, FrameGroup::measured_joints, 1, 3),
+    FRAME(MEASURED_C, false, FrameGroup::measured_joints, 2, 3),
+    FRAME(MEASURED_POSITION_XY, false, FrameGroup::measured_position, 0, 2),
+    FRAME(MEASURED_POSITION_Z, false, FrameGroup::measured_position, 1, 2),
+    FRAME(CORRECTED_A, false, FrameGroup::corrected, 0, 7),
+    FRAME(CORRECTED_B, false, FrameGroup::corrected, 1, 7),
+    FRAME(CORRECTED_C, false, FrameGroup::corrected, 2, 7),
+    FRAME(UNCORRECTED_A, false, FrameGroup::corrected, 3, 7),
+    FRAME(UNCORRECTED_B, false, FrameGroup::corrected, 4, 7),
+    FRAME(UNCORRECTED_C, false, FrameGroup::corrected, 5, 7),
+    FRAME(CORRECTED_FD, true, FrameGroup::corrected_fd, 0, 1),
+    FRAME(STATUS, false, FrameGroup::corrected, 6, 7),
+    FRAME(LATCHED, false, FrameGroup::heartbeat, 1, 4),
+    FRAME(HEARTBEAT, false, FrameGroup::heartbeat, 0, 4),
+    FRAME(TABLE_LOW, false, FrameGroup::heartbeat, 2, 4),
+    FRAME(TABLE_HIGH, false, FrameGroup::heartbeat, 3, 4),
+    FRAME(STATISTIC, false, FrameGroup::statistic, 0, 1),
+    FRAME(TRANSFER_REPLY, false, FrameGroup::transfer_reply, 0, 1),
+    FRAME(COMMAND_REPLY, false, FrameGroup::command_reply, 0, 1),
+};
+
+#undef FRAME
+
+constexpr bool is_sorted() {
+  for (std::size_t i = 1; i < kLayouts.size(); ++i) {
+    if (kLayouts[i - 1].id >= kLayouts[i].id) {
+      return false;
+    }
+  }
+  return true;
+}
+static_assert(is_sorted(), "find_layout searches by halves");
+
+}  // namespace
+
+const FrameLayout* find_layout(std::uint32_t id) {
+  std::size_t begin = 0;
+  std::size_t end = kLayouts.size();
+  while (begin < end) {
+    const std::size_t middle = (begin + end) / 2;
+    if (kLayouts[middle].id < id) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin < kLayouts.size() && kLayouts[begin].id == id ? &kLayouts[begin] : nullptr;
+}
+
+}  // namespace flexcomp

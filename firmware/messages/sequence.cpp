@@ -1,0 +1,79 @@
+#include "messages/sequence.hpp"
+
+namespace flexcomp {
+namespace {
+
+constexpr std::int64_t kResynchroniseAfter = 50'000'000;  // ns without an accepted message
+constexpr std::uint32_t kConsistentMessages = 3;
+// A dropped message weighs more than an accepted one, so that two senders in step are found after
+// about 32 messages, and a burst of a few late ones is not taken for a second sender.
+constexpr std::uint32_t kSuspicionOfDropped = 2;
+constexpr std::uint32_t kConflictAt = 32;
+
+}  // namespace
+
+bool SequenceMonitor::accept(std::uint32_t counter, std::uint32_t digest, std::int64_t now) {
+  counter &= modulus_ - 1;
+  if (!started_) {
+    started_ = true;
+    take(counter, digest, now);
+    return true;
+  }
+  const std::uint32_t step = ahead(counter, last_);
+  if (step == 0) {
+    drop_repetition(digest == digest_);
+    return false;
+  }
+  if (step <= tolerated_ + 1 || is_resynchronised(counter, now)) {
+    counters.lost += step - 1;
+    take(counter, digest, now);
+    return true;
+  }
+  ++(step > modulus_ / 2 ? counters.old : counters.out_of_sequence);
+  suspect();
+  return false;
+}
+
+void SequenceMonitor::drop_repetition(bool same_content) {
+  if (same_content) {
+    ++counters.repeated;
+  } else {
+    ++counters.contradicting;
+    suspect();
+  }
+}
+
+void SequenceMonitor::drop_late() {
+  ++counters.old;
+  suspect();
+}
+
+void SequenceMonitor::clear_conflict() {
+  conflict_ = false;
+  suspicion_ = 0;
+}
+
+void SequenceMonitor::take(std::uint32_t counter, std::uint32_t digest, std::int64_t now) {
+  ++counters.received;
+  last_ = counter;
+  digest_ = digest;
+  accepted_at_ = now;
+  consistent_ = 0;
+  suspicion_ -= suspicion_ > 0 ? 1U : 0U;
+}
+
+void SequenceMonitor::suspect() {
+  suspicion_ += kSuspicionOfDropped;
+  if (suspicion_ >= kConflictAt) {
+    suspicion_ = kConflictAt;
+    conflict_ = true;
+  }
+}
+
+bool SequenceMonitor::is_resynchronised(std::uint32_t counter, std::int64_t now) {
+  consistent_ = ahead(counter, candidate_) == 1 ? consistent_ + 1 : 1;
+  candidate_ = counter;
+  return consistent_ >= kConsistentMessages && now - accepted_at_ > kResynchroniseAfter;
+}
+
+}  // namespace flexcomp

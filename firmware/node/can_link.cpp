@@ -1,0 +1,43 @@
+#include "node/can_link.hpp"
+
+namespace flexcomp {
+
+StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
+  return {a.received + b.received,
+          a.lost + b.lost,
+          a.repeated + b.repeated,
+          a.old + b.old,
+          a.out_of_sequence + b.out_of_sequence,
+          a.contradicting + b.contradicting,
+          a.corrupt + b.corrupt,
+          a.incomplete + b.incomplete};
+}
+
+bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
+  const Message message = decoder_.decode(frame, now);
+  node->receive(message, now);
+  return std::holds_alternative<SetpointMessage>(message);
+}
+
+LinkState CanLink::state() const {
+  LinkState state;
+  const SequenceMonitor& setpoint = decoder_.monitor(FrameGroup::setpoint);
+  const SequenceMonitor& setpoint_fd = decoder_.monitor(FrameGroup::setpoint_fd);
+  const SequenceMonitor& wrench = decoder_.monitor(FrameGroup::wrench);
+  const SequenceMonitor& wrench_fd = decoder_.monitor(FrameGroup::wrench_fd);
+  state.setpoint_conflict = setpoint.has_conflict() || setpoint_fd.has_conflict();
+  state.wrench_conflict = wrench.has_conflict() || wrench_fd.has_conflict();
+  state.setpoint = setpoint.counters + setpoint_fd.counters;
+  state.wrench = wrench.counters + wrench_fd.counters;
+  state.foreign_frames = decoder_.foreign_frames();
+  return state;
+}
+
+void CanLink::forget_conflicts() {
+  for (const FrameGroup group : {FrameGroup::setpoint, FrameGroup::setpoint_fd, FrameGroup::wrench,
+                                 FrameGroup::wrench_fd}) {
+    decoder_.monitor(group).clear_conflict();
+  }
+}
+
+}  // namespace flexcomp

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "messages/can_decoder.hpp"
+#include "messages/can_encoder.hpp"
+#include "node/node.hpp"
+
+namespace flexcomp {
+
+/// A node's side of a CAN bus: frames in and out, whatever moves them (SocketCAN, SLCAN, a test).
+class CanLink {
+ public:
+  /// `fd`: send corrected setpoints as FD frames. `tolerated`: see CanDecoder.
+  CanLink(bool fd, std::uint32_t tolerated) : decoder_(tolerated), encoder_(fd) {}
+
+  /// Hands a frame to the node. True if it completed a setpoint.
+  bool receive(const CanFrame& frame, Node* node, std::int64_t now);
+
+  FrameList encode(const Message& message) { return encoder_.encode(message); }
+
+  /// What the streams show. To be forgotten on Node::take_reset: conflicts.
+  LinkState state() const;
+  void forget_conflicts();
+
+ private:
+  CanDecoder decoder_;
+  CanEncoder encoder_;
+};
+
+/// Both layouts of a stream together.
+StreamCounters operator+(const StreamCounters& a, const StreamCounters& b);
+
+}  // namespace flexcomp

@@ -1,0 +1,421 @@
+#include "node/node.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexcomp {
+namespace {
+
+constexpr double kSecond = 1e9;            // ns
+constexpr double kEarliestTick = 0.5;      // of a period
+constexpr double kLatestTick = 1.5;        // of a period
+constexpr std::uint8_t kStatisticNames = 64 + LatencyHistogram::kBins;
+constexpr std::uint16_t kStickyBits =
+    kSetpointConflict | kWrenchConflict | kTableDamaged | kOtherNode | kDeflectionTooLarge;
+
+std::uint16_t bit_if(bool condition, NodeBit bit) {
+  return condition ? static_cast<std::uint16_t>(bit) : std::uint16_t{0};
+}
+
+std::uint8_t number(Result result) {
+  return static_cast<std::uint8_t>(result);
+}
+
+std::uint8_t number(Reply reply) {
+  return static_cast<std::uint8_t>(reply);
+}
+
+JointVector<float, 6> to_core(const JointAngles& q) {
+  JointVector<float, 6> angles;
+  std::transform(q.begin(), q.end(), angles.data(), [](double x) { return static_cast<float>(x); });
+  return angles;
+}
+
+JointAngles from_core(const JointVector<float, 6>& angles) {
+  JointAngles q{};
+  std::copy_n(angles.data(), q.size(), q.begin());
+  return q;
+}
+
+float seconds(std::int64_t nanoseconds) {
+  return static_cast<float>(static_cast<double>(nanoseconds) / kSecond);
+}
+
+std::uint64_t stream_statistic(const StreamCounters& counters, unsigned which) {
+  const std::array<std::uint32_t, 8> values = {
+      counters.received,        counters.lost,          counters.repeated, counters.old,
+      counters.out_of_sequence, counters.contradicting, counters.corrupt,  counters.incomplete};
+  return values[which];
+}
+
+}  // namespace
+
+Result Node::configure(const NodeConfig& config) {
+  if (core_.state() != State::off && core_.state() != State::latched) {
+    return Result::not_ready;
+  }
+  const bool numbers_are_usable =
+      config.heartbeat_period > 0 && config.deflection_warning > 0 && config.deflection_error > 0 &&
+      config.wrench.force_rate > 0 && config.wrench.moment_rate > 0 &&
+      config.wrench.stuck_time >= 0 && config.late_ticks > 0;
+  Core core;
+  if (!numbers_are_usable || core.configure(config.compensator) != Result::ok) {
+    return Result::bad_config;
+  }
+  core_ = core;
+  config_ = config;
+  wrench_monitor_.configure(config.wrench);
+  if (table_.is_open()) {
+    table_result_ = number(put_to_use(table_));
+  }
+  return Result::ok;
+}
+
+Result Node::put_to_use(const Table& table) {
+  offered_gain_ = static_cast<double>(table.header().largest_gain);
+  const Result result = core_.set_table(table);
+  if (result == Result::ok) {
+    table_ = table;
+    sticky_ &= static_cast<std::uint16_t>(~kTableDamaged);
+  }
+  return result;
+}
+
+Result Node::start_with(std::size_t slot, const Table& table) {
+  const Result result = put_to_use(table);
+  table_result_ = number(result);
+  if (result == Result::ok) {
+    store_.use(slot, table.header().size);
+  }
+  return result;
+}
+
+Result Node::conclude_transfer(Result opened, const Table& table) {
+  const Result result = opened == Result::ok ? put_to_use(table) : opened;
+  table_result_ = number(result);
+  store_.conclude(result == Result::ok);
+  post(TransferReplyMessage{TransferStage::end, number(result), store_.words_received()});
+  if (result == Result::ok) {
+    post(FaultMessage{kTableInUseCode, true, static_cast<std::uint32_t>(store_.active() + 1)});
+  } else {
+    post(FaultMessage{kTableRefusedCode, true, number(result)});
+  }
+  return result;
+}
+
+void Node::announce_config(Result result) {
+  post(FaultMessage{result == Result::ok ? kConfigInUseCode : kConfigRefusedCode, true,
+                    number(result)});
+}
+
+void Node::post(const Message& message) {
+  if (queue_size_ == kQueue) {
+    return;  // nobody takes them: the oldest are the ones that explain how it began
+  }
+  queue_[(queue_begin_ + queue_size_++) % kQueue] = message;
+}
+
+bool Node::next_message(Message* message) {
+  if (queue_size_ == 0) {
+    return false;
+  }
+  *message = queue_[queue_begin_];
+  queue_begin_ = (queue_begin_ + 1) % kQueue;
+  --queue_size_;
+  return true;
+}
+
+void Node::receive(const Message& message, std::int64_t now) {
+  std::visit([&](const auto& content) { receive_one(content, now); }, message);
+}
+
+void Node::receive_one(const SetpointMessage& message, std::int64_t now) {
+  setpoint_moved_ = !has_setpoint_ || message.q != setpoint_.q;
+  setpoint_ = message;
+  has_setpoint_ = true;
+  setpoint_time_ = now - setpoint_delay_.observe(message.timestamp, now);
+}
+
+void Node::receive_one(const WrenchMessage& message, std::int64_t now) {
+  const std::int64_t delay = wrench_delay_.observe(message.timestamp, now);
+  if (wrench_monitor_.accept(message, now)) {
+    wrench_ = message;
+    has_wrench_ = true;
+    wrench_time_ = now - delay;
+  }
+}
+
+void Node::receive_one(const IdentityMessage& message, std::int64_t /*now*/) {
+  identity_ = message;
+  has_identity_ = true;
+}
+
+void Node::receive_one(const CommandMessage& message, std::int64_t /*now*/) {
+  std::uint8_t answer = number(Result::bad_argument);
+  switch (message.command) {
+    case Command::arm:
+      answer = arm();
+      break;
+    case Command::disarm:
+      core_.disarm();
+      answer = number(Result::ok);
+      break;
+    case Command::reset:
+      reset_requested_ = true;
+      link_.setpoint_conflict = false;
+      link_.wrench_conflict = false;
+      sticky_ = 0;
+      node_latched_ = 0;
+      answer = number(core_.state() == State::latched ? core_.reset() : Result::ok);
+      break;
+    case Command::report:
+      report_from_ = 0;
+      answer = number(Result::ok);
+      break;
+    case Command::none:
+      break;
+  }
+  post(CommandReplyMessage{message.command, answer, offered_gain_});
+}
+
+std::uint8_t Node::arm() {
+  if (config_.require_identity) {
+    if (!has_identity_) {
+      return number(Reply::robot_unknown);
+    }
+    if (identity_.model_hash != config_.compensator.model_hash) {
+      return number(Reply::other_robot);
+    }
+    if (identity_.wrench_frame != WrenchFrame::base) {
+      return number(Reply::wrong_wrench_frame);
+    }
+  }
+  if (sticky_ != 0) {
+    return number(Reply::fault_present);
+  }
+  const Result result = core_.arm();
+  const bool table_was_refused = table_result_ != number(Result::ok);
+  return result == Result::no_table && table_was_refused ? table_result_ : number(result);
+}
+
+void Node::receive_one(const TransferBeginMessage& message, std::int64_t /*now*/) {
+  reply(TransferStage::begin, store_.begin(message));
+}
+
+void Node::receive_one(const TransferDataMessage& message, std::int64_t /*now*/) {
+  const Reply result = store_.add(message);
+  if (result != Reply::ok) {
+    reply(TransferStage::data, result);
+  }
+}
+
+void Node::receive_one(const TransferEndMessage& message, std::int64_t /*now*/) {
+  const Reply result = store_.end(message);
+  if (result != Reply::ok) {
+    reply(TransferStage::end, result);
+  }
+}
+
+void Node::receive_one(const CorrectedMessage& /*message*/, std::int64_t /*now*/) {
+  sticky_ |= kOtherNode;
+}
+
+/// What others say to each other.
+template <typename Other>
+void Node::receive_one(const Other& /*message*/, std::int64_t /*now*/) {}
+
+void Node::reply(TransferStage stage, Reply result) {
+  post(TransferReplyMessage{stage, number(result), store_.words_received()});
+}
+
+void Node::check_period(std::int64_t now) {
+  const double elapsed = static_cast<double>(now - last_tick_) / kSecond;
+  const auto period = static_cast<double>(config_.compensator.period);
+  clock_jumps_ += elapsed <= 0 ? 1U : 0U;
+  const bool on_time = elapsed >= kEarliestTick * period && elapsed <= kLatestTick * period;
+  if (ticks_ > 0 && !on_time) {
+    ++late_ticks_;
+    ++late_in_a_row_;
+  } else {
+    late_in_a_row_ = 0;
+  }
+  last_tick_ = now;
+}
+
+/// Node status of this tick, but for what depends on the predicted deflection.
+std::uint16_t Node::judge(std::int64_t now) {
+  check_period(now);
+  wrench_monitor_.observe_motion(setpoint_moved_, now);
+  setpoint_moved_ = false;
+  sticky_ |= bit_if(!store_.scrub(), kTableDamaged);
+  sticky_ |= bit_if(link_.setpoint_conflict, kSetpointConflict);
+  sticky_ |= bit_if(link_.wrench_conflict, kWrenchConflict);
+  const bool identity_fits = identity_.model_hash == config_.compensator.model_hash &&
+                             identity_.wrench_frame == WrenchFrame::base;
+  const bool lost = link_.setpoint.lost != link_before_.setpoint.lost ||
+                    link_.wrench.lost != link_before_.wrench.lost ||
+                    link_.setpoint.corrupt != link_before_.setpoint.corrupt ||
+                    link_.wrench.corrupt != link_before_.wrench.corrupt ||
+                    link_.setpoint.incomplete != link_before_.setpoint.incomplete ||
+                    link_.wrench.incomplete != link_before_.wrench.incomplete;
+  link_before_ = link_;
+  return static_cast<std::uint16_t>(
+      sticky_ | bit_if(wrench_monitor_.is_stuck(), kWrenchStuck) |
+      bit_if(config_.require_identity && has_identity_ && !identity_fits, kIdentityMismatch) |
+      bit_if(late_in_a_row_ >= config_.late_ticks, kTickLate) |
+      bit_if(link_.bus_fault, kBusFault) |
+      bit_if(wrench_monitor_.last_was_saturated(), kWrenchSaturated) |
+      bit_if(wrench_monitor_.last_was_implausible(), kWrenchImplausible) |
+      bit_if(lost, kSomeLost));
+}
+
+Node::Core::Input Node::input(std::int64_t now) const {
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  Core::Input input{};
+  input.setpoint = to_core(setpoint_.q);
+  input.setpoint_age = has_setpoint_ ? seconds(now - setpoint_time_) : kNever;
+  std::transform(wrench_.wrench.begin(), wrench_.wrench.end(), input.wrench.data(),
+                 [](double x) { return static_cast<float>(x); });
+  input.wrench_age = has_wrench_ ? seconds(now - wrench_time_) : kNever;
+  if (!has_setpoint_) {
+    input.setpoint.setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return input;
+}
+
+CorrectedMessage Node::tick(std::int64_t now) {
+  if (ticks_ == 0) {
+    started_at_ = now;
+  }
+  std::uint16_t node_status = judge(now);
+  Core::Input in = input(now);
+  in.external_fault = (node_status & kNodeFaultBits) != 0;
+  const State before = core_.state();
+  const Core::Output out = core_.tick(in);
+  if (before == State::holding && out.state == State::fading_out) {
+    node_latched_ |= node_status & kNodeFaultBits;
+  }
+
+  const auto deflection = static_cast<double>(out.deflection.head<3>().norm());
+  node_status |= bit_if(deflection > config_.deflection_warning, kDeflectionWarning);
+  if (deflection > config_.deflection_error) {
+    sticky_ |= kDeflectionTooLarge;
+  }
+  node_status |= sticky_ & kDeflectionTooLarge;
+
+  announce_faults(out.status & kFaultBits, node_status & kNodeFaultBits);
+  beat(out);
+  ++ticks_;
+
+  CorrectedMessage message;
+  message.timestamp = setpoint_.timestamp;
+  message.corrected = from_core(out.setpoint);
+  message.uncorrected = from_core(out.setpoint - out.correction);
+  if ((out.status & kNoSetpoint) != 0) {
+    message.corrected.fill(std::numeric_limits<double>::quiet_NaN());
+    message.uncorrected.fill(std::numeric_limits<double>::quiet_NaN());
+  }
+  message.status = out.status;
+  message.node_status = node_status;
+  message.state = static_cast<std::uint8_t>(out.state);
+  return message;
+}
+
+void Node::announce_faults(std::uint32_t status, std::uint16_t node_status) {
+  announce_changes(status & ~std::uint32_t{kExternalFault}, &announced_, kCompensatorFaultCode,
+                   &inhibited_);
+  announce_changes(node_status, &node_announced_, kNodeFaultCode, &node_inhibited_);
+}
+
+/// Posts what began or ended, a bit at most once between two heartbeats: a fault that flickers must
+/// not fill the bus.
+void Node::announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
+                            std::uint32_t* inhibited) {
+  const std::uint32_t changed = (bits ^ *announced) & ~*inhibited;
+  for (std::uint16_t i = 0; i < 16; ++i) {
+    const std::uint32_t bit = 1U << i;
+    if ((changed & bit) != 0) {
+      const bool began = (bits & bit) != 0;
+      post(FaultMessage{static_cast<std::uint16_t>(base + i), began, 0});
+      faults_ += began ? 1U : 0U;
+    }
+  }
+  *announced ^= changed;
+  *inhibited |= changed;
+}
+
+void Node::beat(const Core::Output& output) {
+  if (report_from_ >= 0 && queue_size_ < kQueue / 2) {
+    bool exists = false;
+    while (!exists && report_from_ < kStatisticNames) {
+      const auto name = static_cast<std::uint8_t>(report_from_++);
+      const std::uint64_t value = statistic(name, &exists);
+      if (exists) {
+        post(StatisticMessage{name, value});
+      }
+    }
+    report_from_ = report_from_ < kStatisticNames ? report_from_ : -1;
+  }
+  if (ticks_to_heartbeat_ > 0) {
+    --ticks_to_heartbeat_;
+    return;
+  }
+  const auto period = static_cast<double>(config_.compensator.period);
+  ticks_to_heartbeat_ = static_cast<std::uint32_t>(config_.heartbeat_period / period);
+  inhibited_ = 0;
+  node_inhibited_ = 0;
+  HeartbeatMessage message;
+  message.uptime = static_cast<std::uint32_t>((last_tick_ - started_at_) / 1'000'000'000);
+  message.state = static_cast<std::uint8_t>(output.state);
+  message.slot = store_.active() == TableStore::kNone
+                     ? std::uint8_t{0}
+                     : static_cast<std::uint8_t>(store_.active() + 1);
+  message.table_result = table_result_;
+  message.latched_faults = output.latched_faults;
+  message.node_latched_faults = node_latched_;
+  message.table_model_hash = table_.is_open() ? table_.model_hash() : 0;
+  message.largest_gain =
+      table_.is_open() ? static_cast<double>(table_.header().largest_gain) : 0.0;
+  post(message);
+}
+
+std::uint64_t Node::statistic(std::uint8_t name, bool* exists) const {
+  constexpr auto kSetpoint = static_cast<unsigned>(StatisticName::setpoint_received);
+  constexpr auto kWrench = static_cast<unsigned>(StatisticName::wrench_received);
+  constexpr auto kLatency = static_cast<unsigned>(StatisticName::latency);
+  constexpr unsigned kStreamNames = 8;
+  *exists = true;
+  if (name >= kSetpoint && name < kSetpoint + kStreamNames) {
+    return stream_statistic(link_.setpoint, name - kSetpoint);
+  }
+  if (name >= kWrench && name < kWrench + kStreamNames) {
+    return stream_statistic(link_.wrench, name - kWrench);
+  }
+  if (name >= kLatency && name < kLatency + LatencyHistogram::kBins) {
+    return latency_.counts()[name - kLatency];
+  }
+  switch (static_cast<StatisticName>(name)) {
+    case StatisticName::ticks:
+      return ticks_;
+    case StatisticName::late_ticks:
+      return late_ticks_;
+    case StatisticName::clock_jumps:
+      return clock_jumps_;
+    case StatisticName::faults:
+      return faults_;
+    case StatisticName::saturated_samples:
+      return wrench_monitor_.saturated_samples();
+    case StatisticName::implausible_samples:
+      return wrench_monitor_.implausible_samples();
+    case StatisticName::foreign_frames:
+      return link_.foreign_frames;
+    case StatisticName::dropped_frames:
+      return link_.dropped_frames;
+    default:
+      *exists = false;
+      return 0;
+  }
+}
+
+}  // namespace flexcomp

@@ -1,0 +1,107 @@
+#include "node/table_store.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/crc32.hpp"
+
+namespace flexcomp {
+namespace {
+
+constexpr std::size_t kScrubBytes = 64;  // a tick
+constexpr std::size_t kCrcPlace = offsetof(TableHeader, crc);
+
+}  // namespace
+
+Reply TableStore::begin(const TransferBeginMessage& message) {
+  const std::size_t words = message.size / sizeof(std::uint32_t);
+  if (phase_ == Phase::complete || message.size % sizeof(std::uint32_t) != 0 || words == 0 ||
+      words > slots_[receiving_slot()].capacity) {
+    return Reply::transfer_refused;
+  }
+  phase_ = Phase::receiving;
+  words_ = static_cast<std::uint32_t>(words);
+  crc_ = message.crc;
+  running_crc_ = 0;
+  received_ = 0;
+  return Reply::ok;
+}
+
+Reply TableStore::add(const TransferDataMessage& message) {
+  if (phase_ != Phase::receiving || message.word_index != received_ || message.count == 0 ||
+      message.count > TransferDataMessage::kMaxWords || message.count > words_ - received_) {
+    phase_ = phase_ == Phase::receiving ? Phase::idle : phase_;
+    return Reply::transfer_out_of_order;
+  }
+  std::uint32_t* place = slots_[receiving_slot()].words + received_;
+  std::copy_n(message.words.begin(), message.count, place);
+  running_crc_ = crc32(place, message.count * sizeof(std::uint32_t), running_crc_);
+  received_ += message.count;
+  return Reply::ok;
+}
+
+Reply TableStore::end(const TransferEndMessage& message) {
+  if (phase_ != Phase::receiving || received_ != words_) {
+    phase_ = phase_ == Phase::receiving ? Phase::idle : phase_;
+    return Reply::transfer_out_of_order;
+  }
+  if (running_crc_ != crc_ || message.crc != crc_) {
+    phase_ = Phase::idle;
+    return Reply::transfer_crc;
+  }
+  phase_ = Phase::complete;
+  return Reply::ok;
+}
+
+const void* TableStore::received(std::size_t* size) const {
+  if (phase_ != Phase::complete) {
+    return nullptr;
+  }
+  *size = words_ * sizeof(std::uint32_t);
+  return slots_[receiving_slot()].words;
+}
+
+void TableStore::conclude(bool use_it) {
+  if (phase_ == Phase::complete && use_it) {
+    use(receiving_slot(), words_ * sizeof(std::uint32_t));
+  }
+  phase_ = Phase::idle;
+}
+
+void TableStore::use(std::size_t slot, std::size_t size) {
+  active_ = slot;
+  restart_scrub(size);
+}
+
+void TableStore::restart_scrub(std::size_t size) {
+  scrub_size_ = size;
+  scrub_place_ = 0;
+  scrub_crc_ = 0;
+}
+
+bool TableStore::scrub() {
+  if (active_ == kNone) {
+    return true;
+  }
+  const auto* bytes = reinterpret_cast<const unsigned char*>(slots_[active_].words);
+  std::array<unsigned char, kScrubBytes> piece{};
+  const std::size_t size = std::min(kScrubBytes, scrub_size_ - scrub_place_);
+  std::copy_n(bytes + scrub_place_, size, piece.begin());
+  if (scrub_place_ <= kCrcPlace && kCrcPlace < scrub_place_ + size) {
+    // The CRC was made with its own word zero.
+    std::fill_n(piece.begin() + (kCrcPlace - scrub_place_), sizeof(std::uint32_t),
+                static_cast<unsigned char>(0));
+  }
+  scrub_crc_ = crc32(piece.data(), size, scrub_crc_);
+  scrub_place_ += size;
+  if (scrub_place_ < scrub_size_) {
+    return true;
+  }
+  std::uint32_t stored = 0;
+  std::memcpy(&stored, bytes + kCrcPlace, sizeof stored);
+  const bool intact = stored == scrub_crc_;
+  restart_scrub(scrub_size_);
+  return intact;
+}
+
+}  // namespace flexcomp

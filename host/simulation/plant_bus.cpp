@@ -1,0 +1,182 @@
+#include "simulation/plant_bus.hpp"
+
+#include <poll.h>
+
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <vector>
+
+#include "error.hpp"
+#include "linux/can_socket.hpp"
+#include "linux/clock.hpp"
+#include "linux/lcm_link.hpp"
+#include "messages/can_decoder.hpp"
+#include "messages/can_encoder.hpp"
+#include "node/can_link.hpp"
+
+namespace flexcomp::simulation {
+namespace {
+
+/// Waits until `number` can be read from; false after `patience` ns.
+bool wait_for_input(int number, std::int64_t patience) {
+  pollfd input{number, POLLIN, 0};
+  timespec time{};
+  time.tv_sec = patience / 1'000'000'000;
+  time.tv_nsec = patience % 1'000'000'000;
+  return ppoll(&input, 1, &time, nullptr) > 0;
+}
+
+class CanBus : public PlantBus {
+ public:
+  CanBus(const std::string& interface, bool fd) : socket_(interface, fd), encoder_(fd) {}
+
+  void send(const Message& message) override {
+    const FrameList list = encoder_.encode(message);
+    for (std::size_t i = 0; i < list.count; ++i) {
+      socket_.send(list.frames[i]);
+    }
+  }
+
+  bool receive(Message* message, std::int64_t patience) override {
+    const std::int64_t until = monotonic_now() + patience;
+    while (true) {
+      CanFrame frame;
+      if (socket_.receive(&frame) == CanSocket::Received::frame) {
+        *message = decoder_.decode(frame, monotonic_now());
+        if (message->index() != 0) {
+          return true;
+        }
+        continue;
+      }
+      const std::int64_t left = until - monotonic_now();
+      if (left <= 0 || !wait_for_input(socket_.number(), left)) {
+        return false;
+      }
+    }
+  }
+
+ private:
+  CanSocket socket_;
+  CanEncoder encoder_;
+  CanDecoder decoder_;
+};
+
+class LcmBus : public PlantBus {
+ public:
+  explicit LcmBus(const std::string& url)
+      : link_(url, [this](const LcmMessage& message) { received_.push_back(message.message); }) {}
+
+  void send(const Message& message) override { link_.publish(message); }
+
+  bool receive(Message* message, std::int64_t patience) override {
+    if (received_.empty() && wait_for_input(link_.number(), patience)) {
+      link_.handle();
+    }
+    if (received_.empty()) {
+      return false;
+    }
+    *message = received_.front();
+    received_.pop_front();
+    return true;
+  }
+
+ private:
+  std::deque<Message> received_;
+  LcmLink link_;
+};
+
+class InnerBus : public PlantBus {
+ public:
+  InnerBus(const NodeConfig& config, const Table& table, bool fd)
+      : period_(static_cast<std::int64_t>(1e9 * static_cast<double>(config.compensator.period))),
+        link_(fd, 3),
+        encoder_(fd) {
+    if (node_->configure(config) != Result::ok) {
+      throw InputError(describe(Result::bad_config));
+    }
+    const std::size_t size = table.header().size;
+    slot_.resize(size / sizeof(std::uint32_t));
+    std::memcpy(slot_.data(), &table.header(), size);
+    node_->use_memory({slot_.data(), slot_.size()}, {});
+    Table own;
+    Table::open(slot_.data(), size, &own);
+    node_->start_with(0, own);
+  }
+
+  void send(const Message& message) override {
+    const FrameList list = encoder_.encode(message);
+    for (std::size_t i = 0; i < list.count; ++i) {
+      if (link_.receive(list.frames[i], node_.get(), ticks_ * period_)) {
+        tick();
+      }
+    }
+  }
+
+  bool receive(Message* message, std::int64_t /*patience*/) override {
+    if (received_.empty()) {
+      return false;
+    }
+    *message = received_.front();
+    received_.pop_front();
+    return true;
+  }
+
+ private:
+  void tick() {
+    ++ticks_;
+    if (node_->take_reset()) {
+      link_.forget_conflicts();
+    }
+    node_->set_link(link_.state());
+    put(node_->tick(ticks_ * period_));
+    Message message;
+    while (node_->next_message(&message)) {
+      put(message);
+    }
+  }
+
+  void put(const Message& message) {
+    const FrameList list = link_.encode(message);
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const Message decoded = decoder_.decode(list.frames[i], ticks_ * period_);
+      if (decoded.index() != 0) {
+        received_.push_back(decoded);
+      }
+    }
+  }
+
+  std::int64_t period_;
+  std::int64_t ticks_ = 0;
+  std::unique_ptr<Node> node_ = std::make_unique<Node>();
+  std::vector<std::uint32_t> slot_;
+  CanLink link_;
+  CanEncoder encoder_;
+  CanDecoder decoder_;
+  std::deque<Message> received_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlantBus> open_plant_bus(const std::string& address) {
+  const std::size_t colon = address.find(':');
+  const std::string kind = address.substr(0, colon);
+  const std::string rest = colon == std::string::npos ? "" : address.substr(colon + 1);
+  try {
+    if ((kind == "can" || kind == "canfd") && !rest.empty()) {
+      return std::make_unique<CanBus>(rest, kind == "canfd");
+    }
+    if (kind == "lcm" && !rest.empty()) {
+      return std::make_unique<LcmBus>(rest);
+    }
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
+  throw InputError("--bus " + address + ": expected can:INTERFACE, canfd:INTERFACE or lcm:URL");
+}
+
+std::unique_ptr<PlantBus> make_inner_bus(const NodeConfig& config, const Table& table, bool fd) {
+  return std::make_unique<InnerBus>(config, table, fd);
+}
+
+}  // namespace flexcomp::simulation

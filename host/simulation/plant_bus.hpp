@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "messages/messages.hpp"
+#include "node/node.hpp"
+
+namespace flexcomp::simulation {
+
+/// The bus as the plant sees it: messages to the compensator and back.
+class PlantBus {
+ public:
+  virtual ~PlantBus() = default;
+  PlantBus() = default;
+  PlantBus(const PlantBus&) = delete;
+  PlantBus& operator=(const PlantBus&) = delete;
+
+  virtual void send(const Message& message) = 0;
+
+  /// The next message that has come, waiting up to `patience` (ns) for one; false if none has.
+  virtual bool receive(Message* message, std::int64_t patience) = 0;
+};
+
+/// Opens "can:IFACE", "canfd:IFACE" or "lcm:URL". Throws InputError, naming the address.
+std::unique_ptr<PlantBus> open_plant_bus(const std::string& address);
+
+/// A node of its own inside this process, on a bus in memory: the same code and the same frames as
+/// on a wire, in lock-step. The table must outlive it. Throws InputError if the node refuses it.
+std::unique_ptr<PlantBus> make_inner_bus(const NodeConfig& config, const Table& table, bool fd);
+
+}  // namespace flexcomp::simulation
