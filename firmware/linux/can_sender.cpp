@@ -5,7 +5,7 @@
 namespace flexcomp {
 namespace {
 
-constexpr std::uint32_t kLongestWait = 64;      // ticks
+constexpr std::uint32_t kLongestWait = 64;  // ticks
 constexpr std::uint32_t kFramesToRecover = 50;
 
 }  // namespace
@@ -38,9 +38,7 @@ void CanSender::observe(CanSocket::Received event) {
   }
 }
 
-void CanSender::tick() {
-  waiting_ -= waiting_ > 0 ? 1U : 0U;
-}
+void CanSender::tick() { waiting_ -= waiting_ > 0 ? 1U : 0U; }
 
 void CanSender::back_off() {
   fault_ = true;

@@ -27,7 +27,7 @@ std::runtime_error system_failure(const std::string& interface) {
 
 /// A length that an FD frame can have, at least `size`.
 std::uint8_t fd_length(std::uint8_t size) {
-  constexpr std::array<std::uint8_t, 16> kLengths = {0,  1,  2,  3,  4,  5,  6,  7,
+  constexpr std::array<std::uint8_t, 16> kLengths = {0, 1,  2,  3,  4,  5,  6,  7,
                                                      8, 12, 16, 20, 24, 32, 48, 64};
   return *std::lower_bound(kLengths.begin(), kLengths.end() - 1, size);
 }
@@ -62,8 +62,8 @@ CanSocket::CanSocket(const std::string& interface, bool fd)
     throw system_failure(interface);
   }
   const int on = 1;
-  if (fd && (request.ifr_mtu != CANFD_MTU || setsockopt(socket_.number(), SOL_CAN_RAW,
-                                                       CAN_RAW_FD_FRAMES, &on, sizeof on) < 0)) {
+  if (fd && (request.ifr_mtu != CANFD_MTU ||
+             setsockopt(socket_.number(), SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on) < 0)) {
     throw failure(interface, "carries classic frames only; give it an MTU of 72 or use them");
   }
   const can_err_mask_t errors = CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL;

@@ -48,7 +48,8 @@ struct ConfigResult {
 
 struct Ended {};
 
-using ToRealTime = std::variant<std::monostate, LcmSample, NodeConfig, Verdict, Stop, SnapshotRequest>;
+using ToRealTime =
+    std::variant<std::monostate, LcmSample, NodeConfig, Verdict, Stop, SnapshotRequest>;
 using FromRealTime =
     std::variant<std::monostate, Message, TableReceived, TableInUse, ConfigResult, Snapshot, Ended>;
 

@@ -59,7 +59,8 @@ void load_table(const Options& options, Slots* slots, Node* node) {
   }
   const Result used = node->start_with(0, table);
   if (used == Result::gain_too_high) {
-    std::fprintf(stderr, "flexcompd: refuses to arm: gain %.4g is above the largest safe gain %.4g\n",
+    std::fprintf(stderr,
+                 "flexcompd: refuses to arm: gain %.4g is above the largest safe gain %.4g\n",
                  static_cast<double>(options.node.compensator.gain),
                  static_cast<double>(table.header().largest_gain));
   } else if (used != Result::ok) {

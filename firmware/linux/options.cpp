@@ -3,9 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "node/default_config.hpp"
-
 #include "linux/build_info.hpp"
+#include "node/default_config.hpp"
 
 namespace flexcomp {
 namespace {
@@ -13,8 +12,10 @@ namespace {
 constexpr int kUnusableInput = 2;
 
 constexpr const char* kDescription =
-    "flexcompd corrects joint setpoints for the deflection of a robot, in real time, on CAN or LCM.\n\n"
-    "It needs the hash of the robot's model and a table (flexcomp table; flexcomp configure writes a\n"
+    "flexcompd corrects joint setpoints for the deflection of a robot, in real time, on CAN or "
+    "LCM.\n\n"
+    "It needs the hash of the robot's model and a table (flexcomp table; flexcomp configure writes "
+    "a\n"
     "configuration file that has both). It corrects nothing until it is told to arm over the bus,\n"
     "and the sender of setpoints has said which robot it works with.\n\n"
     "  flexcompd --config node.toml --can can0\n\n"
@@ -50,15 +51,15 @@ void add_links(CLI::App* app, Options* options) {
   app->add_option("--can", options->can, "CAN interface, such as can0");
   app->add_flag("--fd", options->fd, "answer with CAN FD frames");
   app->add_option("--lcm", options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
-  const std::map<std::string, Trigger> triggers = {{"setpoint", Trigger::setpoint},
-                                                   {"clock", Trigger::clock},
-                                                   {"lockstep", Trigger::lockstep}};
+  const std::map<std::string, Trigger> triggers = {
+      {"setpoint", Trigger::setpoint}, {"clock", Trigger::clock}, {"lockstep", Trigger::lockstep}};
   app->add_option("--trigger", options->trigger, "what makes a tick: setpoint, clock or lockstep")
       ->transform(CLI::CheckedTransformer(triggers, CLI::ignore_case));
   app->add_option("--tolerated-losses", options->tolerated_losses,
                   "messages in a row that may be lost without a break")
       ->check(CLI::Range(0, 6));
-  positive(app, "--heartbeat", &options->node.heartbeat_period, "s, from one heartbeat to the next");
+  positive(app, "--heartbeat", &options->node.heartbeat_period,
+           "s, from one heartbeat to the next");
 }
 
 void add_table(CLI::App* app, Options* options, Typed* typed) {
@@ -78,7 +79,8 @@ void add_correction(CLI::App* app, Options* options, Typed* typed) {
   app->add_option("--gain", core.gain, "share of the deflection that is corrected")
       ->check(CLI::Range(0.0, 1.0));
   not_negative(app, "--filter-cutoff", &core.filter_cutoff, "Hz, low-pass on the wrench; 0: none");
-  one_or_six(app, "--correction-limit", &typed->value, "rad, largest correction; one or a joint each");
+  one_or_six(app, "--correction-limit", &typed->value,
+             "rad, largest correction; one or a joint each");
   one_or_six(app, "--correction-rate", &typed->rate, "rad/s, of the correction");
   one_or_six(app, "--correction-acceleration", &typed->acceleration, "rad/s^2, of the correction");
   positive(app, "--deflection-limit", &core.deflection_limit, "m, largest correction at the TCP");
@@ -124,8 +126,8 @@ void require_one_or_six(const std::vector<float>& values, const char* name) {
 }
 
 std::uint64_t parse_hash(const std::string& text) {
-  const bool is_hash = text.size() == 16 &&
-                       text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+  const bool is_hash =
+      text.size() == 16 && text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
   if (!is_hash) {
     throw CLI::ValidationError("--model-hash", "expected 16 hexadecimal digits");
   }

@@ -15,9 +15,9 @@ namespace flexcomp {
 namespace {
 
 constexpr int kFramesAtOnce = 128;
-constexpr int kMessagesATick = 4;            // beside the corrected setpoint
-constexpr std::uint32_t kLcmCounter = 256;   // the low byte of the sequence is judged
-constexpr std::int64_t kLargestShift = 100;  // of the period, its divisor
+constexpr int kMessagesATick = 4;                        // beside the corrected setpoint
+constexpr std::uint32_t kLcmCounter = 256;               // the low byte of the sequence is judged
+constexpr std::int64_t kLargestShift = 100;              // of the period, its divisor
 constexpr std::int64_t kLockstepPatience = 500'000'000;  // ns, for setpoints to fade out on
 
 constexpr std::array<CanSocket::Filter, 2> kFilters = {{
@@ -70,7 +70,8 @@ void RealTimeLoop::run() {
     if (now >= period_end_) {
       on_period_end(now);
     }
-    const bool given_up = trigger_ == Trigger::lockstep && now - stopping_since_ > kLockstepPatience;
+    const bool given_up =
+        trigger_ == Trigger::lockstep && now - stopping_since_ > kLockstepPatience;
     if (stopping_ && (node_->is_at_zero() || given_up)) {
       break;
     }

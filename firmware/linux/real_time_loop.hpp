@@ -14,8 +14,8 @@ namespace flexcomp {
 ///
 /// There is exactly one tick a period, so the correction's limits hold in time as well as from tick
 /// to tick. With Trigger::setpoint a setpoint is answered at once, and the periods are shifted, by
-/// at most one percent each, so that setpoints come in their middle. A second one in the same period
-/// is answered with the next.
+/// at most one percent each, so that setpoints come in their middle. A second one in the same
+/// period is answered with the next.
 class RealTimeLoop {
  public:
   /// Throws std::runtime_error if the system refuses what it needs.

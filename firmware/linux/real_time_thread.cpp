@@ -53,9 +53,7 @@ RealTimeThread::RealTimeThread(int priority, std::function<void()> work) : work_
   }
 }
 
-RealTimeThread::~RealTimeThread() {
-  pthread_join(thread_, nullptr);
-}
+RealTimeThread::~RealTimeThread() { pthread_join(thread_, nullptr); }
 
 void* RealTimeThread::enter(void* self) {
   touch_stack();

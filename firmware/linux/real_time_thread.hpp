@@ -9,8 +9,8 @@ namespace flexcomp {
 /// A thread for real-time work: memory locked, stack touched in advance, SCHED_FIFO where allowed.
 class RealTimeThread {
  public:
-  /// Starts it, named "flexcomp-rt". `priority` 0 asks for ordinary scheduling. What the system does
-  /// not allow is said on standard error, and done without.
+  /// Starts it, named "flexcomp-rt". `priority` 0 asks for ordinary scheduling. What the system
+  /// does not allow is said on standard error, and done without.
   RealTimeThread(int priority, std::function<void()> work);
   ~RealTimeThread();
   RealTimeThread(const RealTimeThread&) = delete;

@@ -25,7 +25,8 @@ sigset_t served_signals() {
 void write_text(const std::string& path, const std::string& text) {
   const std::string aside = path + ".new";
   std::FILE* file = std::fopen(aside.c_str(), "w");
-  const bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool written =
+      file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const bool closed = file != nullptr && std::fclose(file) == 0;
   if (!written || !closed || std::rename(aside.c_str(), path.c_str()) != 0) {
     std::fprintf(stderr, "flexcompd: %s: cannot be written\n", path.c_str());
@@ -44,8 +45,7 @@ Service::Service(const Options& options, std::function<std::optional<Options>()>
   signals_ = FileDescriptor(signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!options.lcm.empty()) {
     lcm_.emplace(options.lcm, [this](const LcmMessage& message) {
-      to_real_time_->send(
-          LcmSample{message.message, static_cast<std::uint32_t>(message.sequence)});
+      to_real_time_->send(LcmSample{message.message, static_cast<std::uint32_t>(message.sequence)});
     });
   }
 }

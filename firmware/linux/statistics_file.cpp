@@ -19,8 +19,8 @@ std::uint64_t value(const Snapshot& snapshot, StatisticName name, std::size_t of
 std::string stream_json(const Snapshot& snapshot, StatisticName first) {
   std::string text;
   for (std::size_t i = 0; i < kStreamNames.size(); ++i) {
-    text += fmt::format("{}\"{}\": {}", i == 0 ? "" : ", ", kStreamNames[i],
-                        value(snapshot, first, i));
+    text +=
+        fmt::format("{}\"{}\": {}", i == 0 ? "" : ", ", kStreamNames[i], value(snapshot, first, i));
   }
   return text;
 }
@@ -30,7 +30,8 @@ std::string stream_json(const Snapshot& snapshot, StatisticName first) {
 std::string statistics_json(const Snapshot& snapshot) {
   std::string latency;
   for (std::size_t bin = 0; bin < LatencyHistogram::kBins; ++bin) {
-    latency += fmt::format("{}{}", bin == 0 ? "" : ", ", value(snapshot, StatisticName::latency, bin));
+    latency +=
+        fmt::format("{}{}", bin == 0 ? "" : ", ", value(snapshot, StatisticName::latency, bin));
   }
   constexpr std::array<std::pair<const char*, StatisticName>, 8> kNames = {{
       {"ticks", StatisticName::ticks},
@@ -48,8 +49,8 @@ std::string statistics_json(const Snapshot& snapshot) {
   }
   text += fmt::format("  \"setpoint\": {{{}}},\n",
                       stream_json(snapshot, StatisticName::setpoint_received));
-  text += fmt::format("  \"wrench\": {{{}}},\n",
-                      stream_json(snapshot, StatisticName::wrench_received));
+  text +=
+      fmt::format("  \"wrench\": {{{}}},\n", stream_json(snapshot, StatisticName::wrench_received));
   text += fmt::format("  \"latency_log2_us\": [{}]\n}}\n", latency);
   return text;
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "messages/can_scaling.hpp"
 #include "flexcomp_can.h"
+#include "messages/can_scaling.hpp"
 
 namespace flexcomp {
 namespace {
@@ -22,20 +22,17 @@ Raw unpacked(int (*unpack)(Raw*, const std::uint8_t*, std::size_t), const std::u
 #define UNPACK_FD(frame, data, size) unpacked(flexcomp_can_##frame##_unpack, data, size)
 
 /// The six angles of the frames A, B and C of a joint set.
-#define UNPACK_JOINTS(set, a, b, c)                                    \
-  [&]() -> JointAngles {                                               \
-    const auto first = UNPACK(set##_a, (a).data());                    \
-    const auto second = UNPACK(set##_b, (b).data());                   \
-    const auto third = UNPACK(set##_c, (c).data());                    \
-    return {                                                           \
-        SIGNAL_VALUE(set##_a, q1, 26, first), SIGNAL_VALUE(set##_a, q2, 26, first), \
-        SIGNAL_VALUE(set##_b, q3, 26, second), SIGNAL_VALUE(set##_b, q4, 26, second), \
-        SIGNAL_VALUE(set##_c, q5, 26, third), SIGNAL_VALUE(set##_c, q6, 26, third)};  \
+#define UNPACK_JOINTS(set, a, b, c)                                                       \
+  [&]() -> JointAngles {                                                                  \
+    const auto first = UNPACK(set##_a, (a).data());                                       \
+    const auto second = UNPACK(set##_b, (b).data());                                      \
+    const auto third = UNPACK(set##_c, (c).data());                                       \
+    return {SIGNAL_VALUE(set##_a, q1, 26, first),  SIGNAL_VALUE(set##_a, q2, 26, first),  \
+            SIGNAL_VALUE(set##_b, q3, 26, second), SIGNAL_VALUE(set##_b, q4, 26, second), \
+            SIGNAL_VALUE(set##_c, q5, 26, third),  SIGNAL_VALUE(set##_c, q6, 26, third)}; \
   }()
 
-std::int64_t from_microseconds(std::uint32_t time) {
-  return std::int64_t{1000} * time;
-}
+std::int64_t from_microseconds(std::uint32_t time) { return std::int64_t{1000} * time; }
 
 std::uint64_t joined(std::uint32_t low, std::uint32_t high) {
   return static_cast<std::uint64_t>(high) << 32 | low;

@@ -1,8 +1,8 @@
 #include "messages/can_encoder.hpp"
 
+#include "flexcomp_can.h"
 #include "messages/can_scaling.hpp"
 #include "messages/e2e.hpp"
-#include "flexcomp_can.h"
 
 namespace flexcomp {
 namespace {
@@ -27,20 +27,20 @@ void append(FrameList* list, std::uint32_t id, int (*pack)(std::uint8_t*, const 
   append(list, FLEXCOMP_CAN_##FRAME##_FRAME_ID, flexcomp_can_##frame##_pack, raw, counter)
 
 /// The three frames of a joint set.
-#define APPEND_JOINTS(list, SET, set, q, counter)                                   \
-  do {                                                                              \
-    flexcomp_can_##set##_a_t a{};                                                   \
-    a.q1 = SIGNAL_RAW(set##_a, q1, 26, (q)[0]);                                     \
-    a.q2 = SIGNAL_RAW(set##_a, q2, 26, (q)[1]);                                     \
-    APPEND(list, SET##_A, set##_a, a, counter);                                     \
-    flexcomp_can_##set##_b_t b{};                                                   \
-    b.q3 = SIGNAL_RAW(set##_b, q3, 26, (q)[2]);                                     \
-    b.q4 = SIGNAL_RAW(set##_b, q4, 26, (q)[3]);                                     \
-    APPEND(list, SET##_B, set##_b, b, counter);                                     \
-    flexcomp_can_##set##_c_t c{};                                                   \
-    c.q5 = SIGNAL_RAW(set##_c, q5, 26, (q)[4]);                                     \
-    c.q6 = SIGNAL_RAW(set##_c, q6, 26, (q)[5]);                                     \
-    APPEND(list, SET##_C, set##_c, c, counter);                                     \
+#define APPEND_JOINTS(list, SET, set, q, counter) \
+  do {                                            \
+    flexcomp_can_##set##_a_t a{};                 \
+    a.q1 = SIGNAL_RAW(set##_a, q1, 26, (q)[0]);   \
+    a.q2 = SIGNAL_RAW(set##_a, q2, 26, (q)[1]);   \
+    APPEND(list, SET##_A, set##_a, a, counter);   \
+    flexcomp_can_##set##_b_t b{};                 \
+    b.q3 = SIGNAL_RAW(set##_b, q3, 26, (q)[2]);   \
+    b.q4 = SIGNAL_RAW(set##_b, q4, 26, (q)[3]);   \
+    APPEND(list, SET##_B, set##_b, b, counter);   \
+    flexcomp_can_##set##_c_t c{};                 \
+    c.q5 = SIGNAL_RAW(set##_c, q5, 26, (q)[4]);   \
+    c.q6 = SIGNAL_RAW(set##_c, q6, 26, (q)[5]);   \
+    APPEND(list, SET##_C, set##_c, c, counter);   \
   } while (false)
 
 /// The low 32 bits of the sender's clock in µs; wraps after 71 min.
@@ -52,13 +52,9 @@ std::uint32_t low_word(std::uint64_t value) {
   return static_cast<std::uint32_t>(value & 0xFFFFFFFFU);
 }
 
-std::uint32_t high_word(std::uint64_t value) {
-  return static_cast<std::uint32_t>(value >> 32);
-}
+std::uint32_t high_word(std::uint64_t value) { return static_cast<std::uint32_t>(value >> 32); }
 
-float single(double value) {
-  return static_cast<float>(value);
-}
+float single(double value) { return static_cast<float>(value); }
 
 void encode_setpoint(const SetpointMessage& message, std::uint8_t counter, FrameList* list) {
   APPEND_JOINTS(list, SETPOINT, setpoint, message.q, counter);
@@ -225,76 +221,138 @@ void encode_transfer_data_fd(const TransferDataMessage& message, std::uint8_t co
   APPEND(list, TRANSFER_DATA_FD, transfer_data_fd, raw, counter);
 }
 
+void encode_measured(const MeasuredJointsMessage& message, std::uint8_t counter, FrameList* list) {
+  APPEND_JOINTS(list, MEASURED, measured, message.q, counter);
+}
+
+void encode_command(const CommandMessage& message, std::uint8_t counter, FrameList* list) {
+  flexcomp_can_command_t raw{};
+  raw.command = static_cast<std::uint8_t>(message.command);
+  APPEND(list, COMMAND, command, raw, counter);
+}
+
+void encode_transfer_begin(const TransferBeginMessage& message, std::uint8_t counter,
+                           FrameList* list) {
+  flexcomp_can_transfer_begin_t raw{};
+  raw.size = message.size;
+  raw.table_crc = message.crc;
+  APPEND(list, TRANSFER_BEGIN, transfer_begin, raw, counter);
+}
+
+void encode_transfer_end(const TransferEndMessage& message, std::uint8_t counter, FrameList* list) {
+  flexcomp_can_transfer_end_t raw{};
+  raw.table_crc = message.crc;
+  APPEND(list, TRANSFER_END, transfer_end, raw, counter);
+}
+
+void encode_transfer_reply(const TransferReplyMessage& message, std::uint8_t counter,
+                           FrameList* list) {
+  flexcomp_can_transfer_reply_t raw{};
+  raw.stage = static_cast<std::uint8_t>(message.stage);
+  raw.result = message.result;
+  raw.words = message.words;
+  APPEND(list, TRANSFER_REPLY, transfer_reply, raw, counter);
+}
+
+void encode_fault(const FaultMessage& message, std::uint8_t counter, FrameList* list) {
+  flexcomp_can_fault_t raw{};
+  raw.code = message.code;
+  raw.active = message.active ? 1 : 0;
+  raw.detail = message.detail;
+  APPEND(list, FAULT, fault, raw, counter);
+}
+
+void encode_statistic(const StatisticMessage& message, std::uint8_t counter, FrameList* list) {
+  flexcomp_can_statistic_t raw{};
+  raw.name = message.name;
+  raw.value = message.value;
+  APPEND(list, STATISTIC, statistic, raw, counter);
+}
+
 }  // namespace
 
-FrameList CanEncoder::encode(const Message& message) {
-  FrameList list;
-  if (const auto* setpoint = std::get_if<SetpointMessage>(&message)) {
-    if (fd_) {
-      encode_setpoint_fd(*setpoint, next_counter(FrameGroup::setpoint_fd), &list);
-    } else {
-      encode_setpoint(*setpoint, next_counter(FrameGroup::setpoint), &list);
-    }
-  } else if (const auto* wrench = std::get_if<WrenchMessage>(&message)) {
-    if (fd_) {
-      encode_wrench_fd(*wrench, next_counter(FrameGroup::wrench_fd), &list);
-    } else {
-      encode_wrench(*wrench, next_counter(FrameGroup::wrench), &list);
-    }
-  } else if (const auto* corrected = std::get_if<CorrectedMessage>(&message)) {
-    if (fd_) {
-      encode_corrected_fd(*corrected, next_counter(FrameGroup::corrected_fd), &list);
-    } else {
-      encode_corrected(*corrected, next_counter(FrameGroup::corrected), &list);
-    }
-  } else if (const auto* command = std::get_if<CommandMessage>(&message)) {
-    flexcomp_can_command_t raw{};
-    raw.command = static_cast<std::uint8_t>(command->command);
-    APPEND(&list, COMMAND, command, raw, next_counter(FrameGroup::command));
-  } else if (const auto* identity = std::get_if<IdentityMessage>(&message)) {
-    encode_identity(*identity, next_counter(FrameGroup::identity), &list);
-  } else if (const auto* begin = std::get_if<TransferBeginMessage>(&message)) {
-    flexcomp_can_transfer_begin_t raw{};
-    raw.size = begin->size;
-    raw.table_crc = begin->crc;
-    APPEND(&list, TRANSFER_BEGIN, transfer_begin, raw, next_counter(FrameGroup::transfer_begin));
-  } else if (const auto* data = std::get_if<TransferDataMessage>(&message)) {
-    if (fd_ && data->count <= TransferDataMessage::kMaxWords) {
-      encode_transfer_data_fd(*data, next_counter(FrameGroup::transfer_data_fd), &list);
-    } else if (!fd_ && data->count == 1) {
-      encode_transfer_data(*data, next_counter(FrameGroup::transfer_data), &list);
-    }
-  } else if (const auto* end = std::get_if<TransferEndMessage>(&message)) {
-    flexcomp_can_transfer_end_t raw{};
-    raw.table_crc = end->crc;
-    APPEND(&list, TRANSFER_END, transfer_end, raw, next_counter(FrameGroup::transfer_end));
-  } else if (const auto* joints = std::get_if<MeasuredJointsMessage>(&message)) {
-    APPEND_JOINTS(&list, MEASURED, measured, joints->q, next_counter(FrameGroup::measured_joints));
-  } else if (const auto* position = std::get_if<MeasuredPositionMessage>(&message)) {
-    encode_position(*position, next_counter(FrameGroup::measured_position), &list);
-  } else if (const auto* heartbeat = std::get_if<HeartbeatMessage>(&message)) {
-    encode_heartbeat(*heartbeat, next_counter(FrameGroup::heartbeat), &list);
-  } else if (const auto* fault = std::get_if<FaultMessage>(&message)) {
-    flexcomp_can_fault_t raw{};
-    raw.code = fault->code;
-    raw.active = fault->active ? 1 : 0;
-    raw.detail = fault->detail;
-    APPEND(&list, FAULT, fault, raw, next_counter(FrameGroup::fault));
-  } else if (const auto* statistic = std::get_if<StatisticMessage>(&message)) {
-    flexcomp_can_statistic_t raw{};
-    raw.name = statistic->name;
-    raw.value = statistic->value;
-    APPEND(&list, STATISTIC, statistic, raw, next_counter(FrameGroup::statistic));
-  } else if (const auto* reply = std::get_if<TransferReplyMessage>(&message)) {
-    flexcomp_can_transfer_reply_t raw{};
-    raw.stage = static_cast<std::uint8_t>(reply->stage);
-    raw.result = reply->result;
-    raw.words = reply->words;
-    APPEND(&list, TRANSFER_REPLY, transfer_reply, raw, next_counter(FrameGroup::transfer_reply));
-  } else if (const auto* answer = std::get_if<CommandReplyMessage>(&message)) {
-    encode_command_reply(*answer, next_counter(FrameGroup::command_reply), &list);
+void CanEncoder::put(std::monostate /*nothing*/) {}
+
+void CanEncoder::put(const SetpointMessage& message) {
+  if (fd_) {
+    encode_setpoint_fd(message, next_counter(FrameGroup::setpoint_fd), &list_);
+  } else {
+    encode_setpoint(message, next_counter(FrameGroup::setpoint), &list_);
   }
-  return list;
+}
+
+void CanEncoder::put(const WrenchMessage& message) {
+  if (fd_) {
+    encode_wrench_fd(message, next_counter(FrameGroup::wrench_fd), &list_);
+  } else {
+    encode_wrench(message, next_counter(FrameGroup::wrench), &list_);
+  }
+}
+
+void CanEncoder::put(const CorrectedMessage& message) {
+  if (fd_) {
+    encode_corrected_fd(message, next_counter(FrameGroup::corrected_fd), &list_);
+  } else {
+    encode_corrected(message, next_counter(FrameGroup::corrected), &list_);
+  }
+}
+
+void CanEncoder::put(const TransferDataMessage& message) {
+  if (fd_ && message.count <= TransferDataMessage::kMaxWords) {
+    encode_transfer_data_fd(message, next_counter(FrameGroup::transfer_data_fd), &list_);
+  } else if (!fd_ && message.count == 1) {
+    encode_transfer_data(message, next_counter(FrameGroup::transfer_data), &list_);
+  }
+}
+
+void CanEncoder::put(const CommandMessage& message) {
+  encode_command(message, next_counter(FrameGroup::command), &list_);
+}
+
+void CanEncoder::put(const IdentityMessage& message) {
+  encode_identity(message, next_counter(FrameGroup::identity), &list_);
+}
+
+void CanEncoder::put(const TransferBeginMessage& message) {
+  encode_transfer_begin(message, next_counter(FrameGroup::transfer_begin), &list_);
+}
+
+void CanEncoder::put(const TransferEndMessage& message) {
+  encode_transfer_end(message, next_counter(FrameGroup::transfer_end), &list_);
+}
+
+void CanEncoder::put(const MeasuredJointsMessage& message) {
+  encode_measured(message, next_counter(FrameGroup::measured_joints), &list_);
+}
+
+void CanEncoder::put(const MeasuredPositionMessage& message) {
+  encode_position(message, next_counter(FrameGroup::measured_position), &list_);
+}
+
+void CanEncoder::put(const HeartbeatMessage& message) {
+  encode_heartbeat(message, next_counter(FrameGroup::heartbeat), &list_);
+}
+
+void CanEncoder::put(const FaultMessage& message) {
+  encode_fault(message, next_counter(FrameGroup::fault), &list_);
+}
+
+void CanEncoder::put(const StatisticMessage& message) {
+  encode_statistic(message, next_counter(FrameGroup::statistic), &list_);
+}
+
+void CanEncoder::put(const TransferReplyMessage& message) {
+  encode_transfer_reply(message, next_counter(FrameGroup::transfer_reply), &list_);
+}
+
+void CanEncoder::put(const CommandReplyMessage& message) {
+  encode_command_reply(message, next_counter(FrameGroup::command_reply), &list_);
+}
+
+FrameList CanEncoder::encode(const Message& message) {
+  list_.count = 0;
+  std::visit([this](const auto& content) { put(content); }, message);
+  return list_;
 }
 
 }  // namespace flexcomp

@@ -7,8 +7,8 @@
 namespace flexcomp {
 namespace {
 
-#define FRAME(NAME, fd, group, part, parts)                                          \
-  FrameLayout {                                                                      \
+#define FRAME(NAME, fd, group, part, parts)                                              \
+  FrameLayout {                                                                          \
     FLEXCOMP_CAN_##NAME##_FRAME_ID, FLEXCOMP_CAN_##NAME##_LENGTH, fd, group, part, parts \
   }
 

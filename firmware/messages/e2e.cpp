@@ -23,9 +23,7 @@ constexpr std::array<Word, 256> make_crc_table() {
 constexpr std::array<std::uint8_t, 256> kCrc8 = make_crc_table<std::uint8_t, 0x2F>();
 constexpr std::array<std::uint16_t, 256> kCrc16 = make_crc_table<std::uint16_t, 0x1021>();
 
-std::uint8_t step(std::uint8_t crc, std::uint8_t byte) {
-  return kCrc8[crc ^ byte];
-}
+std::uint8_t step(std::uint8_t crc, std::uint8_t byte) { return kCrc8[crc ^ byte]; }
 
 std::uint16_t step(std::uint16_t crc, std::uint8_t byte) {
   return static_cast<std::uint16_t>((crc << 8) ^ kCrc16[(crc >> 8) ^ byte]);

@@ -272,9 +272,8 @@ Message to_message(const flexcomp_lcm::table_begin& type) {
 }
 
 Message to_message(const flexcomp_lcm::table_data& type) {
-  TransferDataMessage message{static_cast<std::uint32_t>(type.word_index),
-                              static_cast<std::uint32_t>(type.count),
-                              {}};
+  TransferDataMessage message{
+      static_cast<std::uint32_t>(type.word_index), static_cast<std::uint32_t>(type.count), {}};
   std::transform(std::begin(type.words), std::end(type.words), message.words.begin(),
                  [](std::int32_t word) { return static_cast<std::uint32_t>(word); });
   return message;

@@ -16,13 +16,14 @@ struct StreamCounters {
   std::uint32_t incomplete = 0;       ///< sets given up because a part was missing
 };
 
-/// Judges the counter of a stream of messages, after the receiver of AUTOSAR's E2E profiles: accepts
-/// the next one and small gaps; drops repetitions and what comes late; after a large gap accepts
-/// again only once the stream has been consistent for a while and nothing else was accepted.
+/// Judges the counter of a stream of messages, after the receiver of AUTOSAR's E2E profiles:
+/// accepts the next one and small gaps; drops repetitions and what comes late; after a large gap
+/// accepts again only once the stream has been consistent for a while and nothing else was
+/// accepted.
 class SequenceMonitor {
  public:
-  /// `modulus`: the counter wraps there (a power of two). `tolerated`: messages in a row that may be
-  /// lost without a break.
+  /// `modulus`: the counter wraps there (a power of two). `tolerated`: messages in a row that may
+  /// be lost without a break.
   explicit SequenceMonitor(std::uint32_t modulus = 16, std::uint32_t tolerated = 3)
       : modulus_(modulus), tolerated_(tolerated) {}
 

@@ -34,8 +34,8 @@ LinkState CanLink::state() const {
 }
 
 void CanLink::forget_conflicts() {
-  for (const FrameGroup group : {FrameGroup::setpoint, FrameGroup::setpoint_fd, FrameGroup::wrench,
-                                 FrameGroup::wrench_fd}) {
+  for (const FrameGroup group :
+       {FrameGroup::setpoint, FrameGroup::setpoint_fd, FrameGroup::wrench, FrameGroup::wrench_fd}) {
     decoder_.monitor(group).clear_conflict();
   }
 }

@@ -7,9 +7,9 @@
 namespace flexcomp {
 namespace {
 
-constexpr double kSecond = 1e9;            // ns
-constexpr double kEarliestTick = 0.5;      // of a period
-constexpr double kLatestTick = 1.5;        // of a period
+constexpr double kSecond = 1e9;        // ns
+constexpr double kEarliestTick = 0.5;  // of a period
+constexpr double kLatestTick = 1.5;    // of a period
 constexpr std::uint8_t kStatisticNames = 64 + LatencyHistogram::kBins;
 constexpr std::uint16_t kStickyBits =
     kSetpointConflict | kWrenchConflict | kTableDamaged | kOtherNode | kDeflectionTooLarge;
@@ -18,13 +18,9 @@ std::uint16_t bit_if(bool condition, NodeBit bit) {
   return condition ? static_cast<std::uint16_t>(bit) : std::uint16_t{0};
 }
 
-std::uint8_t number(Result result) {
-  return static_cast<std::uint8_t>(result);
-}
+std::uint8_t number(Result result) { return static_cast<std::uint8_t>(result); }
 
-std::uint8_t number(Reply reply) {
-  return static_cast<std::uint8_t>(reply);
-}
+std::uint8_t number(Reply reply) { return static_cast<std::uint8_t>(reply); }
 
 JointVector<float, 6> to_core(const JointAngles& q) {
   JointVector<float, 6> angles;
@@ -55,10 +51,10 @@ Result Node::configure(const NodeConfig& config) {
   if (core_.state() != State::off && core_.state() != State::latched) {
     return Result::not_ready;
   }
-  const bool numbers_are_usable =
-      config.heartbeat_period > 0 && config.deflection_warning > 0 && config.deflection_error > 0 &&
-      config.wrench.force_rate > 0 && config.wrench.moment_rate > 0 &&
-      config.wrench.stuck_time >= 0 && config.late_ticks > 0;
+  const bool numbers_are_usable = config.heartbeat_period > 0 && config.deflection_warning > 0 &&
+                                  config.deflection_error > 0 && config.wrench.force_rate > 0 &&
+                                  config.wrench.moment_rate > 0 && config.wrench.stuck_time >= 0 &&
+                                  config.late_ticks > 0;
   Core core;
   if (!numbers_are_usable || core.configure(config.compensator) != Result::ok) {
     return Result::bad_config;
@@ -263,11 +259,9 @@ std::uint16_t Node::judge(std::int64_t now) {
   return static_cast<std::uint16_t>(
       sticky_ | bit_if(wrench_monitor_.is_stuck(), kWrenchStuck) |
       bit_if(config_.require_identity && has_identity_ && !identity_fits, kIdentityMismatch) |
-      bit_if(late_in_a_row_ >= config_.late_ticks, kTickLate) |
-      bit_if(link_.bus_fault, kBusFault) |
+      bit_if(late_in_a_row_ >= config_.late_ticks, kTickLate) | bit_if(link_.bus_fault, kBusFault) |
       bit_if(wrench_monitor_.last_was_saturated(), kWrenchSaturated) |
-      bit_if(wrench_monitor_.last_was_implausible(), kWrenchImplausible) |
-      bit_if(lost, kSomeLost));
+      bit_if(wrench_monitor_.last_was_implausible(), kWrenchImplausible) | bit_if(lost, kSomeLost));
 }
 
 Node::Core::Input Node::input(std::int64_t now) const {
@@ -375,8 +369,7 @@ void Node::beat(const Core::Output& output) {
   message.latched_faults = output.latched_faults;
   message.node_latched_faults = node_latched_;
   message.table_model_hash = table_.is_open() ? table_.model_hash() : 0;
-  message.largest_gain =
-      table_.is_open() ? static_cast<double>(table_.header().largest_gain) : 0.0;
+  message.largest_gain = table_.is_open() ? static_cast<double>(table_.header().largest_gain) : 0.0;
   post(message);
 }
 

@@ -17,11 +17,11 @@ namespace flexcomp {
 struct NodeConfig {
   CompensatorConfig<float, 6> compensator;
   WrenchMonitorConfig wrench;
-  bool require_identity = true;      ///< refuse to arm until the sender has named its robot
-  double deflection_warning = 1e9;   ///< m, predicted: remark
-  double deflection_error = 1e9;     ///< m, predicted: fault
-  std::uint32_t late_ticks = 10;     ///< ticks late or early in a row that are a fault
-  double heartbeat_period = 0.1;     ///< s
+  bool require_identity = true;     ///< refuse to arm until the sender has named its robot
+  double deflection_warning = 1e9;  ///< m, predicted: remark
+  double deflection_error = 1e9;    ///< m, predicted: fault
+  std::uint32_t late_ticks = 10;    ///< ticks late or early in a row that are a fault
+  double heartbeat_period = 0.1;    ///< s
 };
 
 /// What of the outside a node needs to judge but cannot see in messages; set by who moves them.

@@ -4,17 +4,17 @@
 
 namespace flexcomp {
 
-/// Bits of the node's own status word, beside the compensator's. The lower 12 are faults: each makes
-/// the compensator hold and, if it lasts, fade out and latch. The numbers are stable.
+/// Bits of the node's own status word, beside the compensator's. The lower 12 are faults: each
+/// makes the compensator hold and, if it lasts, fade out and latch. The numbers are stable.
 enum NodeBit : std::uint16_t {
-  kSetpointConflict = 1U << 0,  ///< two senders of setpoints; until reset
-  kWrenchConflict = 1U << 1,    ///< two senders of wrenches; until reset
-  kWrenchStuck = 1U << 2,       ///< the same bits for too long while the robot moves
-  kIdentityMismatch = 1U << 3,  ///< the sender works with another robot, tool or wrench frame
-  kTableDamaged = 1U << 4,      ///< the table in use no longer fits its CRC; until a new table
-  kTickLate = 1U << 5,          ///< too many ticks late or early in a row
-  kBusFault = 1U << 6,          ///< the bus is off or does not take frames
-  kOtherNode = 1U << 7,         ///< somebody else sends corrected setpoints; until reset
+  kSetpointConflict = 1U << 0,    ///< two senders of setpoints; until reset
+  kWrenchConflict = 1U << 1,      ///< two senders of wrenches; until reset
+  kWrenchStuck = 1U << 2,         ///< the same bits for too long while the robot moves
+  kIdentityMismatch = 1U << 3,    ///< the sender works with another robot, tool or wrench frame
+  kTableDamaged = 1U << 4,        ///< the table in use no longer fits its CRC; until a new table
+  kTickLate = 1U << 5,            ///< too many ticks late or early in a row
+  kBusFault = 1U << 6,            ///< the bus is off or does not take frames
+  kOtherNode = 1U << 7,           ///< somebody else sends corrected setpoints; until reset
   kDeflectionTooLarge = 1U << 8,  ///< predicted deflection above the error limit; until reset
   kWrenchSaturated = 1U << 12,    ///< the sensor is at its end: the correction is a lower bound
   kWrenchImplausible = 1U << 13,  ///< changed faster than it can: sample not used

@@ -44,8 +44,8 @@ class TableStore {
   std::size_t active() const { return active_; }
   static constexpr std::size_t kNone = 2;
 
-  /// Goes on with checking the CRC-32 of the table in use, a few bytes a call. False if a whole pass
-  /// has found it damaged.
+  /// Goes on with checking the CRC-32 of the table in use, a few bytes a call. False if a whole
+  /// pass has found it damaged.
   bool scrub();
 
  private:

@@ -31,7 +31,8 @@ bool WrenchMonitor::accept(const WrenchMessage& message, std::int64_t now) {
 
 bool WrenchMonitor::is_plausible(const std::array<double, 6>& wrench, std::int64_t now) const {
   constexpr double kSecond = 1e9;
-  // Samples in one tick carry no time between them; nothing changes within a tenth of a millisecond.
+  // Samples in one tick carry no time between them; nothing changes within a tenth of a
+  // millisecond.
   const double elapsed = std::fmax(static_cast<double>(now - used_at_) / kSecond, 1e-4);
   for (std::size_t i = 0; i < wrench.size(); ++i) {
     const double rate = i < 3 ? config_.force_rate : config_.moment_rate;

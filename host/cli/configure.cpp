@@ -66,7 +66,8 @@ void add_configure(CLI::App* app, Action* action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "configure",
-      "A configuration file for flexcompd: the robot's fingerprint, how fast its joints can be, and\n"
+      "A configuration file for flexcompd: the robot's fingerprint, how fast its joints can be, "
+      "and\n"
       "the table to start with. Refuses a table of another robot.\n"
       "Example: flexcomp configure --model robot.yaml --table t.fct --out node.toml");
   command->add_option("--model", options->model, "robot.yaml")->required();

@@ -100,8 +100,10 @@ void add_plant(CLI::App* app, Action* action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "plant",
-      "The flexible robot cutting a contour, on the other side of the bus: sends setpoints and what\n"
-      "its force sensor and a tracker measure, and moves by what flexcompd sends back. A deeper cut\n"
+      "The flexible robot cutting a contour, on the other side of the bus: sends setpoints and "
+      "what\n"
+      "its force sensor and a tracker measure, and moves by what flexcompd sends back. A deeper "
+      "cut\n"
       "gives more force. With --table the compensator runs inside this process, in lock-step: the\n"
       "same code and frames without a bus. Exit code 1 if the compensator refuses to arm.\n"
       "Example: flexcomp plant --model robot.yaml --path path.csv --bus can:vcan0 --out run.csv");
@@ -124,12 +126,12 @@ void add_plant(CLI::App* app, Action* action) {
   command->add_option("--depth-of-cut", options->process.depth_of_cut, "m, nominal")
       ->check(CLI::PositiveNumber);
   const std::map<std::string, simulation::MaterialSide> sides = {
-      {"outside", simulation::MaterialSide::outside},
-      {"inside", simulation::MaterialSide::inside}};
+      {"outside", simulation::MaterialSide::outside}, {"inside", simulation::MaterialSide::inside}};
   command->add_option("--material", options->process.side, "side of the contour: outside or inside")
       ->transform(CLI::CheckedTransformer(sides, CLI::ignore_case));
-  command->add_option("--compliance-scale", options->compliance_scale,
-                      "all springs this many times as soft: a robot that is not as its model says")
+  command
+      ->add_option("--compliance-scale", options->compliance_scale,
+                   "all springs this many times as soft: a robot that is not as its model says")
       ->check(CLI::PositiveNumber);
   command->add_option("--force-noise", options->plant.force_noise, "N, standard deviation")
       ->check(CLI::NonNegativeNumber);

@@ -17,8 +17,8 @@ struct CorrectionLoop {
 /// How a process answers displacement: `stiffness` is the change of the wrench (N, N·m) for a
 /// translation (m) or rotation (rad) of the TCP, base frame.
 ///
-/// In milling, a tool that stands deeper by δ along the normal n of the surface sees its wrench grow
-/// from w by w δ/a, with a the depth of cut (force proportional to chip area; Altintas,
+/// In milling, a tool that stands deeper by δ along the normal n of the surface sees its wrench
+/// grow from w by w δ/a, with a the depth of cut (force proportional to chip area; Altintas,
 /// Manufacturing Automation, ch. 2): stiffness = w nᵀ / a.
 Compliance<double> milling_stiffness(const Wrench<double>& wrench, const Vector3<double>& normal,
                                      double depth_of_cut);
@@ -26,10 +26,10 @@ Compliance<double> milling_stiffness(const Wrench<double>& wrench, const Vector3
 /// Largest correction gain in [0, 1] at which the loop through the process is stable with a gain
 /// margin of `margin` (2: 6 dB), at one posture.
 ///
-/// The loop: w = w₀ + K x, x = C w − g H C w with H = z^(−delay) × low-pass. For each eigenvalue λ of
-/// K C it is closed by L(z) = g λ/(1−λ) H(z); the open loop is stable, so the smallest g at which
-/// L(e^(jω)) passes through −1 is the limit (Nyquist). An eigenvalue with real part of 1 or more
-/// means that the process digs in by itself, without any correction: 0.
+/// The loop: w = w₀ + K x, x = C w − g H C w with H = z^(−delay) × low-pass. For each eigenvalue λ
+/// of K C it is closed by L(z) = g λ/(1−λ) H(z); the open loop is stable, so the smallest g at
+/// which L(e^(jω)) passes through −1 is the limit (Nyquist). An eigenvalue with real part of 1 or
+/// more means that the process digs in by itself, without any correction: 0.
 double largest_safe_gain(const Compliance<double>& compliance, const Compliance<double>& stiffness,
                          const CorrectionLoop& loop, double margin = 2);
 

@@ -60,8 +60,8 @@ Contour::Contour(const RobotModel<double, 6>& model, const recording::Recording&
 
 Contour::Point Contour::at(double time) const {
   const double wanted = std::clamp(time + time_[0], time_[0], time_[time_.size() - 1]);
-  const double* const after = std::upper_bound(time_.data() + 1, time_.data() + time_.size() - 1,
-                                               wanted);
+  const double* const after =
+      std::upper_bound(time_.data() + 1, time_.data() + time_.size() - 1, wanted);
   const Eigen::Index row = after - time_.data() - 1;
   const double share = (wanted - time_[row]) / (time_[row + 1] - time_[row]);
   const auto between = [&](const recording::Samples& samples) {

@@ -43,8 +43,8 @@ class Contour {
   recording::Samples normal_;
 };
 
-/// The flexible robot in the cut, at rest at every moment: a tool that stands deeper sees more force,
-/// and more force bends the robot more.
+/// The flexible robot in the cut, at rest at every moment: a tool that stands deeper sees more
+/// force, and more force bends the robot more.
 class MillingRobot {
  public:
   MillingRobot(RobotModel<double, 6> model, const Process& process)

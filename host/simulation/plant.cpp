@@ -113,8 +113,8 @@ void Plant::tick(double time, double load) {
   if (on_contour_) {
     record(time, point, wrench);
     bus_->send(MeasuredJointsMessage{to_angles(point.q + correction_)});
-    bus_->send(MeasuredPositionMessage{
-        {state_.position.x(), state_.position.y(), state_.position.z()}});
+    bus_->send(
+        MeasuredPositionMessage{{state_.position.x(), state_.position.y(), state_.position.z()}});
   }
   WrenchMessage message{now, {}, false};
   std::copy_n(wrench.data(), 6, message.wrench.begin());

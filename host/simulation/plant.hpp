@@ -10,15 +10,15 @@
 namespace flexcomp::simulation {
 
 struct PlantOptions {
-  double period = 0.004;        ///< s, from one setpoint to the next
-  bool lockstep = false;        ///< as fast as answers come, else in real time
-  bool compensate = true;       ///< arm the compensator and move by what it sends back
-  double load_time = 0.3;       ///< s, in which the tool enters the cut
-  double settling_time = 0.5;   ///< s, in the cut before it moves
-  double force_noise = 1;       ///< N, standard deviation of the sensor
-  double moment_noise = 0.05;   ///< N·m
-  std::uint64_t seed = 1;       ///< of the noise
-  std::uint64_t model_hash = 0; ///< that the plant announces
+  double period = 0.004;         ///< s, from one setpoint to the next
+  bool lockstep = false;         ///< as fast as answers come, else in real time
+  bool compensate = true;        ///< arm the compensator and move by what it sends back
+  double load_time = 0.3;        ///< s, in which the tool enters the cut
+  double settling_time = 0.5;    ///< s, in the cut before it moves
+  double force_noise = 1;        ///< N, standard deviation of the sensor
+  double moment_noise = 0.05;    ///< N·m
+  std::uint64_t seed = 1;        ///< of the noise
+  std::uint64_t model_hash = 0;  ///< that the plant announces
 };
 
 /// What came of a run.
@@ -29,8 +29,8 @@ struct PlantRun {
   std::uint8_t arm_reply = 0;  ///< Result or Reply, where it was not armed
   double largest_gain = 0;     ///< that came with it
   std::uint64_t ticks = 0;
-  std::uint64_t unanswered = 0;     ///< setpoints without an answer in their period
-  std::uint32_t status = 0;         ///< all status bits seen on the contour
+  std::uint64_t unanswered = 0;  ///< setpoints without an answer in their period
+  std::uint32_t status = 0;      ///< all status bits seen on the contour
   std::uint16_t node_status = 0;
   std::uint8_t last_state = 0;
   double least_engagement = 1;

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "error.hpp"
+#include "recording/clock_alignment.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+using recording::LoggedMessage;
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string out;
+  std::string interface = "can0";
+  double start = 0;
+  bool fd = false;
+  bool corrected = false;
+  bool json = false;
+};
+
+enum class Format { csv, candump, lcm };
+
+Format format_of(const std::string& file) {
+  const std::string extension = file.substr(std::min(file.rfind('.'), file.size()));
+  if (extension == ".csv") {
+    return Format::csv;
+  }
+  if (extension == ".log" || extension == ".candump") {
+    return Format::candump;
+  }
+  if (extension == ".lcm" || extension == ".lcmlog") {
+    return Format::lcm;
+  }
+  throw InputError(
+      file + ": expected a name that ends in .csv, .log (candump -L) or .lcmlog (lcm-logger)");
+}
+
+std::vector<LoggedMessage> read_log(const std::string& file, recording::DecodingCounts* counts) {
+  std::vector<LoggedMessage> messages =
+      format_of(file) == Format::candump
+          ? recording::decode(recording::read_candump_log(file), counts)
+          : recording::decode(recording::read_lcm_log(file), counts);
+  if (messages.empty()) {
+    throw InputError(file + ": holds no message of flexcomp");
+  }
+  return messages;
+}
+
+/// All logs in the first one's time, with what each alignment came to.
+std::vector<LoggedMessage> read_logs(const Options& options, recording::DecodingCounts* counts,
+                                     std::vector<recording::ClockAlignment>* alignments) {
+  std::vector<LoggedMessage> all = read_log(options.inputs[0], counts);
+  for (std::size_t i = 1; i < options.inputs.size(); ++i) {
+    std::vector<LoggedMessage> next = read_log(options.inputs[i], counts);
+    try {
+      alignments->push_back(recording::align_clocks(all, next));
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("{}, {}: {}", options.inputs[0], options.inputs[i], error.what()));
+    }
+    // The first log has the setpoints; a second copy of each would be a second row.
+    next.erase(std::remove_if(next.begin(), next.end(),
+                              [](const LoggedMessage& logged) {
+                                return std::holds_alternative<SetpointMessage>(logged.message);
+                              }),
+               next.end());
+    all = recording::merge(all, std::move(next), alignments->back());
+  }
+  return all;
+}
+
+void print(const Options& options, std::size_t rows, const recording::DecodingCounts& counts,
+           const std::vector<recording::ClockAlignment>& alignments, const std::string& left_out) {
+  nlohmann::ordered_json clocks = nlohmann::ordered_json::array();
+  for (const recording::ClockAlignment& alignment : alignments) {
+    clocks.push_back({{"offset", alignment.offset},
+                      {"rate", alignment.rate},
+                      {"uncertainty", alignment.uncertainty}});
+  }
+  if (options.json) {
+    const nlohmann::ordered_json json = {{"rows", rows},
+                                         {"foreign", counts.foreign},
+                                         {"rejected", counts.rejected},
+                                         {"clocks", clocks},
+                                         {"left_out", left_out}};
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{}: {} rows\n", options.out, rows);
+  for (std::size_t i = 0; i < alignments.size(); ++i) {
+    fmt::print("{}: its clock is {:.6f} s behind, and {:.1f} ppm slower (± {:.1f} µs)\n",
+               options.inputs[i + 1], alignments[i].offset, 1e6 * alignments[i].rate,
+               1e6 * alignments[i].uncertainty);
+  }
+  if (counts.rejected > 0) {
+    fmt::print("{} frames or events were damaged, repeated, late or of incomplete sets\n",
+               counts.rejected);
+  }
+  if (!left_out.empty()) {
+    fmt::print("left out, because no message carries it: {}\n", left_out);
+  }
+}
+
+int log_to_csv(const Options& options) {
+  recording::DecodingCounts counts;
+  std::vector<recording::ClockAlignment> alignments;
+  const std::vector<LoggedMessage> messages = read_logs(options, &counts, &alignments);
+  const recording::Recording rows =
+      recording::to_recording(messages, options.corrected, options.inputs[0]);
+  recording::write_recording(options.out, rows);
+  print(options, static_cast<std::size_t>(rows.size()), counts, alignments, "");
+  return kDone;
+}
+
+void write_log(const Options& options, const std::vector<LoggedMessage>& messages) {
+  if (format_of(options.out) == Format::candump) {
+    recording::write_candump_log(options.out,
+                                 encode_frames(messages, options.interface, options.fd));
+  } else {
+    recording::write_lcm_log(options.out, recording::encode_events(messages));
+  }
+}
+
+int csv_to_log(const Options& options) {
+  const recording::Recording rows = recording::read_recording(options.inputs[0]);
+  write_log(options, to_messages(rows, std::llround(1e9 * options.start)));
+  print(options, static_cast<std::size_t>(rows.size()), {}, {}, groups_without_message(rows));
+  return kDone;
+}
+
+int log_to_log(const Options& options) {
+  recording::DecodingCounts counts;
+  std::vector<recording::ClockAlignment> alignments;
+  const std::vector<LoggedMessage> messages = read_logs(options, &counts, &alignments);
+  write_log(options, messages);
+  print(options, messages.size(), counts, alignments, "");
+  return kDone;
+}
+
+int run(const Options& options) {
+  const bool from_csv = format_of(options.inputs[0]) == Format::csv;
+  if (from_csv && options.inputs.size() > 1) {
+    throw InputError("expected one recording, or logs of buses");
+  }
+  for (const std::string& input : options.inputs) {
+    if ((format_of(input) == Format::csv) != from_csv) {
+      throw InputError(input + ": expected logs of buses only, or one recording");
+    }
+  }
+  const bool to_csv = format_of(options.out) == Format::csv;
+  if (from_csv && to_csv) {
+    throw InputError(options.out + ": expected a name that ends in .log or .lcmlog");
+  }
+  return from_csv ? csv_to_log(options) : to_csv ? log_to_csv(options) : log_to_log(options);
+}
+
+}  // namespace
+
+void add_convert(CLI::App* app, Action* action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "convert",
+      "Between recordings and logs of buses, by the end of the names: .csv, .log or .candump\n"
+      "(candump -L, classic and FD), .lcm or .lcmlog (lcm-logger). From a log: a row for every\n"
+      "setpoint, with the wrench, joints and position that came before it. Several logs of one "
+      "run:\n"
+      "their clocks are aligned by the setpoints that all have seen.\n"
+      "Example: flexcomp convert can.log force.lcmlog --out run.csv");
+  command->add_option("inputs", options->inputs, "a recording, or logs")->required();
+  command->add_option("--out", options->out, "file to write")->required();
+  command->add_flag("--corrected", options->corrected,
+                    "q_cmd is the corrected setpoint, not the one before correction");
+  command->add_option("--interface", options->interface, "name to write into a candump log");
+  command->add_flag("--fd", options->fd, "write CAN FD frames");
+  command->add_option("--start", options->start, "s since the epoch, of the first row of a log")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--json", options->json, "print the summary as JSON");
+  command->callback([=] { *action = [=] { return run(*options); }; });
+}
+
+}  // namespace flexcomp::cli

@@ -1,0 +1,232 @@
+#include "recording/bus_recording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "error.hpp"
+#include "messages/can_decoder.hpp"
+#include "messages/can_encoder.hpp"
+#include "messages/lcm_codec.hpp"
+#include "messages/sequence.hpp"
+
+namespace flexcomp::recording {
+namespace {
+
+constexpr double kSecond = 1e9;
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t rejected(const CanDecoder& decoder) {
+  std::size_t sum = 0;
+  for (std::size_t group = 0; group < kFrameGroups; ++group) {
+    const StreamCounters& counters = decoder.monitor(static_cast<FrameGroup>(group)).counters;
+    sum += std::size_t{counters.repeated} + counters.old + counters.out_of_sequence +
+           counters.contradicting + counters.corrupt + counters.incomplete;
+  }
+  return sum;
+}
+
+/// Rows as they are collected; groups of which nothing was seen are left out in the end.
+class Rows {
+ public:
+  void take(const Message& message) {
+    if (const auto* wrench = std::get_if<WrenchMessage>(&message)) {
+      put(kWrench, wrench->wrench);
+    } else if (const auto* joints = std::get_if<MeasuredJointsMessage>(&message)) {
+      put(kMeasured, joints->q);
+    } else if (const auto* position = std::get_if<MeasuredPositionMessage>(&message)) {
+      put(kPosition, position->position);
+    }
+  }
+
+  void end_row(std::int64_t time, const JointAngles& q) {
+    put(kCommanded, q);
+    time_.push_back(time);
+    rows_.push_back(row_);
+    row_.fill(kMissing);
+  }
+
+  Recording finish(const std::string& file) const {
+    if (rows_.size() < 2) {
+      throw InputError(file + ": expected at least two setpoints on the bus");
+    }
+    Recording recording;
+    recording.file = file;
+    const auto rows = static_cast<Eigen::Index>(rows_.size());
+    recording.time.resize(rows);
+    Samples samples(rows, static_cast<Eigen::Index>(kColumns));
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      recording.time[row] = static_cast<double>(time_[i] - time_[0]) / kSecond;
+      std::copy(rows_[i].begin(), rows_[i].end(), samples.row(row).data());
+    }
+    const auto group = [&](std::size_t column, Eigen::Index width) -> std::optional<Samples> {
+      const Samples part = samples.middleCols(static_cast<Eigen::Index>(column), width);
+      return part.array().isNaN().all() ? std::nullopt : std::optional(part);
+    };
+    recording.q_cmd = group(kCommanded, 6);
+    recording.q_meas = group(kMeasured, 6);
+    recording.wrench = group(kWrench, 6);
+    recording.position = group(kPosition, 3);
+    return recording;
+  }
+
+  bool is_after_last(std::int64_t time) const { return time_.empty() || time > time_.back(); }
+
+ private:
+  static constexpr std::size_t kCommanded = 0;
+  static constexpr std::size_t kMeasured = 6;
+  static constexpr std::size_t kWrench = 12;
+  static constexpr std::size_t kPosition = 18;
+  static constexpr std::size_t kColumns = 21;
+  using Row = std::array<double, kColumns>;
+
+  static Row missing_row() {
+    Row row{};
+    row.fill(kMissing);
+    return row;
+  }
+
+  template <std::size_t Width>
+  void put(std::size_t column, const std::array<double, Width>& values) {
+    std::copy(values.begin(), values.end(), row_.begin() + static_cast<std::ptrdiff_t>(column));
+  }
+
+  Row row_ = missing_row();
+  std::vector<std::int64_t> time_;
+  std::vector<Row> rows_;
+};
+
+template <std::size_t Width>
+bool get_row(const std::optional<Samples>& group, Eigen::Index row,
+             std::array<double, Width>* values) {
+  if (!group || group->row(row).array().isNaN().any()) {
+    return false;
+  }
+  std::copy_n(group->row(row).data(), Width, values->begin());
+  return true;
+}
+
+}  // namespace
+
+std::vector<LoggedMessage> decode(const std::vector<LoggedFrame>& frames, DecodingCounts* counts) {
+  std::map<std::string, CanDecoder> decoders;
+  std::vector<LoggedMessage> messages;
+  for (const LoggedFrame& logged : frames) {
+    Message message = decoders[logged.interface].decode(logged.frame, logged.time);
+    if (message.index() != 0) {
+      messages.push_back({logged.time, std::move(message)});
+    }
+  }
+  for (const auto& [interface, decoder] : decoders) {
+    counts->foreign += decoder.foreign_frames();
+    counts->rejected += rejected(decoder);
+  }
+  return messages;
+}
+
+std::vector<LoggedMessage> decode(const std::vector<LoggedEvent>& events, DecodingCounts* counts) {
+  constexpr std::uint32_t kCounter = 256;
+  std::map<std::string, SequenceMonitor> monitors;
+  std::vector<LoggedMessage> messages;
+  for (const LoggedEvent& event : events) {
+    LcmMessage decoded = decode_lcm(event.channel, event.data.data(), event.data.size());
+    if (decoded.message.index() == 0) {
+      ++counts->foreign;
+      continue;
+    }
+    SequenceMonitor& monitor = monitors.try_emplace(event.channel, kCounter).first->second;
+    if (monitor.accept(static_cast<std::uint32_t>(decoded.sequence), 0, event.time)) {
+      messages.push_back({event.time, std::move(decoded.message)});
+    } else {
+      ++counts->rejected;
+    }
+  }
+  return messages;
+}
+
+Recording to_recording(const std::vector<LoggedMessage>& messages, bool corrected,
+                       const std::string& file) {
+  Rows rows;
+  for (const LoggedMessage& logged : messages) {
+    rows.take(logged.message);
+    const auto* setpoint = std::get_if<SetpointMessage>(&logged.message);
+    const auto* answer = std::get_if<CorrectedMessage>(&logged.message);
+    if (!rows.is_after_last(logged.time)) {
+      continue;  // two in one tick of the log's clock: a recording's time strictly increases
+    }
+    if (!corrected && setpoint != nullptr) {
+      rows.end_row(logged.time, setpoint->q);
+    } else if (corrected && answer != nullptr && std::isfinite(answer->corrected[0])) {
+      rows.end_row(logged.time, answer->corrected);
+    }
+  }
+  return rows.finish(file);
+}
+
+std::vector<LoggedMessage> to_messages(const Recording& recording, std::int64_t start) {
+  if (!recording.q_cmd) {
+    throw InputError(recording.file + ": q_cmd_1..q_cmd_6 are missing; they become the setpoints");
+  }
+  std::vector<LoggedMessage> messages;
+  for (Eigen::Index row = 0; row < recording.size(); ++row) {
+    const std::int64_t time =
+        start + std::llround(kSecond * (recording.time[row] - recording.time[0]));
+    JointAngles q{};
+    std::array<double, 6> wrench{};
+    std::array<double, 3> position{};
+    if (get_row(recording.q_meas, row, &q)) {
+      messages.push_back({time, MeasuredJointsMessage{q}});
+    }
+    if (get_row(recording.position, row, &position)) {
+      messages.push_back({time, MeasuredPositionMessage{position}});
+    }
+    if (get_row(recording.wrench, row, &wrench)) {
+      messages.push_back({time, WrenchMessage{time, wrench, false}});
+    }
+    if (get_row(recording.q_cmd, row, &q)) {
+      messages.push_back({time, SetpointMessage{time, q}});
+    }
+  }
+  return messages;
+}
+
+std::vector<LoggedFrame> encode_frames(const std::vector<LoggedMessage>& messages,
+                                       const std::string& interface, bool fd) {
+  CanEncoder encoder(fd);
+  std::vector<LoggedFrame> frames;
+  for (const LoggedMessage& logged : messages) {
+    const FrameList list = encoder.encode(logged.message);
+    for (std::size_t i = 0; i < list.count; ++i) {
+      frames.push_back({logged.time, interface, list.frames[i]});
+    }
+  }
+  return frames;
+}
+
+std::vector<LoggedEvent> encode_events(const std::vector<LoggedMessage>& messages) {
+  std::array<std::int64_t, std::variant_size_v<Message>> sequences{};
+  std::vector<LoggedEvent> events;
+  for (const LoggedMessage& logged : messages) {
+    LcmEvent event = encode_lcm(logged.message, sequences[logged.message.index()]++, logged.time);
+    events.push_back({logged.time, std::move(event.channel), std::move(event.data)});
+  }
+  return events;
+}
+
+std::string groups_without_message(const Recording& recording) {
+  std::string names;
+  const auto add = [&](bool present, const char* name) {
+    if (present) {
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    }
+  };
+  add(recording.q_link.has_value(), "q_link");
+  add(recording.tau.has_value(), "tau");
+  add(recording.temperature.has_value(), "temp_c");
+  return names;
+}
+
+}  // namespace flexcomp::recording
