@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -9,6 +10,7 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
+#include "control/path_gain.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "flexcomp/table_builder.hpp"
@@ -26,6 +28,9 @@ struct BuildOptions {
   double orientation_tolerance = 0;
   double force = 0;
   double moment = 0;
+  double depth_of_cut = 0;
+  simulation::MaterialSide material = simulation::MaterialSide::outside;
+  control::CorrectionLoop loop;
   bool json = false;
 };
 
@@ -83,7 +88,8 @@ nlohmann::ordered_json summary(const Table& table) {
           {"force_bound", header.force_bound},
           {"moment_bound", header.moment_bound},
           {"certified_position_error", header.position_error},
-          {"certified_orientation_error", header.orientation_error}};
+          {"certified_orientation_error", header.orientation_error},
+          {"largest_gain", header.largest_gain}};
 }
 
 int run_build(const BuildOptions& options) {
@@ -98,8 +104,13 @@ int run_build(const BuildOptions& options) {
     points.emplace_back(q_cmd.row(row).transpose());
   }
   std::vector<std::uint32_t> words;
+  TableRequirements<double> wanted = requirements(options, path);
+  if (options.depth_of_cut > 0) {
+    wanted.largest_gain = control::largest_safe_gain_along(
+        robot.elastic, path, {options.depth_of_cut, options.material}, options.loop);
+  }
   try {
-    words = build(robot.elastic, points, requirements(options, path));
+    words = build(robot.elastic, points, wanted);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", options.path, error.what()));
   }
@@ -119,6 +130,9 @@ int run_build(const BuildOptions& options) {
         "{:.3g} µm and {:.3g} µrad\nfor any force up to {:.6g} N and moment up to {:.6g} N·m\n",
         options.out, header.node_count, header.size, 1e6 * header.position_error,
         1e6 * header.orientation_error, header.force_bound, header.moment_bound);
+    if (header.largest_gain > 0) {
+      fmt::print("largest safe correction gain with this process: {:.4g}\n", header.largest_gain);
+    }
   }
   return kDone;
 }
@@ -209,6 +223,28 @@ int run_verify(const VerifyOptions& options) {
   return holds ? kDone : kDoesNotHold;
 }
 
+/// What decides how much correction the process allows.
+void add_process(CLI::App* command, BuildOptions* build) {
+  command->add_option(
+      "--depth-of-cut", build->depth_of_cut,
+      "m, nominal; computes the largest safe correction gain, past which moving into\n"
+      "the cut raises the force faster than it helps; the controller then refuses more");
+  const std::map<std::string, simulation::MaterialSide> sides = {
+      {"outside", simulation::MaterialSide::outside}, {"inside", simulation::MaterialSide::inside}};
+  command->add_option("--material", build->material, "side of the contour: outside or inside")
+      ->transform(CLI::CheckedTransformer(sides, CLI::ignore_case));
+  command->add_option("--loop-period", build->loop.period, "s, of the controller")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--loop-filter-cutoff", build->loop.filter_cutoff,
+                   "Hz, of the controller's filter on the wrench; 0: none")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--loop-delay", build->loop.delay,
+                   "s, from the wrench to the robot standing corrected")
+      ->check(CLI::NonNegativeNumber);
+}
+
 }  // namespace
 
 void add_table(CLI::App* app, Action* action) {
@@ -231,6 +267,7 @@ void add_table(CLI::App* app, Action* action) {
                       "N, largest force to certify for; if not given, 1.1 times the path's");
   command->add_option("--moment", build->moment,
                       "N·m, largest moment to certify for; if not given, 1.1 times the path's");
+  add_process(command, build.get());
   command->add_flag("--json", build->json, "print the certificate as JSON");
 
   CLI::App* check = command->add_subcommand(
