@@ -4,7 +4,8 @@ namespace flexcomp {
 namespace {
 
 constexpr std::int64_t kResynchroniseAfter = 50'000'000;  // ns without an accepted message
-constexpr std::uint32_t kConsistentMessages = 3;
+constexpr std::uint32_t kMessagesAfterPause = 3;
+constexpr std::uint32_t kMessagesAfterGap = 2;
 // A dropped message weighs more than an accepted one, so that two senders in step are found after
 // about 32 messages, and a burst of a few late ones is not taken for a second sender.
 constexpr std::uint32_t kSuspicionOfDropped = 2;
@@ -71,9 +72,13 @@ void SequenceMonitor::suspect() {
 }
 
 bool SequenceMonitor::is_resynchronised(std::uint32_t counter, std::int64_t now) {
-  consistent_ = ahead(counter, candidate_) == 1 ? consistent_ + 1 : 1;
+  const std::uint32_t step = ahead(counter, candidate_);
+  consistent_ = step >= 1 && step <= tolerated_ + 1 ? consistent_ + 1 : 1;
   candidate_ = counter;
-  return consistent_ >= kConsistentMessages && now - accepted_at_ > kResynchroniseAfter;
+  // What is behind may be late and never to be used, unless the sender has started anew.
+  const bool paused = now - accepted_at_ > kResynchroniseAfter;
+  return is_behind(counter) ? consistent_ >= kMessagesAfterPause && paused
+                            : consistent_ >= kMessagesAfterGap;
 }
 
 }  // namespace flexcomp
