@@ -146,6 +146,7 @@ void apply(const Typed& typed, Options* options) {
   }
   core.model_hash = parse_hash(typed.model_hash);
   options->node.require_identity = !typed.without_identity;
+  options->node.use_timestamps = options->trigger != Trigger::lockstep;
   if (options->can.empty() && options->lcm.empty()) {
     throw CLI::ValidationError("--can or --lcm", "expected at least one of them");
   }

@@ -130,16 +130,21 @@ void Node::receive_one(const SetpointMessage& message, std::int64_t now) {
   setpoint_moved_ = !has_setpoint_ || message.q != setpoint_.q;
   setpoint_ = message;
   has_setpoint_ = true;
-  setpoint_time_ = now - setpoint_delay_.observe(message.timestamp, now);
+  setpoint_time_ = made_at(message.timestamp, &setpoint_delay_, now);
 }
 
 void Node::receive_one(const WrenchMessage& message, std::int64_t now) {
-  const std::int64_t delay = wrench_delay_.observe(message.timestamp, now);
+  const std::int64_t made = made_at(message.timestamp, &wrench_delay_, now);
   if (wrench_monitor_.accept(message, now)) {
     wrench_ = message;
     has_wrench_ = true;
-    wrench_time_ = now - delay;
+    wrench_time_ = made;
   }
+}
+
+/// When a message received `now` was made, in our time.
+std::int64_t Node::made_at(std::int64_t timestamp, TransportDelay* delay, std::int64_t now) const {
+  return config_.use_timestamps ? now - delay->observe(timestamp, now) : now;
 }
 
 void Node::receive_one(const IdentityMessage& message, std::int64_t /*now*/) {

@@ -22,6 +22,8 @@ struct NodeConfig {
   double deflection_error = 1e9;    ///< m, predicted: fault
   std::uint32_t late_ticks = 10;    ///< ticks late or early in a row that are a fault
   double heartbeat_period = 0.1;    ///< s
+  /// Ages from the senders' clocks too, where messages carry them; not where time is not real.
+  bool use_timestamps = true;
 };
 
 /// What of the outside a node needs to judge but cannot see in messages; set by who moves them.
@@ -100,6 +102,7 @@ class Node {
   template <typename Other>
   void receive_one(const Other& message, std::int64_t now);
 
+  std::int64_t made_at(std::int64_t timestamp, TransportDelay* delay, std::int64_t now) const;
   std::uint8_t arm();
   Result put_to_use(const Table& table);
   void reply(TransferStage stage, Reply result);

@@ -2,7 +2,7 @@
 
 #include <poll.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <cstring>
 #include <deque>
 #include <vector>
@@ -70,11 +70,14 @@ class LcmBus : public PlantBus {
   void send(const Message& message) override { link_.publish(message); }
 
   bool receive(Message* message, std::int64_t patience) override {
-    if (received_.empty() && wait_for_input(link_.number(), patience)) {
+    // What arrives may be an echo of our own, which the link swallows.
+    const std::int64_t until = monotonic_now() + patience;
+    while (received_.empty()) {
+      const std::int64_t left = std::max<std::int64_t>(0, until - monotonic_now());
+      if (!wait_for_input(link_.number(), left)) {
+        return false;
+      }
       link_.handle();
-    }
-    if (received_.empty()) {
-      return false;
     }
     *message = received_.front();
     received_.pop_front();
@@ -92,7 +95,9 @@ class InnerBus : public PlantBus {
       : period_(static_cast<std::int64_t>(1e9 * static_cast<double>(config.compensator.period))),
         link_(fd, 3),
         encoder_(fd) {
-    if (node_->configure(config) != Result::ok) {
+    NodeConfig in_steps = config;
+    in_steps.use_timestamps = false;
+    if (node_->configure(in_steps) != Result::ok) {
       throw InputError(describe(Result::bad_config));
     }
     const std::size_t size = table.header().size;

@@ -1,0 +1,283 @@
+"""What the hardware-in-loop tests share: the real programs, and a client of the bus that knows
+nothing of flexcomp but flexcomp.dbc."""
+
+import json
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import can
+import cantools
+import crccheck.crc
+
+SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
+BIN = pathlib.Path(os.environ["FLEXCOMP_BIN"])
+ROBOTS = SOURCE / "host" / "robots"
+DBC = SOURCE / "firmware" / "messages" / "flexcomp.dbc"
+BUS = "vcan0"
+LCM = "udpm://239.255.76.67:7667?ttl=0"
+PERIOD = 0.004
+STATES = {"off": 0, "fading_in": 1, "active": 2, "holding": 3, "fading_out": 4, "latched": 5}
+
+
+def flexcomp(*arguments, code=0):
+    done = subprocess.run([str(BIN / "flexcomp"), *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode != code:
+        raise AssertionError(f"{arguments}: exit {done.returncode}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def circularity(recording):
+    """By least squares in the plane of the circle, m."""
+    return json.loads(flexcomp("circularity", recording, "--columns", "x,z", "--json"))["lsc"]["circularity"]
+
+
+class Job:
+    """A robot with its circle, table and configuration in a folder."""
+
+    def __init__(self, folder, robot="kr270", feed=0.1, *table_options):
+        self.model = ROBOTS / robot / "robot.yaml"
+        self.folder = pathlib.Path(folder)
+        self.path = self.folder / f"{robot}.csv"
+        self.table = self.folder / f"{robot}.fct"
+        self.config = self.folder / f"{robot}.toml"
+        flexcomp("plan", "circle", "--model", self.model, "--center", "1.6,0,1.2", "--plane", "xz",
+                 "--points", 720, "--feed", feed, "--out", self.path)
+        flexcomp("table", "--model", self.model, "--path", self.path, "--tolerance", 1e-6,
+                 "--out", self.table, *table_options)
+        flexcomp("configure", "--model", self.model, "--table", self.table, "--period", PERIOD,
+                 "--out", self.config)
+        self.model_hash = json.loads(
+            flexcomp("table", "verify", self.table, "--model", self.model, "--samples", 1, "--json")
+        )["model_hash"]
+
+
+class Flexcompd:
+    """The real process, ended by SIGTERM."""
+
+    def __init__(self, job, *options, preload=None, bus=("--can", BUS), environment=None):
+        self.statistics_file = job.folder / "statistics.json"
+        self.log = open(job.folder / "flexcompd.log", "w+")
+        env = dict(os.environ, **(environment or {}))
+        if preload:
+            env["LD_PRELOAD"] = str(preload)
+        self.process = subprocess.Popen(
+            [str(BIN / "flexcompd"), "--config", str(job.config), "--statistics",
+             str(self.statistics_file), *bus, *map(str, options)], stderr=self.log, env=env)
+        time.sleep(0.3)
+        if self.process.poll() is not None:
+            raise AssertionError(f"flexcompd ended: {self.messages()}")
+
+    def messages(self):
+        self.log.flush()
+        return pathlib.Path(self.log.name).read_text()
+
+    def stop(self):
+        """Ends it; its exit code."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(timeout=10)
+
+    def statistics(self):
+        return json.loads(self.statistics_file.read_text())
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        self.log.close()
+
+
+class Listener:
+    """A process that listens until it is stopped, such as candump."""
+
+    def __init__(self, command, output):
+        self.output = open(output, "w")
+        self.process = subprocess.Popen(command, stdout=self.output)
+        time.sleep(0.2)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        time.sleep(0.2)
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait()
+        self.output.close()
+
+
+def candump(output):
+    return Listener(["candump", "-L", BUS], output)
+
+
+class Client:
+    """A client of the bus made from the DBC alone: python-can moves the frames, cantools packs and
+    unpacks them, crccheck protects them."""
+
+    def __init__(self):
+        self.database = cantools.database.load_file(str(DBC))
+        self.bus = can.Bus(interface="socketcan", channel=BUS, fd=True)
+        self.counters = {}
+
+    def close(self):
+        self.bus.shutdown()
+
+    def checksum(self, message, payload):
+        data_id = message.dbc.attributes["E2EDataId"].value
+        protected = data_id.to_bytes(2, "little")
+        if message.is_fd:
+            return crccheck.crc.Crc16Ibm3740.calc(protected + bytes(payload[2:]))
+        return crccheck.crc.Crc8Autosar.calc(protected + bytes(payload[1:]))
+
+    def encode(self, name, counter, **signals):
+        message = self.database.get_message_by_name(name)
+        values = {signal.name: 0 for signal in message.signals} | signals | {"counter": counter, "crc": 0}
+        payload = message.encode(values, strict=False)
+        payload = message.encode(values | {"crc": self.checksum(message, payload)}, strict=False)
+        return can.Message(arbitration_id=message.frame_id, data=payload, is_extended_id=False,
+                           is_fd=message.is_fd, bitrate_switch=message.is_fd)
+
+    def send(self, *names, **signals):
+        """One message of one or several frames, of one counter."""
+        counter = self.counters.get(names[0], 0)
+        fd = self.database.get_message_by_name(names[0]).is_fd
+        self.counters[names[0]] = (counter + 1) % (256 if fd else 16)
+        for name in names:
+            own = {signal.name for signal in self.database.get_message_by_name(name).signals}
+            self.bus.send(self.encode(name, counter, **{k: v for k, v in signals.items() if k in own}))
+
+    def send_setpoint(self, q):
+        self.send("SetpointA", "SetpointB", "SetpointC", **{f"q{i + 1}": q[i] for i in range(6)})
+
+    def send_wrench(self, wrench, saturated=0):
+        self.send("WrenchForce", "WrenchMoment", saturated=saturated,
+                  **dict(zip(("fx", "fy", "fz", "mx", "my", "mz"), wrench)))
+
+    def send_identity(self, model_hash, frame=1):
+        value = int(model_hash, 16)
+        self.send("IdentityLow", "IdentityHigh", model_hash_low=value & 0xFFFFFFFF,
+                  model_hash_high=value >> 32, wrench_frame=frame)
+
+    def command(self, name):
+        self.send("Command", command={"arm": 1, "disarm": 2, "reset": 3, "report": 4}[name])
+
+    def decode(self, frame):
+        """Name and signals; raises where the DBC does not fit."""
+        message = self.database.get_message_by_frame_id(frame.arbitration_id)
+        signals = message.decode(frame.data, decode_choices=False)
+        if signals["crc"] != self.checksum(message, frame.data):
+            raise AssertionError(f"{message.name}: checksum")
+        return message.name, signals
+
+    def receive(self, seconds):
+        """All that comes in a time, decoded."""
+        until = time.monotonic() + seconds
+        received = []
+        while (left := until - time.monotonic()) > 0:
+            frame = self.bus.recv(left)
+            if frame is not None and not frame.is_error_frame:
+                received.append(self.decode(frame))
+        return received
+
+
+class Feeder:
+    """Plays the robot controller and the force sensor in real time, along the circle and back."""
+
+    def __init__(self, job, client):
+        rows = [line.split(",") for line in job.path.read_text().splitlines()]
+        column = {name: i for i, name in enumerate(rows[0])}
+        self.q = [[float(row[column[f"q_cmd_{i}"]]) for i in range(1, 7)] for row in rows[1:]]
+        self.wrench = [[float(row[column[name]]) for name in ("fx", "fy", "fz", "mx", "my", "mz")]
+                       for row in rows[1:]]
+        self.client = client
+        self.job = job
+        self.place = 0
+        self.frames = []
+
+    def run(self, seconds, wrench=True, setpoint=True):
+        """Feeds for a time; what was received meanwhile, decoded."""
+        received = []
+        next_tick = time.monotonic()
+        for _ in range(int(seconds / PERIOD)):
+            self.place += 1
+            row = self.place // 4 % len(self.q)
+            after = (row + 1) % len(self.q)
+            share = self.place % 4 / 4
+            q = [a + share * (b - a) for a, b in zip(self.q[row], self.q[after])]
+            if self.place % 50 == 1:
+                self.client.send_identity(self.job.model_hash)
+            if wrench:
+                noise = 2 * math.sin(self.place)
+                self.client.send_wrench([w + noise for w in self.wrench[row][:3]] + self.wrench[row][3:])
+            if setpoint:
+                self.client.send_setpoint(q)
+            next_tick += PERIOD
+            while (left := next_tick - time.monotonic()) > 0:
+                frame = self.client.bus.recv(left)
+                if frame is not None and not frame.is_error_frame:
+                    received.append(self.client.decode(frame))
+        return received
+
+    def arm(self):
+        self.run(0.4)
+        self.client.command("arm")
+        replies = [signals for name, signals in self.run(1.0) if name == "CommandReply"]
+        return replies[0]["reply"]
+
+
+def corrections(received):
+    """The corrections in the answers, one list of six a tick."""
+    result = []
+    parts = {}
+    for name, signals in received:
+        if name.startswith(("Corrected", "Uncorrected")) and not name.endswith("Fd"):
+            parts[name] = signals
+        if name == "Status" and len(parts) == 6:
+            result.append([
+                parts["Corrected" + "ABC"[i // 2]][f"q{i + 1}"]
+                - parts["Uncorrected" + "ABC"[i // 2]][f"q{i + 1}"] for i in range(6)])
+            parts = {}
+    return result
+
+
+def states(received):
+    return [signals["state"] for name, signals in received if name == "Status"]
+
+
+class HilTest(unittest.TestCase):
+    """Limits are those that flexcompd has by itself."""
+
+    VALUE, RATE, ACCELERATION = 0.01, 0.1, 5.0
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def client(self):
+        client = Client()
+        self.addCleanup(client.close)
+        return client
+
+    def assert_limits(self, received):
+        """Value, rate and acceleration, from answer to answer; to the steps of the classic signals."""
+        step = 4e-7
+        sequence = corrections(received)
+        self.assertGreater(len(sequence), 10)
+        for i in range(6):
+            values = [correction[i] for correction in sequence]
+            steps = [b - a for a, b in zip(values, values[1:])]
+            changes = [b - a for a, b in zip(steps, steps[1:])]
+            self.assertLessEqual(max(map(abs, values)), self.VALUE + step)
+            self.assertLessEqual(max(map(abs, steps)), self.RATE * PERIOD + 2 * step)
+            self.assertLessEqual(max(map(abs, changes)), self.ACCELERATION * PERIOD**2 + 4 * step)
+
+    def assert_zero(self, received):
+        self.assertEqual([0.0] * 6, [round(value, 9) for value in corrections(received)[-1]])

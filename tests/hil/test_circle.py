@@ -1,0 +1,93 @@
+"""The main job on a bus: real flexcompd, real bus, real plant; four robots, CAN, CAN FD and LCM."""
+
+import contextlib
+import json
+import unittest
+
+from bench_on_a_bus import BUS, LCM, Flexcompd, HilTest, Job, Listener, candump, circularity, flexcomp
+
+LARGEST_SHARE = 0.05  # of the circularity without compensation
+
+
+def mill(job, out, *options):
+    flexcomp("plant", "--model", job.model, "--path", job.path, "--out", out, *options)
+    return circularity(out)
+
+
+class Circle(HilTest):
+    def share(self, robot, bus, node_bus, *options, lockstep=True, log=None):
+        """Circularity with compensation over that without; leaves run.csv, and a log of that run."""
+        job = Job(self.folder, robot, 0.1 if lockstep else 0.05)
+        pace = ["--lockstep"] if lockstep else []
+        trigger = ["--trigger", "lockstep"] if lockstep else []
+        # What is not compensated needs no node, and is the same at every pace.
+        before = mill(job, self.folder / "without.csv", "--table", job.table, "--without-compensation")
+        with Flexcompd(job, *trigger, *options, bus=node_bus) as node, log or contextlib.nullcontext():
+            after = mill(job, self.folder / "run.csv", "--bus", bus, *pace)
+            self.assertEqual(0, node.stop())
+        print(f"{robot} {bus}: {1e3 * before:.4f} mm without, {1e3 * after:.4f} mm with, "
+              f"{100 * after / before:.1f} %")
+        return after / before
+
+    def test_four_robots_over_can(self):
+        for robot in ("kr100", "kr270", "kr360", "kr500"):
+            with self.subTest(robot=robot):
+                self.assertLessEqual(self.share(robot, f"can:{BUS}", ("--can", BUS)), LARGEST_SHARE)
+
+    def test_four_robots_over_lcm(self):
+        for robot in ("kr100", "kr270", "kr360", "kr500"):
+            with self.subTest(robot=robot):
+                self.assertLessEqual(self.share(robot, f"lcm:{LCM}", ("--lcm", LCM)), LARGEST_SHARE)
+
+    def test_in_real_time_over_can_and_the_log_gives_the_same_circularity(self):
+        log = self.folder / "run.log"
+        share = self.share("kr270", f"can:{BUS}", ("--can", BUS), lockstep=False, log=candump(log))
+        self.assertLessEqual(share, LARGEST_SHARE)
+        self.assert_log_gives_the_same(log)
+
+    def test_in_real_time_over_can_fd_and_the_log_gives_the_same_circularity(self):
+        log = self.folder / "run.log"
+        share = self.share("kr270", f"canfd:{BUS}", ("--can", BUS, "--fd"), lockstep=False,
+                           log=candump(log))
+        self.assertLessEqual(share, LARGEST_SHARE)
+        self.assert_log_gives_the_same(log)
+
+    def test_in_real_time_over_lcm_and_the_log_gives_the_same_circularity(self):
+        log = self.folder / "run.lcmlog"
+        logger = Listener(["lcm-logger", "--quiet", "--force", "--lcm-url", LCM, str(log)], "/dev/null")
+        share = self.share("kr270", f"lcm:{LCM}", ("--lcm", LCM), lockstep=False, log=logger)
+        self.assertLessEqual(share, LARGEST_SHARE)
+        self.assert_log_gives_the_same(log)
+
+    def assert_log_gives_the_same(self, log):
+        converted = self.folder / "converted.csv"
+        flexcomp("convert", log, "--out", converted)
+        # Positions travel in steps of 0.2 µm.
+        self.assertAlmostEqual(circularity(self.folder / "run.csv"), circularity(converted), delta=0.4e-6)
+
+
+class LoopGain(HilTest):
+    def test_a_process_that_would_make_the_loop_unstable_is_refused_with_the_largest_safe_gain(self):
+        process = ("--depth-of-cut", 0.0008, "--material", "outside")
+        job = Job(self.folder, "kr270", 0.1, *process, "--loop-filter-cutoff", 20)
+        with Flexcompd(job, "--trigger", "lockstep") as node:
+            said = flexcomp("plant", "--model", job.model, "--path", job.path, "--bus", f"can:{BUS}",
+                            "--lockstep", *process, code=1)
+            self.assertIn("not armed: the gain is above the largest safe one", said)
+            self.assertIn("largest safe gain", node.messages())
+            self.assertEqual(0, node.stop())
+
+    def test_without_the_guard_the_same_process_is_unstable(self):
+        process = ("--depth-of-cut", 0.0008, "--material", "outside")
+        job = Job(self.folder, "kr270", 0.1)
+        steady = flexcomp("plant", "--model", job.model, "--path", job.path, "--table", job.table,
+                          *process, "--filter-cutoff", 0, "--gain", 0.06, "--json")
+        wild = flexcomp("plant", "--model", job.model, "--path", job.path, "--table", job.table,
+                        *process, "--filter-cutoff", 0, "--json")
+        self.assertGreater(json.loads(steady)["least_engagement"], 0.9)
+        self.assertEqual(0, json.loads(wild)["least_engagement"], "the tool bounces out of the cut")
+        self.assertGreater(json.loads(wild)["most_engagement"], 3)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
