@@ -6,7 +6,8 @@ namespace flexcomp {
 namespace {
 
 constexpr std::uint32_t kLongestWait = 64;  // ticks
-constexpr std::uint32_t kFramesToRecover = 50;
+constexpr std::uint32_t kFramesAfterFullQueue = 50;
+constexpr std::uint32_t kFramesAfterBusFault = 500;
 
 }  // namespace
 
@@ -15,24 +16,26 @@ void CanSender::send(const FrameList& frames) {
     if (waiting_ > 0 || !socket_->send(frames.frames[i])) {
       dropped_ += static_cast<std::uint32_t>(frames.count - i);
       if (waiting_ == 0) {
-        back_off();
+        back_off(kFramesAfterFullQueue);
       }
       return;
     }
     ++taken_;
   }
-  if (fault_ && taken_ >= kFramesToRecover) {
+  if (fault_ && taken_ >= frames_to_recover_) {
     fault_ = false;
     wait_ = 0;
+    frames_to_recover_ = 0;
   }
 }
 
 void CanSender::observe(CanSocket::Received event) {
   if (event == CanSocket::Received::bus_off) {
-    back_off();
+    back_off(kFramesAfterBusFault);
   } else if (event == CanSocket::Received::bus_passive) {
     fault_ = true;
     taken_ = 0;
+    frames_to_recover_ = kFramesAfterBusFault;
   } else if (event == CanSocket::Received::bus_restarted) {
     waiting_ = 0;
   }
@@ -40,8 +43,9 @@ void CanSender::observe(CanSocket::Received event) {
 
 void CanSender::tick() { waiting_ -= waiting_ > 0 ? 1U : 0U; }
 
-void CanSender::back_off() {
+void CanSender::back_off(std::uint32_t frames_to_recover) {
   fault_ = true;
+  frames_to_recover_ = std::max(frames_to_recover_, frames_to_recover);
   taken_ = 0;
   wait_ = std::clamp(2 * wait_, 1U, kLongestWait);
   waiting_ = wait_;

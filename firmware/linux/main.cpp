@@ -77,11 +77,11 @@ int serve(const Options& options, std::function<std::optional<Options>()> reread
   if (node->configure(options.node) != Result::ok) {
     throw std::runtime_error(describe(Result::bad_config));
   }
-  load_table(options, &slots, node.get());
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
   auto to_real_time = std::make_unique<Channel<ToRealTime>>();
   auto from_real_time = std::make_unique<Channel<FromRealTime>>();
   Service service(options, std::move(reread), to_real_time.get(), from_real_time.get());
+  load_table(options, &slots, node.get());
   RealTimeLoop loop(options, node.get(), &can, to_real_time.get(), from_real_time.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
   service.run();

@@ -59,6 +59,8 @@ void* RealTimeThread::enter(void* self) {
   touch_stack();
   pthread_setname_np(pthread_self(), "flexcomp-rt");
   static_cast<RealTimeThread*>(self)->work_();
+  // From here on it may touch the heap: the thread is taken apart.
+  pthread_setname_np(pthread_self(), "flexcomp-end");
   return nullptr;
 }
 

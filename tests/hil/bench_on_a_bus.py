@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -21,7 +22,6 @@ ROBOTS = SOURCE / "host" / "robots"
 DBC = SOURCE / "firmware" / "messages" / "flexcomp.dbc"
 BUS = "vcan0"
 LCM = "udpm://239.255.76.67:7667?ttl=0"
-PERIOD = 0.004
 STATES = {"off": 0, "fading_in": 1, "active": 2, "holding": 3, "fading_out": 4, "latched": 5}
 
 
@@ -40,7 +40,8 @@ def circularity(recording):
 class Job:
     """A robot with its circle, table and configuration in a folder."""
 
-    def __init__(self, folder, robot="kr270", feed=0.1, *table_options):
+    def __init__(self, folder, robot="kr270", feed=0.1, *table_options, period=0.004):
+        self.period = period
         self.model = ROBOTS / robot / "robot.yaml"
         self.folder = pathlib.Path(folder)
         self.path = self.folder / f"{robot}.csv"
@@ -50,7 +51,7 @@ class Job:
                  "--points", 720, "--feed", feed, "--out", self.path)
         flexcomp("table", "--model", self.model, "--path", self.path, "--tolerance", 1e-6,
                  "--out", self.table, *table_options)
-        flexcomp("configure", "--model", self.model, "--table", self.table, "--period", PERIOD,
+        flexcomp("configure", "--model", self.model, "--table", self.table, "--period", period,
                  "--out", self.config)
         self.model_hash = json.loads(
             flexcomp("table", "verify", self.table, "--model", self.model, "--samples", 1, "--json")
@@ -60,7 +61,8 @@ class Job:
 class Flexcompd:
     """The real process, ended by SIGTERM."""
 
-    def __init__(self, job, *options, preload=None, bus=("--can", BUS), environment=None):
+    def __init__(self, job, *options, preload=None, bus=("--can", BUS), environment=None,
+                 wait=True):
         self.statistics_file = job.folder / "statistics.json"
         self.log = open(job.folder / "flexcompd.log", "w+")
         env = dict(os.environ, **(environment or {}))
@@ -69,7 +71,8 @@ class Flexcompd:
         self.process = subprocess.Popen(
             [str(BIN / "flexcompd"), "--config", str(job.config), "--statistics",
              str(self.statistics_file), *bus, *map(str, options)], stderr=self.log, env=env)
-        time.sleep(0.3)
+        if wait:
+            time.sleep(0.3)
         if self.process.poll() is not None:
             raise AssertionError(f"flexcompd ended: {self.messages()}")
 
@@ -117,41 +120,64 @@ def candump(output):
     return Listener(["candump", "-L", BUS], output)
 
 
+DATABASE = cantools.database.load_file(str(DBC))
+
+
+def checksum(message, payload):
+    protected = message.dbc.attributes["E2EDataId"].value.to_bytes(2, "little")
+    if message.is_fd:
+        return crccheck.crc.Crc16Ibm3740.calc(protected + bytes(payload[2:]))
+    return crccheck.crc.Crc8Autosar.calc(protected + bytes(payload[1:]))
+
+
+def decode(frame):
+    """Name and signals; raises where the DBC does not fit."""
+    message = DATABASE.get_message_by_frame_id(frame.arbitration_id)
+    signals = message.decode(frame.data, decode_choices=False)
+    if signals["crc"] != checksum(message, frame.data):
+        raise AssertionError(f"{message.name}: checksum")
+    return message.name, signals
+
+
+def decoded(frames):
+    return [decode(frame) for frame in frames if not frame.is_error_frame]
+
+
 class Client:
     """A client of the bus made from the DBC alone: python-can moves the frames, cantools packs and
     unpacks them, crccheck protects them."""
 
     def __init__(self):
-        self.database = cantools.database.load_file(str(DBC))
         self.bus = can.Bus(interface="socketcan", channel=BUS, fd=True)
+        # Room for all that comes while this client is busy. (SO_RCVBUFFORCE has no name in Python.)
+        self.bus.socket.setsockopt(socket.SOL_SOCKET, 33, 1 << 24)
         self.counters = {}
 
     def close(self):
         self.bus.shutdown()
 
-    def checksum(self, message, payload):
-        data_id = message.dbc.attributes["E2EDataId"].value
-        protected = data_id.to_bytes(2, "little")
-        if message.is_fd:
-            return crccheck.crc.Crc16Ibm3740.calc(protected + bytes(payload[2:]))
-        return crccheck.crc.Crc8Autosar.calc(protected + bytes(payload[1:]))
-
     def encode(self, name, counter, **signals):
-        message = self.database.get_message_by_name(name)
+        message = DATABASE.get_message_by_name(name)
         values = {signal.name: 0 for signal in message.signals} | signals | {"counter": counter, "crc": 0}
         payload = message.encode(values, strict=False)
-        payload = message.encode(values | {"crc": self.checksum(message, payload)}, strict=False)
+        payload = message.encode(values | {"crc": checksum(message, payload)}, strict=False)
         return can.Message(arbitration_id=message.frame_id, data=payload, is_extended_id=False,
                            is_fd=message.is_fd, bitrate_switch=message.is_fd)
 
-    def send(self, *names, **signals):
+    def frames(self, *names, **signals):
         """One message of one or several frames, of one counter."""
         counter = self.counters.get(names[0], 0)
-        fd = self.database.get_message_by_name(names[0]).is_fd
+        fd = DATABASE.get_message_by_name(names[0]).is_fd
         self.counters[names[0]] = (counter + 1) % (256 if fd else 16)
+        result = []
         for name in names:
-            own = {signal.name for signal in self.database.get_message_by_name(name).signals}
-            self.bus.send(self.encode(name, counter, **{k: v for k, v in signals.items() if k in own}))
+            own = {signal.name for signal in DATABASE.get_message_by_name(name).signals}
+            result.append(self.encode(name, counter, **{k: v for k, v in signals.items() if k in own}))
+        return result
+
+    def send(self, *names, **signals):
+        for frame in self.frames(*names, **signals):
+            self.bus.send(frame)
 
     def send_setpoint(self, q):
         self.send("SetpointA", "SetpointB", "SetpointC", **{f"q{i + 1}": q[i] for i in range(6)})
@@ -168,24 +194,6 @@ class Client:
     def command(self, name):
         self.send("Command", command={"arm": 1, "disarm": 2, "reset": 3, "report": 4}[name])
 
-    def decode(self, frame):
-        """Name and signals; raises where the DBC does not fit."""
-        message = self.database.get_message_by_frame_id(frame.arbitration_id)
-        signals = message.decode(frame.data, decode_choices=False)
-        if signals["crc"] != self.checksum(message, frame.data):
-            raise AssertionError(f"{message.name}: checksum")
-        return message.name, signals
-
-    def receive(self, seconds):
-        """All that comes in a time, decoded."""
-        until = time.monotonic() + seconds
-        received = []
-        while (left := until - time.monotonic()) > 0:
-            frame = self.bus.recv(left)
-            if frame is not None and not frame.is_error_frame:
-                received.append(self.decode(frame))
-        return received
-
 
 class Feeder:
     """Plays the robot controller and the force sensor in real time, along the circle and back."""
@@ -199,36 +207,45 @@ class Feeder:
         self.client = client
         self.job = job
         self.place = 0
-        self.frames = []
 
-    def run(self, seconds, wrench=True, setpoint=True):
-        """Feeds for a time; what was received meanwhile, decoded."""
+    def run(self, seconds, extra=()):
+        """Feeds for a time, and until all of `extra` is sent, ten frames a tick; the frames that
+        were received meanwhile. Whoever stops feeding, to decode them say, makes the setpoints stale."""
         received = []
+        extra = list(extra)
         next_tick = time.monotonic()
-        for _ in range(int(seconds / PERIOD)):
+        for _ in range(max(int(seconds / self.job.period), len(extra) // 10 + 1)):
             self.place += 1
+            for frame in extra[:10]:
+                self.client.bus.send(frame)
+            del extra[:10]
             row = self.place // 4 % len(self.q)
             after = (row + 1) % len(self.q)
             share = self.place % 4 / 4
             q = [a + share * (b - a) for a, b in zip(self.q[row], self.q[after])]
             if self.place % 50 == 1:
                 self.client.send_identity(self.job.model_hash)
-            if wrench:
-                noise = 2 * math.sin(self.place)
-                self.client.send_wrench([w + noise for w in self.wrench[row][:3]] + self.wrench[row][3:])
-            if setpoint:
-                self.client.send_setpoint(q)
-            next_tick += PERIOD
+            noise = 2 * math.sin(self.place)
+            self.client.send_wrench([w + noise for w in self.wrench[row][:3]] + self.wrench[row][3:])
+            self.client.send_setpoint(q)
+            next_tick += self.job.period
             while (left := next_tick - time.monotonic()) > 0:
                 frame = self.client.bus.recv(left)
-                if frame is not None and not frame.is_error_frame:
-                    received.append(self.client.decode(frame))
+                if frame is not None:
+                    received.append(frame)
+        while (frame := self.client.bus.recv(0)) is not None:
+            received.append(frame)
         return received
+
+    def forget(self):
+        """Drops what was received and not yet looked at."""
+        while self.client.bus.recv(0) is not None:
+            pass
 
     def arm(self):
         self.run(0.4)
         self.client.command("arm")
-        replies = [signals for name, signals in self.run(1.0) if name == "CommandReply"]
+        replies = [signals for name, signals in decoded(self.run(1.0)) if name == "CommandReply"]
         return replies[0]["reply"]
 
 
@@ -236,7 +253,7 @@ def corrections(received):
     """The corrections in the answers, one list of six a tick."""
     result = []
     parts = {}
-    for name, signals in received:
+    for name, signals in decoded(received):
         if name.startswith(("Corrected", "Uncorrected")) and not name.endswith("Fd"):
             parts[name] = signals
         if name == "Status" and len(parts) == 6:
@@ -248,7 +265,7 @@ def corrections(received):
 
 
 def states(received):
-    return [signals["state"] for name, signals in received if name == "Status"]
+    return [signals["state"] for name, signals in decoded(received) if name == "Status"]
 
 
 class HilTest(unittest.TestCase):
@@ -266,7 +283,7 @@ class HilTest(unittest.TestCase):
         self.addCleanup(client.close)
         return client
 
-    def assert_limits(self, received):
+    def assert_limits(self, received, period):
         """Value, rate and acceleration, from answer to answer; to the steps of the classic signals."""
         step = 4e-7
         sequence = corrections(received)
@@ -276,8 +293,8 @@ class HilTest(unittest.TestCase):
             steps = [b - a for a, b in zip(values, values[1:])]
             changes = [b - a for a, b in zip(steps, steps[1:])]
             self.assertLessEqual(max(map(abs, values)), self.VALUE + step)
-            self.assertLessEqual(max(map(abs, steps)), self.RATE * PERIOD + 2 * step)
-            self.assertLessEqual(max(map(abs, changes)), self.ACCELERATION * PERIOD**2 + 4 * step)
+            self.assertLessEqual(max(map(abs, steps)), self.RATE * period + 2 * step)
+            self.assertLessEqual(max(map(abs, changes)), self.ACCELERATION * period**2 + 4 * step)
 
     def assert_zero(self, received):
         self.assertEqual([0.0] * 6, [round(value, 9) for value in corrections(received)[-1]])
