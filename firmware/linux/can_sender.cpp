@@ -12,15 +12,14 @@ constexpr std::uint32_t kFramesAfterBusFault = 500;
 }  // namespace
 
 void CanSender::send(const FrameList& frames) {
-  for (std::size_t i = 0; i < frames.count; ++i) {
-    if (waiting_ > 0 || !socket_->send(frames.frames[i])) {
-      dropped_ += static_cast<std::uint32_t>(frames.count - i);
-      if (waiting_ == 0) {
-        back_off(kFramesAfterFullQueue);
-      }
-      return;
+  const std::size_t taken = waiting_ > 0 ? 0 : socket_->send(frames.frames.data(), frames.count);
+  taken_ += static_cast<std::uint32_t>(taken);
+  if (taken < frames.count) {
+    dropped_ += static_cast<std::uint32_t>(frames.count - taken);
+    if (waiting_ == 0) {
+      back_off(kFramesAfterFullQueue);
     }
-    ++taken_;
+    return;
   }
   if (fault_ && taken_ >= frames_to_recover_) {
     fault_ = false;

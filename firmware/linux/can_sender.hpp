@@ -33,7 +33,7 @@ class CanSender {
   std::uint32_t waiting_ = 0;  ///< ticks
   std::uint32_t wait_ = 0;     ///< ticks, after the last failure
   std::uint32_t frames_to_recover_ = 0;
-  std::uint32_t taken_ = 0;    ///< frames since the last failure
+  std::uint32_t taken_ = 0;  ///< frames since the last failure
   std::uint32_t dropped_ = 0;
 };
 

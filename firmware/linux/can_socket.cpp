@@ -86,15 +86,42 @@ void CanSocket::receive_only(const Filter* filters, std::size_t count) {
              static_cast<socklen_t>(count * sizeof(can_filter)));
 }
 
-CanSocket::Received CanSocket::receive(CanFrame* frame) {
-  canfd_frame raw{};
-  const ssize_t size = read(socket_.number(), &raw, sizeof raw);
-  if (size != CAN_MTU && size != CANFD_MTU) {
-    return Received::nothing;
+/// Takes what is there, up to a batch.
+void CanSocket::fetch() {
+  std::array<iovec, kBatch> places{};
+  std::array<mmsghdr, kBatch> messages{};
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    places[i] = {&fetched_[i], sizeof(canfd_frame)};
+    messages[i].msg_hdr.msg_iov = &places[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
   }
+  const int received = recvmmsg(socket_.number(), messages.data(), kBatch, MSG_DONTWAIT, nullptr);
+  next_ = 0;
+  count_ = received > 0 ? static_cast<std::size_t>(received) : 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    sizes_[i] = messages[i].msg_len;
+  }
+}
+
+CanSocket::Received CanSocket::receive(CanFrame* frame) {
+  if (next_ == count_) {
+    // After less than a whole batch there was nothing more: that needs no second question.
+    const bool was_last = count_ > 0 && count_ < kBatch;
+    count_ = 0;
+    next_ = 0;
+    if (was_last) {
+      return Received::nothing;
+    }
+    fetch();
+    if (count_ == 0) {
+      return Received::nothing;
+    }
+  }
+  const canfd_frame& raw = fetched_[next_];
+  const unsigned size = sizes_[next_++];
   if ((raw.can_id & CAN_ERR_FLAG) != 0) {
     const bool is_warning = (raw.can_id & CAN_ERR_CRTL) != 0 && !is_passive(raw);
-    return is_warning ? receive(frame) : error_kind(raw);
+    return is_warning ? Received::warning : error_kind(raw);
   }
   frame->id = raw.can_id & CAN_EFF_MASK;
   frame->fd = size == CANFD_MTU;
@@ -103,14 +130,24 @@ CanSocket::Received CanSocket::receive(CanFrame* frame) {
   return Received::frame;
 }
 
-bool CanSocket::send(const CanFrame& frame) {
-  canfd_frame raw{};
-  raw.can_id = frame.id;
-  raw.len = frame.fd ? fd_length(frame.size) : frame.size;
-  raw.flags = frame.fd ? CANFD_BRS : 0;
-  std::copy_n(frame.data.begin(), frame.size, std::begin(raw.data));
-  const ssize_t size = frame.fd ? CANFD_MTU : CAN_MTU;
-  return write(socket_.number(), &raw, static_cast<std::size_t>(size)) == size;
+std::size_t CanSocket::send(const CanFrame* frames, std::size_t count) {
+  std::array<canfd_frame, kBatch> raw{};
+  std::array<iovec, kBatch> places{};
+  std::array<mmsghdr, kBatch> messages{};
+  count = std::min(count, kBatch);
+  for (std::size_t i = 0; i < count; ++i) {
+    const CanFrame& frame = frames[i];
+    raw[i].can_id = frame.id;
+    raw[i].len = frame.fd ? fd_length(frame.size) : frame.size;
+    raw[i].flags = frame.fd ? CANFD_BRS : 0;
+    std::copy_n(frame.data.begin(), frame.size, std::begin(raw[i].data));
+    places[i] = {&raw[i], static_cast<std::size_t>(frame.fd ? CANFD_MTU : CAN_MTU)};
+    messages[i].msg_hdr.msg_iov = &places[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
+  }
+  const int sent =
+      sendmmsg(socket_.number(), messages.data(), static_cast<unsigned>(count), MSG_DONTWAIT);
+  return sent > 0 ? static_cast<std::size_t>(sent) : 0;
 }
 
 }  // namespace flexcomp

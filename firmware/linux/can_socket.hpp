@@ -1,5 +1,8 @@
 #pragma once
 
+#include <linux/can.h>
+
+#include <array>
 #include <string>
 
 #include "linux/file_descriptor.hpp"
@@ -14,6 +17,7 @@ class CanSocket {
   enum class Received {
     nothing,
     frame,
+    warning,       ///< error frame: some errors, nothing lost yet
     bus_off,       ///< error frame: the controller has left the bus
     bus_passive,   ///< error frame: close to that
     bus_restarted  ///< error frame: back again
@@ -36,15 +40,25 @@ class CanSocket {
   };
   void receive_only(const Filter* filters, std::size_t count);
 
-  /// The next frame that is there. Does not allocate.
+  /// The next frame that is there; `nothing` once after the last. Does not allocate. Frames are
+  /// fetched many at a time, so that the system is asked once where it would be once a frame.
   Received receive(CanFrame* frame);
 
-  /// False if the frame was not taken: the queue is full (ENOBUFS) or the interface down. Does not
-  /// allocate.
-  bool send(const CanFrame& frame);
+  /// Sends frames in order; how many were taken before one was not: the queue is full (ENOBUFS) or
+  /// the interface down. Does not allocate.
+  std::size_t send(const CanFrame* frames, std::size_t count);
+  bool send(const CanFrame& frame) { return send(&frame, 1) == 1; }
 
  private:
+  static constexpr std::size_t kBatch = 16;
+
+  void fetch();
+
   FileDescriptor socket_;
+  std::array<canfd_frame, kBatch> fetched_{};
+  std::array<unsigned, kBatch> sizes_{};  ///< bytes of each, which tell classic from FD
+  std::size_t count_ = 0;
+  std::size_t next_ = 0;
 };
 
 }  // namespace flexcomp

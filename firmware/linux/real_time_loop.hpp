@@ -26,11 +26,19 @@ class RealTimeLoop {
   void run();
 
  private:
-  void wait();
-  void take_messages();
-  void take(LcmSample* sample);
-  void take_frames();
+  /// What there is to do.
+  struct Ready {
+    bool messages = false;
+    bool frames = false;
+    bool timer = false;
+  };
+
+  Ready wait();
+  void take_messages(std::int64_t now);
+  void take(LcmSample* sample, std::int64_t now);
+  void take_frames(std::int64_t now);
   void on_setpoint(std::int64_t now);
+  void on_timer(std::int64_t now);
   void on_period_end(std::int64_t now);
   void follow_setpoints(std::int64_t now);
   void tick(std::int64_t now);
@@ -54,6 +62,7 @@ class RealTimeLoop {
   FileDescriptor timer_;
 
   std::int64_t period_end_ = 0;
+  std::int64_t timer_at_ = 0;
   bool ticked_ = false;  ///< in this period
   std::int64_t setpoint_at_ = 0;
   bool answers_setpoint_ = false;

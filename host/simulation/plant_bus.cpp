@@ -33,21 +33,21 @@ class CanBus : public PlantBus {
 
   void send(const Message& message) override {
     const FrameList list = encoder_.encode(message);
-    for (std::size_t i = 0; i < list.count; ++i) {
-      socket_.send(list.frames[i]);
-    }
+    socket_.send(list.frames.data(), list.count);
   }
 
   bool receive(Message* message, std::int64_t patience) override {
     const std::int64_t until = monotonic_now() + patience;
     while (true) {
       CanFrame frame;
-      if (socket_.receive(&frame) == CanSocket::Received::frame) {
-        *message = decoder_.decode(frame, monotonic_now());
+      CanSocket::Received received = socket_.receive(&frame);
+      while (received != CanSocket::Received::nothing) {
+        *message = received == CanSocket::Received::frame ? decoder_.decode(frame, monotonic_now())
+                                                          : Message();
         if (message->index() != 0) {
           return true;
         }
-        continue;
+        received = socket_.receive(&frame);
       }
       const std::int64_t left = until - monotonic_now();
       if (left <= 0 || !wait_for_input(socket_.number(), left)) {

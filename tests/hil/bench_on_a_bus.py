@@ -40,7 +40,7 @@ def circularity(recording):
 class Job:
     """A robot with its circle, table and configuration in a folder."""
 
-    def __init__(self, folder, robot="kr270", feed=0.1, *table_options, period=0.004):
+    def __init__(self, folder, robot="kr270", feed=0.1, *table_options, period=0.004, radius=0.1):
         self.period = period
         self.model = ROBOTS / robot / "robot.yaml"
         self.folder = pathlib.Path(folder)
@@ -48,7 +48,7 @@ class Job:
         self.table = self.folder / f"{robot}.fct"
         self.config = self.folder / f"{robot}.toml"
         flexcomp("plan", "circle", "--model", self.model, "--center", "1.6,0,1.2", "--plane", "xz",
-                 "--points", 720, "--feed", feed, "--out", self.path)
+                 "--radius", radius, "--points", 720, "--feed", feed, "--out", self.path)
         flexcomp("table", "--model", self.model, "--path", self.path, "--tolerance", 1e-6,
                  "--out", self.table, *table_options)
         flexcomp("configure", "--model", self.model, "--table", self.table, "--period", period,
