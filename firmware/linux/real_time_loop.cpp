@@ -189,8 +189,8 @@ void RealTimeLoop::follow_setpoints(std::int64_t now) {
     const std::int64_t most = period_ / kLargestShift;
     period_end_ -= std::clamp(off_middle / 8, -most, most);
   }
-  // Setting the timer costs a system call: only where it would come late by more than a shift. Where
-  // it comes early it is set anew then.
+  // Setting the timer costs a system call: only where it would come late by more than a shift.
+  // Where it comes early it is set anew then.
   if (period_end_ < timer_at_ - period_ / kLargestShift) {
     set_timer();
   }

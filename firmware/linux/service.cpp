@@ -117,7 +117,7 @@ void Service::check(const TableReceived& received) {
   to_real_time_->send(verdict);
 }
 
-void Service::keep() {
+void Service::keep() const {
   if (options_.state_directory.empty()) {
     return;
   }

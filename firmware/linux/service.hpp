@@ -27,7 +27,7 @@ class Service {
   void on_signal();
   void on_real_time();
   void check(const TableReceived& received);
-  void keep();
+  void keep() const;
   void report(const Snapshot& snapshot) const;
 
   Options options_;

@@ -32,6 +32,10 @@ CanDecoder::CanDecoder(std::uint32_t tolerated) {
                                  FrameGroup::transfer_data_fd, FrameGroup::corrected_fd}) {
     monitor(group) = SequenceMonitor(kFdCounter, tolerated);
   }
+  for (const FrameGroup group : {FrameGroup::command, FrameGroup::transfer_begin,
+                                 FrameGroup::transfer_data, FrameGroup::transfer_end}) {
+    monitor(group) = SequenceMonitor(kClassicCounter, tolerated, true);
+  }
 }
 
 Message CanDecoder::decode(const CanFrame& frame, std::int64_t now) {

@@ -15,7 +15,8 @@ constexpr std::uint32_t kConflictAt = 32;
 
 bool SequenceMonitor::accept(std::uint32_t counter, std::uint32_t digest, std::int64_t now) {
   counter &= modulus_ - 1;
-  if (!started_) {
+  const bool starts_anew = may_restart_ && now - accepted_at_ > kResynchroniseAfter;
+  if (!started_ || starts_anew) {
     started_ = true;
     take(counter, digest, now);
     return true;

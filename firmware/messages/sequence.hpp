@@ -23,9 +23,11 @@ struct StreamCounters {
 class SequenceMonitor {
  public:
   /// `modulus`: the counter wraps there (a power of two). `tolerated`: messages in a row that may
-  /// be lost without a break.
-  explicit SequenceMonitor(std::uint32_t modulus = 16, std::uint32_t tolerated = 3)
-      : modulus_(modulus), tolerated_(tolerated) {}
+  /// be lost without a break. `may_restart`: after a pause any counter is accepted, as for
+  /// commands, which come from a program that is started for each anew.
+  explicit SequenceMonitor(std::uint32_t modulus = 16, std::uint32_t tolerated = 3,
+                           bool may_restart = false)
+      : modulus_(modulus), tolerated_(tolerated), may_restart_(may_restart) {}
 
   /// Is a message with this counter and content to be used? Counts what it sees. `digest` is any
   /// number made from the content; `now` (ns) only grows.
@@ -57,6 +59,7 @@ class SequenceMonitor {
 
   std::uint32_t modulus_;
   std::uint32_t tolerated_;
+  bool may_restart_;
   bool started_ = false;
   std::uint32_t last_ = 0;
   std::uint32_t digest_ = 0;

@@ -11,8 +11,6 @@ constexpr double kSecond = 1e9;        // ns
 constexpr double kEarliestTick = 0.5;  // of a period
 constexpr double kLatestTick = 1.5;    // of a period
 constexpr std::uint8_t kStatisticNames = 64 + LatencyHistogram::kBins;
-constexpr std::uint16_t kStickyBits =
-    kSetpointConflict | kWrenchConflict | kTableDamaged | kOtherNode | kDeflectionTooLarge;
 
 std::uint16_t bit_if(bool condition, NodeBit bit) {
   return condition ? static_cast<std::uint16_t>(bit) : std::uint16_t{0};
@@ -122,6 +120,7 @@ bool Node::next_message(Message* message) {
   return true;
 }
 
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static): the lambda uses this object
 void Node::receive(const Message& message, std::int64_t now) {
   std::visit([&](const auto& content) { receive_one(content, now); }, message);
 }

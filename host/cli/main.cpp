@@ -61,6 +61,7 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp report …        all of it on one page\n\n"
       "On the bus, with flexcompd:\n"
       "  flexcomp configure …     a configuration file for flexcompd\n"
+      "  flexcomp node …          arm it, disarm it, send it a table\n"
       "  flexcomp plant …         the bending robot in the cut, for hardware-in-the-loop tests\n"
       "  flexcomp convert …       logs of candump and lcm-logger to recordings, and back\n\n"
       "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not "
@@ -77,6 +78,7 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_circularity(&app, &action);
   flexcomp::cli::add_report(&app, &action);
   flexcomp::cli::add_configure(&app, &action);
+  flexcomp::cli::add_node(&app, &action);
   flexcomp::cli::add_plant(&app, &action);
   flexcomp::cli::add_convert(&app, &action);
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };

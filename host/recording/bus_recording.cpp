@@ -115,9 +115,9 @@ std::vector<LoggedMessage> decode(const std::vector<LoggedFrame>& frames, Decodi
   std::map<std::string, CanDecoder> decoders;
   std::vector<LoggedMessage> messages;
   for (const LoggedFrame& logged : frames) {
-    Message message = decoders[logged.interface].decode(logged.frame, logged.time);
+    const Message message = decoders[logged.interface].decode(logged.frame, logged.time);
     if (message.index() != 0) {
-      messages.push_back({logged.time, std::move(message)});
+      messages.push_back({logged.time, message});
     }
   }
   for (const auto& [interface, decoder] : decoders) {
@@ -132,14 +132,14 @@ std::vector<LoggedMessage> decode(const std::vector<LoggedEvent>& events, Decodi
   std::map<std::string, SequenceMonitor> monitors;
   std::vector<LoggedMessage> messages;
   for (const LoggedEvent& event : events) {
-    LcmMessage decoded = decode_lcm(event.channel, event.data.data(), event.data.size());
+    const LcmMessage decoded = decode_lcm(event.channel, event.data.data(), event.data.size());
     if (decoded.message.index() == 0) {
       ++counts->foreign;
       continue;
     }
     SequenceMonitor& monitor = monitors.try_emplace(event.channel, kCounter).first->second;
     if (monitor.accept(static_cast<std::uint32_t>(decoded.sequence), 0, event.time)) {
-      messages.push_back({event.time, std::move(decoded.message)});
+      messages.push_back({event.time, decoded.message});
     } else {
       ++counts->rejected;
     }

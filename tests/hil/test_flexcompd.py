@@ -278,6 +278,26 @@ class Tables(Process):
             node.stop()
 
 
+class NodeCommand(Process):
+    def test_it_arms_sends_a_table_and_disarms(self):
+        with Flexcompd(self.job) as node, subprocess.Popen(
+                [str(BIN / "flexcomp"), "plant", "--model", self.job.model, "--path", self.job.path,
+                 "--period", "0.01", "--bus", f"can:{BUS}", "--without-compensation"],
+                stdout=subprocess.DEVNULL) as plant:
+            bus = ("--bus", f"can:{BUS}")
+            time.sleep(0.5)
+            self.assertEqual("ok\n", flexcomp("node", "arm", *bus))
+            self.assertIn("not ready", flexcomp("node", "arm", *bus, code=1))
+            self.assertEqual("ok\n", flexcomp("node", "send-table", self.job.table, *bus))
+            self.assertEqual("ok\n", flexcomp("node", "disarm", *bus))
+            self.assertEqual("ok\n", flexcomp("node", "reset", *bus))
+            plant.terminate()
+            node.stop()
+        done = subprocess.run([str(BIN / "flexcomp"), "node", "arm", *bus], capture_output=True, text=True)
+        self.assertEqual(2, done.returncode)
+        self.assertIn("nobody answers", done.stderr)
+
+
 class Arguments(HilTest):
     def refuse(self, *arguments, saying):
         done = subprocess.run([str(BIN / "flexcompd"), *map(str, arguments)], capture_output=True, text=True,

@@ -171,6 +171,15 @@ void a_sender_that_starts_anew_is_accepted_after_a_pause() {
   TEST_ASSERT_GREATER_OR_EQUAL(7, accepted);
 }
 
+void a_command_is_taken_from_a_program_that_starts_anew_for_each() {
+  CanDecoder decoder;
+  for (int i = 0; i < 3; ++i) {
+    const FrameList list = CanEncoder().encode(CommandMessage{Command::arm});
+    TEST_ASSERT_NOT_EQUAL(0, decoder.decode(list.frames[0], i * 25 * kTick).index());
+    TEST_ASSERT_EQUAL(0, decoder.decode(list.frames[0], i * 25 * kTick + 1).index());
+  }
+}
+
 void the_counter_wraps_without_a_loss() {
   for (const bool fd : {false, true}) {
     CanEncoder encoder(fd);
@@ -203,6 +212,7 @@ int main() {
   RUN_TEST(a_burst_of_late_messages_is_never_used_and_is_no_second_sender);
   RUN_TEST(two_senders_are_found_whatever_their_counters);
   RUN_TEST(a_sender_that_starts_anew_is_accepted_after_a_pause);
+  RUN_TEST(a_command_is_taken_from_a_program_that_starts_anew_for_each);
   RUN_TEST(the_counter_wraps_without_a_loss);
   return UNITY_END();
 }

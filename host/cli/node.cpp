@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <thread>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "core/crc32.hpp"
+#include "error.hpp"
+#include "files/text_file.hpp"
+#include "node/reply.hpp"
+#include "simulation/plant_bus.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer
+
+struct Options {
+  std::string bus;
+  std::string table;
+  double pause = 100e-6;
+};
+
+/// The next message of a kind; throws if none comes in time.
+template <typename Kind>
+Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
+  Message message;
+  while (bus->receive(&message, kPatience)) {
+    if (const auto* found = std::get_if<Kind>(&message)) {
+      return *found;
+    }
+  }
+  throw InputError(address + ": nobody answers");
+}
+
+int command(const Options& options, Command wanted) {
+  const auto bus = simulation::open_plant_bus(options.bus);
+  bus->send(CommandMessage{wanted});
+  CommandReplyMessage reply = wait_for<CommandReplyMessage>(bus.get(), options.bus);
+  while (reply.command != wanted) {
+    reply = wait_for<CommandReplyMessage>(bus.get(), options.bus);
+  }
+  if (reply.reply == static_cast<std::uint8_t>(Result::gain_too_high)) {
+    fmt::print("{}; the largest safe one is {:.4g}\n", describe_reply(reply.reply),
+               reply.largest_gain);
+  } else {
+    fmt::print("{}\n", describe_reply(reply.reply));
+  }
+  return reply.reply == 0 ? kDone : kDoesNotHold;
+}
+
+/// The words of a table file, checked.
+std::vector<std::uint32_t> read_words(const std::string& file, TableHeader* header) {
+  const std::string bytes = files::read_file(file, std::size_t{1} << 20);
+  std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+  Table table;
+  const Result opened = Table::open(words.data(), bytes.size(), &table);
+  if (opened != Result::ok) {
+    throw InputError(fmt::format("{}: {}", file, describe(opened)));
+  }
+  *header = table.header();
+  return words;
+}
+
+int send_table(const Options& options) {
+  TableHeader header{};
+  const std::vector<std::uint32_t> words = read_words(options.table, &header);
+  const auto bus = simulation::open_plant_bus(options.bus);
+  const std::uint32_t crc = crc32(words.data(), header.size);
+  bus->send(TransferBeginMessage{header.size, crc});
+  TransferReplyMessage reply = wait_for<TransferReplyMessage>(bus.get(), options.bus);
+  if (reply.result != 0) {
+    fmt::print("{}\n", describe_reply(reply.result));
+    return kDoesNotHold;
+  }
+  const bool wide = options.bus.rfind("can:", 0) != 0;
+  const std::size_t at_once = wide ? TransferDataMessage::kMaxWords : 1;
+  Progress progress("sending", words.size());
+  for (std::size_t i = 0; i < words.size(); i += at_once) {
+    TransferDataMessage data{static_cast<std::uint32_t>(i), 0, {}};
+    data.count = static_cast<std::uint32_t>(std::min(at_once, words.size() - i));
+    std::copy_n(words.begin() + static_cast<std::ptrdiff_t>(i), data.count, data.words.begin());
+    bus->send(data);
+    progress.show(i);
+    std::this_thread::sleep_for(std::chrono::duration<double>(options.pause));
+  }
+  bus->send(TransferEndMessage{crc});
+  reply = wait_for<TransferReplyMessage>(bus.get(), options.bus);
+  fmt::print("{}\n", describe_reply(reply.result));
+  return reply.result == 0 ? kDone : kDoesNotHold;
+}
+
+void add_bus(CLI::App* command, Options* options) {
+  command->add_option("--bus", options->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL")
+      ->required();
+}
+
+}  // namespace
+
+void add_node(CLI::App* app, Action* action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* node = app->add_subcommand(
+      "node",
+      "Tell a compensator on the bus what to do. Exit code 1 if it refuses, with the reason.\n"
+      "Example: flexcomp node arm --bus can:can0\n"
+      "         flexcomp node send-table t.fct --bus can:can0");
+  node->require_subcommand(1);
+  const std::array<std::tuple<const char*, Command, const char*>, 3> commands = {{
+      {"arm", Command::arm, "Start to correct; the sender of setpoints must have named its robot."},
+      {"disarm", Command::disarm, "Fade out, then off."},
+      {"reset", Command::reset, "Forget the faults that latched it."},
+  }};
+  for (const auto& [name, wanted, help] : commands) {
+    CLI::App* one = node->add_subcommand(name, help);
+    add_bus(one, options.get());
+    one->callback([=, wanted = wanted] { *action = [=] { return command(*options, wanted); }; });
+  }
+  CLI::App* send = node->add_subcommand(
+      "send-table", "Send a table, which is verified there and swapped in between two ticks.");
+  send->add_option("table", options->table, "made by flexcomp table")->required();
+  add_bus(send, options.get());
+  send->add_option("--pause", options->pause, "s, between messages, which leaves room on the bus")
+      ->check(CLI::NonNegativeNumber);
+  send->callback([=] { *action = [=] { return send_table(*options); }; });
+}
+
+}  // namespace flexcomp::cli
