@@ -1,8 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <complex>
-
 #include "flexcomp/types.hpp"
 
 namespace flexcomp::control {
@@ -14,27 +11,26 @@ struct CorrectionLoop {
   double delay = 0.004;      ///< s, from the wrench to the robot standing corrected; whole periods
 };
 
-/// How a process answers displacement: `stiffness` is the change of the wrench (N, N·m) for a
-/// translation (m) or rotation (rad) of the TCP, base frame.
+/// How strongly a cut answers itself at one posture: λ = n·C w / a, the displacement into the
+/// material that the nominal wrench w causes, over the depth of cut a; n is the surface normal into
+/// the material, C the compliance at the TCP (base frame).
 ///
-/// In milling, a tool that stands deeper by δ along the normal n of the surface sees its wrench
-/// grow from w by w δ/a, with a the depth of cut (force proportional to chip area; Altintas,
-/// Manufacturing Automation, ch. 2): stiffness = w nᵀ / a.
-Compliance<double> milling_stiffness(const Wrench<double>& wrench, const Vector3<double>& normal,
-                                     double depth_of_cut);
+/// In milling the force is proportional to the area of the chip (Altintas, Manufacturing
+/// Automation, ch. 2): a tool that stands deeper by δ sees w (1 + δ/a), which moves it by λ δ more.
+/// Below zero the wrench pushes the tool out of the cut; at one it digs in by itself.
+double cut_feedback(const Compliance<double>& compliance, const Wrench<double>& wrench,
+                    const Vector3<double>& normal, double depth_of_cut);
 
 /// Largest correction gain in [0, 1] at which the loop through the process is stable with a gain
-/// margin of `margin` (2: 6 dB), at one posture.
+/// margin of `margin` (2: 6 dB); 0 if the process digs in without any correction.
 ///
-/// The loop: w = w₀ + K x, x = C w − g H C w with H = z^(−delay) × low-pass. For each eigenvalue λ
-/// of K C it is closed by L(z) = g λ/(1−λ) H(z); the open loop is stable, so the smallest g at
-/// which L(e^(jω)) passes through −1 is the limit (Nyquist). An eigenvalue with real part of 1 or
-/// more means that the process digs in by itself, without any correction: 0.
-double largest_safe_gain(const Compliance<double>& compliance, const Compliance<double>& stiffness,
-                         const CorrectionLoop& loop, double margin = 2);
+/// The loop: force e w with e = 1 + δ/a, displacement δ = λ a (1 − g H(z)) e, H the delay and the
+/// low-pass. It is closed by L(z) = g λ/(1−λ) H(z); the open loop is stable, so the smallest g at
+/// which L(e^(jω)) passes through −1 is the limit (Nyquist).
+double largest_safe_gain(double feedback, const CorrectionLoop& loop, double margin = 2);
 
 /// Smallest gain at which 1 + gain × factor × H(z) has a root on the unit circle, `factor` being
-/// λ/(1−λ); infinity if there is none.
-double critical_gain(std::complex<double> factor, const CorrectionLoop& loop);
+/// λ/(1−λ); infinity for a factor of zero.
+double critical_gain(double factor, const CorrectionLoop& loop);
 
 }  // namespace flexcomp::control

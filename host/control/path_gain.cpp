@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "flexcomp/compliance.hpp"
+
 namespace flexcomp::control {
 
 double largest_safe_gain_along(const RobotModel<double, 6>& model, const recording::Recording& path,
@@ -13,9 +15,9 @@ double largest_safe_gain_along(const RobotModel<double, 6>& model, const recordi
     const simulation::Contour::Point point = contour.at(path.time[row] - path.time[0]);
     const Compliance<double> compliance =
         tcp_compliance<double, 6>(model, forward_kinematics<double, 6>(model, point.q));
-    const Compliance<double> stiffness =
-        milling_stiffness(point.wrench, point.normal, process.depth_of_cut);
-    gain = std::min(gain, largest_safe_gain(compliance, stiffness, loop));
+    const double feedback =
+        cut_feedback(compliance, point.wrench, point.normal, process.depth_of_cut);
+    gain = std::min(gain, largest_safe_gain(feedback, loop));
   }
   return std::max(gain, kNone);
 }
