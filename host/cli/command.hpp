@@ -27,6 +27,7 @@ void add_circularity(CLI::App* app, Action* action);
 void add_report(CLI::App* app, Action* action);
 void add_configure(CLI::App* app, Action* action);
 void add_convert(CLI::App* app, Action* action);
+void add_diagnose(CLI::App* app, Action* action);
 void add_node(CLI::App* app, Action* action);
 void add_plant(CLI::App* app, Action* action);
 

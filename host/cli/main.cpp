@@ -63,7 +63,8 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp configure …     a configuration file for flexcompd\n"
       "  flexcomp node …          arm it, disarm it, send it a table\n"
       "  flexcomp plant …         the bending robot in the cut, for hardware-in-the-loop tests\n"
-      "  flexcomp convert …       logs of candump and lcm-logger to recordings, and back\n\n"
+      "  flexcomp convert …       logs of candump and lcm-logger to recordings, and back\n"
+      "  flexcomp diagnose …      where a recording and the model differ, and why\n\n"
       "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not "
       "hold,\n"
       "2 unusable input or arguments, 3 internal fault.");
@@ -81,6 +82,7 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_node(&app, &action);
   flexcomp::cli::add_plant(&app, &action);
   flexcomp::cli::add_convert(&app, &action);
+  flexcomp::cli::add_diagnose(&app, &action);
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked_for).empty()) {
     complain(fmt::format("unknown command '{}' (see --help)", argv[1]));

@@ -27,9 +27,9 @@ struct Springs {
   Springs() { link.fill(Twist<double>::Zero()); }
 };
 
-/// A frame moved by a twist given in that frame.
+/// A frame moved by a twist given in that frame. Most springs are not there, and give nothing.
 Pose<double> given_way(const Pose<double>& frame, const Twist<double>& twist) {
-  return frame * displaced(Pose<double>{}, twist);
+  return twist.isZero(0) ? frame : frame * displaced(Pose<double>{}, twist);
 }
 
 BentChain bend(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
@@ -77,15 +77,21 @@ Springs load_springs(const RobotModel<double, 6>& model, const BentChain& chain,
   load.add_weight(model.payload_mass,
                   chain.tcp.position + chain.tcp.rotation * model.payload_center, model.gravity);
   // The tool's spring forces are those at the TCP, where the wrench is given.
-  springs.tool =
-      model.tool_compliance.cwiseProduct(load.at({chain.flange.rotation, chain.tcp.position}));
+  if (!model.tool_compliance.isZero(0)) {
+    springs.tool =
+        model.tool_compliance.cwiseProduct(load.at({chain.flange.rotation, chain.tcp.position}));
+  }
   for (std::size_t i = 6; i-- > 0;) {
     const Joint<double>& joint = model.joints[i];
     load.add_weight(joint.mass,
                     chain.bent[i].position + chain.bent[i].rotation * joint.center_of_mass,
                     model.gravity);
-    springs.link[i] = joint.link_compliance.cwiseProduct(load.at(chain.stiff[i]));
-    const double torque = joint.axis.dot(load.at(chain.stiff[i]).tail<3>());
+    if (!joint.link_compliance.isZero(0)) {
+      springs.link[i] = joint.link_compliance.cwiseProduct(load.at(chain.stiff[i]));
+    }
+    const Pose<double>& frame = chain.stiff[i];
+    const double torque =
+        (frame.rotation * joint.axis).dot(load.moment - frame.position.cross(load.force));
     springs.windup[static_cast<Eigen::Index>(i)] =
         (joint.compliance + joint.cubic_compliance * torque * torque) * torque;
   }
@@ -98,7 +104,7 @@ Springs load_springs(const RobotModel<double, 6>& model, const BentChain& chain,
 Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
                    const Wrench<double>& wrench) {
   constexpr int kMaxRounds = 200;
-  constexpr double kTolerance = 1e-14;
+  constexpr double kTolerance = 1e-13;
   Springs springs;
   for (int round = 0; round < kMaxRounds; ++round) {
     const BentChain chain = bend(model, q_motor, springs);

@@ -14,7 +14,7 @@ struct Equilibrium {
 /// TCP (base frame) and, with gravity in the model, its weights.
 ///
 /// All springs give as in the model, with every lever taken in the bent posture: the equilibrium
-/// itself, not its linearisation, found by repeated substitution to 1e-14. Throws InputError if the
+/// itself, not its linearisation, found by repeated substitution to 1e-13. Throws InputError if the
 /// springs are so soft that there is no equilibrium nearby.
 Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
                    const Wrench<double>& wrench);

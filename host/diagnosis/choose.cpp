@@ -1,0 +1,249 @@
+#include "diagnosis/choose.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
+constexpr double kConfirmed = 2;
+constexpr double kLeastStrength = 1.0 / 3;
+constexpr std::size_t kMostFindings = 6;
+constexpr std::size_t kShortlist = 5;
+constexpr std::size_t kMostAlternatives = 5;
+constexpr int kQuickSteps = 4;
+constexpr int kSteps = 25;
+
+class Chooser {
+ public:
+  Chooser(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+          const Dictionary& dictionary, double false_discovery)
+      : observations_(observations),
+        hypotheses_(hypotheses),
+        dictionary_(dictionary),
+        false_discovery_(false_discovery) {}
+
+  /// The most promising hypotheses beside a fit, one start each, the best first.
+  std::vector<Chosen> shortlist(const Fit& fit, std::size_t most) const {
+    struct Ranked {
+      double gain;
+      Chosen chosen;
+    };
+    const std::vector<Screened> screened =
+        screen(observations_, hypotheses_, dictionary_, fit.remainder, fit.derivative);
+    std::vector<const Screened*> best(hypotheses_.size(), nullptr);
+    double least = fit.train_sum;
+    for (const Screened& each : screened) {
+      const std::size_t hypothesis = dictionary_.entries[each.entry].hypothesis;
+      if (best[hypothesis] == nullptr || each.sum < best[hypothesis]->sum) {
+        best[hypothesis] = &each;
+      }
+      least = std::min(least, each.sum);
+    }
+    std::vector<Ranked> ranking;
+    const double samples = independent_samples(observations_, fit.remainder);
+    for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+      if (best[h] == nullptr || is_among(hypotheses_[h], fit)) {
+        continue;
+      }
+      const double gain = bic_gain(samples, fit.remainder.head(observations_.train).squaredNorm(),
+                                   best[h]->sum, hypotheses_[h].parameters.size());
+      ranking.push_back(
+          {gain,
+           {&hypotheses_[h],
+            values_of(hypotheses_[h], dictionary_.entries[best[h]->entry], best[h]->amplitude)}});
+    }
+    std::sort(ranking.begin(), ranking.end(),
+              [](const Ranked& a, const Ranked& b) { return a.gain > b.gain; });
+    std::vector<Chosen> chosen;
+    for (std::size_t i = 0; i < std::min(most, ranking.size()); ++i) {
+      chosen.push_back(ranking[i].chosen);
+    }
+    return chosen;
+  }
+
+  Fit with(const Fit& fit_before, const Chosen& chosen, int steps) const {
+    std::vector<Chosen> all = fit_before.chosen;
+    all.push_back(chosen);
+    return fit(observations_, std::move(all), steps, &dictionary_);
+  }
+
+  Fit without(const Fit& whole, std::size_t index) const {
+    std::vector<Chosen> others = whole.chosen;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(index));
+    return fit(observations_, std::move(others), kQuickSteps, &dictionary_);
+  }
+
+  /// The best of a shortlist beside a fit, fitted; nothing chosen if the list is empty.
+  Fit best_with(const Fit& before, std::size_t most) const {
+    Fit best;
+    double best_gain = -std::numeric_limits<double>::infinity();
+    for (const Chosen& candidate : shortlist(before, most)) {
+      Fit tried = with(before, candidate, kQuickSteps);
+      const double gain = relative_gain(before, tried);
+      if (gain > best_gain) {
+        best_gain = gain;
+        best = std::move(tried);
+      }
+    }
+    return best.chosen.empty() ? best : fit(observations_, best.chosen, kSteps, &dictionary_);
+  }
+
+  /// BIC gain in a common count of samples, so that fits beside the same one can be compared.
+  double relative_gain(const Fit& before, const Fit& after) const {
+    return bic_gain(static_cast<double>(observations_.train), before.train_sum, after.train_sum,
+                    after.chosen.back().values.size());
+  }
+
+  bool holds(const Evidence& evidence) const {
+    return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
+           evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength;
+  }
+
+  Evidence weigh_last(const Fit& before, const Fit& after) const {
+    return weigh(observations_, before, after, static_cast<double>(dictionary_.entries.size()));
+  }
+
+  bool grow(Fit* current) const {
+    Fit grown = best_with(*current, kShortlist);
+    if (grown.chosen.empty() || !holds(weigh_last(*current, grown))) {
+      return false;
+    }
+    *current = std::move(grown);
+    return true;
+  }
+
+  /// Replaces or drops one choice, the earliest that can be bettered; false if all stand.
+  bool revise(Fit* current) const {
+    for (std::size_t i = 0; i + 1 < current->chosen.size(); ++i) {
+      const Fit others = without(*current, i);
+      const Fit replaced = best_with(others, kShortlist / 2);
+      if (replaced.chosen.empty()) {
+        continue;
+      }
+      const bool better =
+          replaced.train_sum < current->train_sum &&
+          bic_gain(static_cast<double>(observations_.train), current->train_sum, replaced.train_sum,
+                   0) > kStrong + (static_cast<double>(replaced.parameters()) -
+                                   static_cast<double>(current->parameters())) *
+                                      std::log(static_cast<double>(observations_.train));
+      if (better && holds(weigh_last(others, replaced))) {
+        *current = replaced;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Drops what no longer holds beside the others, the weakest first.
+  void prune(Choice* choice) const {
+    while (!choice->fit.chosen.empty()) {
+      choice->findings.clear();
+      std::size_t weakest = choice->fit.chosen.size();
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < choice->fit.chosen.size(); ++i) {
+        choice->findings.push_back(judge(choice->fit, i));
+        const Evidence& evidence = choice->findings.back().evidence;
+        if (!holds(evidence) && evidence.delta_bic < least) {
+          least = evidence.delta_bic;
+          weakest = i;
+        }
+      }
+      if (weakest == choice->fit.chosen.size()) {
+        return;
+      }
+      choice->fit = without(choice->fit, weakest);
+    }
+    choice->findings.clear();
+  }
+
+  Finding judge(const Fit& whole, std::size_t index) const {
+    Finding finding;
+    finding.without = without(whole, index);
+    Fit last = whole;  // the same fit, its last hypothesis the one that is weighed
+    std::rotate(last.chosen.begin() + static_cast<std::ptrdiff_t>(index),
+                last.chosen.begin() + static_cast<std::ptrdiff_t>(index) + 1, last.chosen.end());
+    finding.evidence = weigh_last(finding.without, last);
+    finding.holdout_sum_before = finding.without.holdout_sum;
+    finding.holdout_sum_after = whole.holdout_sum;
+    return finding;
+  }
+
+  /// Others that would do nearly as well in the place of a finding.
+  void find_alternatives(const Fit& whole, std::size_t index, Finding* finding) const {
+    const Hypothesis& own = *whole.chosen[index].hypothesis;
+    const double samples = finding->evidence.effective_samples;
+    for (const Chosen& candidate : shortlist(finding->without, kShortlist)) {
+      const Hypothesis& other = *candidate.hypothesis;
+      if ((other.effect == own.effect && other.joint == own.joint) ||
+          finding->alternatives.size() >= kMostAlternatives) {
+        continue;
+      }
+      const Fit tried = with(finding->without, candidate, kQuickSteps);
+      const double gain =
+          bic_gain(samples, finding->without.train_sum, tried.train_sum, candidate.values.size());
+      if (gain > kStrong) {
+        finding->alternatives.push_back({other.effect, other.joint,
+                                         std::max(finding->evidence.delta_bic - gain, 0.0),
+                                         tried.chosen.back()});
+      }
+    }
+    std::sort(finding->alternatives.begin(), finding->alternatives.end(),
+              [](const Alternative& a, const Alternative& b) { return a.delta_bic < b.delta_bic; });
+  }
+
+  static bool is_among(const Hypothesis& hypothesis, const Fit& fit) {
+    return std::any_of(fit.chosen.begin(), fit.chosen.end(), [&](const Chosen& each) {
+      return each.hypothesis->effect == hypothesis.effect &&
+             each.hypothesis->joint == hypothesis.joint;
+    });
+  }
+
+ private:
+  const Observations& observations_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const Dictionary& dictionary_;
+  double false_discovery_;
+};
+
+void strongest_first(Choice* choice) {
+  std::vector<std::size_t> order(choice->findings.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return choice->findings[a].evidence.delta_bic > choice->findings[b].evidence.delta_bic;
+  });
+  Choice sorted = *choice;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.findings[i] = choice->findings[order[i]];
+    sorted.fit.chosen[i] = choice->fit.chosen[order[i]];
+  }
+  *choice = std::move(sorted);
+}
+
+}  // namespace
+
+Choice choose(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+              const Dictionary& dictionary, double false_discovery, const Tell& tell) {
+  const Chooser chooser(observations, hypotheses, dictionary, false_discovery);
+  Choice choice;
+  choice.fit = fit(observations, {}, 0);
+  for (std::size_t step = 1; step <= kMostFindings && chooser.grow(&choice.fit); ++step) {
+    tell(step, kMostFindings);
+    for (int pass = 0; pass < 2 && chooser.revise(&choice.fit); ++pass) {
+    }
+  }
+  choice.fit = fit(observations, choice.fit.chosen, kSteps);
+  chooser.prune(&choice);
+  for (std::size_t i = 0; i < choice.findings.size(); ++i) {
+    chooser.find_alternatives(choice.fit, i, &choice.findings[i]);
+  }
+  strongest_first(&choice);
+  // In the order that the covariance and the derivative have from here on.
+  choice.fit = fit(observations, choice.fit.chosen, 0);
+  return choice;
+}
+
+}  // namespace flexcomp::diagnosis

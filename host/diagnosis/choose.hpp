@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+
+#include "diagnosis/dictionary.hpp"
+#include "diagnosis/evidence.hpp"
+
+namespace flexcomp::diagnosis {
+
+struct Alternative {
+  std::string effect;
+  int joint = 0;
+  double delta_bic = 0;  ///< how much worse than the chosen one
+  Chosen chosen;
+};
+
+/// What was chosen, why, and what else would have done.
+struct Finding {
+  Evidence evidence;
+  double holdout_sum_before = 0;  ///< sums of squares over the noise, without it and with it
+  double holdout_sum_after = 0;
+  Fit without;
+  std::vector<Alternative> alternatives;
+};
+
+struct Choice {
+  Fit fit;
+  std::vector<Finding> findings;  ///< in the order of `fit.chosen`, the strongest first
+};
+
+/// Tells how far it is: done, of how many.
+using Tell = std::function<void(std::size_t, std::size_t)>;
+
+/// Chooses what explains the residual: one hypothesis at a time, the one with the largest gain in
+/// BIC after a fit of all that are chosen; then each choice is tried against all others anew, and
+/// dropped if it no longer holds. A hypothesis holds if its gain is strong, its chance (times the
+/// hypotheses looked at) is below `false_discovery`, what was held out confirms it, and it moves
+/// some component by more than a third of its noise.
+Choice choose(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+              const Dictionary& dictionary, double false_discovery, const Tell& tell);
+
+}  // namespace flexcomp::diagnosis

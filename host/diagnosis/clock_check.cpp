@@ -1,0 +1,93 @@
+#include "diagnosis/clock_check.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// Derivatives of the prediction by the delay of each group, samples × groups.
+Eigen::MatrixXd delay_columns(const Observations& observations,
+                              const std::vector<Hypothesis>& hypotheses,
+                              std::vector<std::string>* groups) {
+  constexpr double kStep = 1e-3;  // s
+  std::vector<Eigen::VectorXd> columns;
+  std::size_t number = 0;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    if (hypothesis.effect != "time_offset") {
+      continue;
+    }
+    Machine machine;
+    hypothesis.apply({kStep}, &machine);
+    std::vector<Prediction> late;
+    std::vector<Prediction> on_time;
+    for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
+      const Simulation& simulation = observations.simulations[s];
+      late.push_back(with_terms(machine.terms, observations.scenes[s], simulation));
+      on_time.push_back(simulation.prediction);
+    }
+    while (number < simulation::kChannels.size() &&
+           !observations.has(static_cast<Channel>(number))) {
+      ++number;
+    }
+    groups->emplace_back(number < simulation::kChannels.size() ? simulation::kChannels[number]
+                                                               : "wrench");
+    ++number;
+    columns.push_back((observations.stacked(late) - observations.stacked(on_time)) / kStep);
+  }
+  Eigen::MatrixXd all(observations.size(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    all.col(static_cast<Eigen::Index>(i)) = columns[i];
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<ClockCheck> check_clocks(const Observations& observations,
+                                     const std::vector<Hypothesis>& hypotheses,
+                                     const Dictionary& dictionary) {
+  std::vector<ClockCheck> checks;
+  if (observations.is_static) {
+    return checks;
+  }
+  std::vector<std::string> groups;
+  const Eigen::MatrixXd late = delay_columns(observations, hypotheses, &groups);
+  std::vector<Eigen::Index> others;
+  for (const Entry& entry : dictionary.entries) {
+    const Hypothesis& hypothesis = hypotheses[entry.hypothesis];
+    if (hypothesis.effect == "time_offset" || !hypothesis.starts.front().empty()) {
+      continue;
+    }
+    for (Eigen::Index i = 0; i < entry.count; ++i) {
+      others.push_back(entry.first + i);
+    }
+  }
+  // The smaller system of normal equations, in columns of unit length.
+  const Eigen::Index n = observations.train;
+  const auto count = static_cast<Eigen::Index>(others.size());
+  const Eigen::Index all = count + late.cols();
+  Eigen::MatrixXd columns(n, all);
+  Eigen::VectorXd length(all);
+  for (Eigen::Index i = 0; i < all; ++i) {
+    columns.col(i) = i < count ? dictionary.columns.col(others[static_cast<std::size_t>(i)]).head(n)
+                               : late.col(i - count).head(n);
+    length[i] = std::max(columns.col(i).norm(), 1e-300);
+    columns.col(i) /= length[i];
+  }
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(all, all);
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  gram = Eigen::MatrixXd(gram.selfadjointView<Eigen::Lower>());
+  gram.diagonal().array() += 1e-9;
+  const Eigen::MatrixXd inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(all, all));
+  const Eigen::VectorXd target = observations.residual.head(n);
+  const Eigen::VectorXd solved = inverse * (columns.transpose() * target);
+  const double variance = (target - columns * solved).squaredNorm() / static_cast<double>(n);
+  for (Eigen::Index i = count; i < all; ++i) {
+    checks.push_back({groups[static_cast<std::size_t>(i - count)], solved[i] / length[i],
+                      std::sqrt(variance * inverse(i, i)) / length[i]});
+  }
+  return checks;
+}
+
+}  // namespace flexcomp::diagnosis

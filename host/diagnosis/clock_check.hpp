@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/dictionary.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// By how much a group of columns is late against the joint angles.
+struct ClockCheck {
+  std::string group;     ///< tcp_position, joint_torque, joint_deflection or wrench
+  double delay = 0;      ///< s, estimated beside every linear effect that could look like one
+  double deviation = 0;  ///< s, standard deviation
+};
+
+/// Delays of all groups whose clock the recordings can tell.
+std::vector<ClockCheck> check_clocks(const Observations& observations,
+                                     const std::vector<Hypothesis>& hypotheses,
+                                     const Dictionary& dictionary);
+
+}  // namespace flexcomp::diagnosis

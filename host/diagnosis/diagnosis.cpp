@@ -1,0 +1,138 @@
+#include "diagnosis/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kSameEvidence = 6;      // of BIC: below "strong" (Kass and Raftery 1995)
+constexpr double kNoiseLike = 1.15;      // times the noise: nothing left to explain
+constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
+constexpr Eigen::Index kFewestSamples = 24;
+constexpr Eigen::Index kLeastFreedom = 8;
+
+bool has_enough(const Observations& observations) {
+  return observations.train >= kFewestSamples && observations.size() > observations.train;
+}
+
+/// A load test's noise is what the fullest fit leaves; single samples far from it are outliers.
+void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+                 const Dictionary& dictionary) {
+  constexpr double kFar = 6;
+  const FullestFit full = fit_all(*observations, hypotheses, dictionary);
+  if (full.freedom < kLeastFreedom) {
+    return;
+  }
+  const double deviation =
+      std::sqrt(full.remainder.squaredNorm() / static_cast<double>(full.freedom));
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(observations->size());
+  values.head(observations->train) = full.remainder;
+  observations->drop_outliers(values, kFar * deviation);
+  observations->set_noise(std::max(deviation, 1e-4));
+  observations->noise_is_known = true;
+}
+
+void find_groups(Diagnosis* diagnosis) {
+  for (std::size_t i = 0; i < diagnosis->choice.findings.size(); ++i) {
+    const Hypothesis& chosen = *diagnosis->choice.fit.chosen[i].hypothesis;
+    std::vector<Place> group = {{chosen.effect, chosen.joint}};
+    for (const Alternative& other : diagnosis->choice.findings[i].alternatives) {
+      if (other.delta_bic < kSameEvidence) {
+        group.push_back({other.effect, other.joint});
+      }
+    }
+    if (group.size() > 1) {
+      diagnosis->indistinguishable.push_back(group);
+    }
+  }
+}
+
+/// Findings that leave most of a mismatch standing are not proof of anything.
+void withdraw(const Observations& observations, const std::string& reason, Diagnosis* diagnosis) {
+  for (const Chosen& chosen : diagnosis->choice.fit.chosen) {
+    diagnosis->nearest.push_back({chosen.hypothesis->effect, chosen.hypothesis->joint});
+  }
+  diagnosis->choice = {};
+  diagnosis->choice.fit = fit(observations, {}, 0);
+  diagnosis->indistinguishable.clear();
+  diagnosis->verdict = "unexplained";
+  diagnosis->reason = reason;
+}
+
+void judge(const Observations& observations, Diagnosis* diagnosis) {
+  const double before = largest_ratio(observations, observations.residual);
+  const double after = largest_ratio(observations, diagnosis->choice.fit.remainder);
+  const bool is_noise = !observations.noise_is_known || after < kNoiseLike;
+  const double excess = std::max(before * before - 1, 1e-9);
+  const double explained = 1 - (after * after - 1) / excess;
+  if (diagnosis->choice.fit.chosen.empty()) {
+    diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
+    diagnosis->reason = is_noise ? "" : "no known effect accounts for it";
+  } else if (is_noise) {
+    diagnosis->verdict = "explained";
+  } else if (explained < kLeastExplained) {
+    withdraw(observations,
+             fmt::format("known effects account for {:.0f} % of it at most", 100 * explained),
+             diagnosis);
+  } else {
+    diagnosis->verdict = "partly_explained";
+    diagnosis->reason = fmt::format("{:.1f} times the noise is left", after);
+  }
+}
+
+}  // namespace
+
+Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+                   const Settings& settings) {
+  Diagnosis diagnosis;
+  if (!has_enough(*observations)) {
+    withdraw(*observations,
+             fmt::format("too little data: {} samples to fit to and {} to check with",
+                         observations->train, observations->size() - observations->train),
+             &diagnosis);
+    return diagnosis;
+  }
+  Dictionary dictionary(*observations, hypotheses, settings.simulating);
+  if (observations->is_static) {
+    learn_noise(observations, hypotheses, dictionary);
+    dictionary = Dictionary(*observations, hypotheses, settings.simulating);
+  }
+  diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary);
+  diagnosis.location = locate(*observations, observations->residual);
+  diagnosis.choice =
+      choose(*observations, hypotheses, dictionary, settings.false_discovery, settings.choosing);
+  find_groups(&diagnosis);
+  judge(*observations, &diagnosis);
+  if (diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained") {
+    diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
+  }
+  return diagnosis;
+}
+
+std::string statement(const Observations& observations, const Diagnosis& diagnosis,
+                      std::size_t index) {
+  const Finding& finding = diagnosis.choice.findings[index];
+  const auto count =
+      static_cast<double>(std::max<Eigen::Index>(observations.size() - observations.train, 1));
+  std::string clause = diagnosis.choice.fit.chosen[index].hypothesis->statement;
+  clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
+  return fmt::format(
+      "{}, which the model lacks: held-out error falls from {:.2f} to {:.2f} times "
+      "the noise.",
+      clause, std::sqrt(finding.holdout_sum_before / count),
+      std::sqrt(finding.holdout_sum_after / count));
+}
+
+std::string headline(const Observations& observations, const Diagnosis& diagnosis) {
+  if (!diagnosis.choice.findings.empty()) {
+    return statement(observations, diagnosis, 0);
+  }
+  return diagnosis.verdict == "no_mismatch"
+             ? "Model and recording agree within the noise."
+             : "Model and recording differ: " + diagnosis.reason + ".";
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "diagnosis/choose.hpp"
+#include "diagnosis/clock_check.hpp"
+#include "diagnosis/locate.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// An effect at a place, as a person names it.
+struct Place {
+  std::string effect;
+  int joint = 0;
+};
+
+/// What is wrong between a model and its recordings.
+struct Diagnosis {
+  std::string verdict;  ///< no_mismatch, explained, partly_explained or unexplained
+  std::string reason;   ///< why not explained; empty where it is
+  std::vector<ClockCheck> clocks;
+  Choice choice;
+  std::vector<Place> nearest;  ///< what comes nearest to an unexplained mismatch, without proof
+  Location location;           ///< of the mismatch
+  Location left;               ///< of what is unexplained
+  std::vector<std::vector<Place>> indistinguishable;
+  std::string suggested_experiment;  ///< empty where none is needed
+};
+
+struct Settings {
+  double false_discovery = 0.01;
+  Tell simulating;  ///< told while hypotheses are simulated
+  Tell choosing;    ///< told while they are chosen
+};
+
+/// Diagnoses what was observed. The hypotheses (of `all_hypotheses`) must live as long as the
+/// diagnosis, whose choice points to them; the noise of a load test is learnt on the way.
+Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+                   const Settings& settings);
+
+/// The load test or motion, among several dozen simulated, in which the first two of a group differ
+/// most as fitted so far; empty where none tells them apart.
+std::string suggest_experiment(const Observations& observations, const Diagnosis& diagnosis,
+                               std::size_t finding);
+
+/// diagnosis.json as the README describes it.
+nlohmann::ordered_json to_json(const Observations& observations, const Diagnosis& diagnosis);
+
+/// One plain sentence about a finding.
+std::string statement(const Observations& observations, const Diagnosis& diagnosis,
+                      std::size_t finding);
+
+/// One plain sentence about the whole.
+std::string headline(const Observations& observations, const Diagnosis& diagnosis);
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,148 @@
+#include <cmath>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/parameters.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using simulation::kChannels;
+
+Json joint_or_null(int joint) { return joint > 0 ? Json(joint) : Json(nullptr); }
+
+std::vector<Channel> channels_of(const Observations& observations) {
+  std::vector<Channel> channels;
+  for (std::size_t i = 0; i < kChannels.size(); ++i) {
+    if (observations.has(static_cast<Channel>(i))) {
+      channels.push_back(static_cast<Channel>(i));
+    }
+  }
+  return channels;
+}
+
+Json rms_of(const Observations& observations, const Eigen::VectorXd& values) {
+  Json json = Json::object();
+  for (const Channel channel : channels_of(observations)) {
+    json[kChannels[channel]] = {{"train_rms", observations.rms(values, channel, false)},
+                                {"holdout_rms", observations.rms(values, channel, true)}};
+  }
+  return json;
+}
+
+Json noise_floor(const Observations& observations) {
+  Json json = Json::object();
+  for (const Channel channel : channels_of(observations)) {
+    json[kChannels[channel]] =
+        observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
+  }
+  return json;
+}
+
+Json location(const Location& location) {
+  Json correlates = Json::array();
+  for (const auto& [name, share] : location.correlates_with) {
+    correlates.push_back({{"with", name}, {"share", share}});
+  }
+  return {{"joints", location.joints},
+          {"axes", location.axes},
+          {"time", location.time},
+          {"frequency_hz", location.frequency_hz},
+          {"correlates_with", correlates}};
+}
+
+/// The channel that a finding betters most, for its held-out errors.
+Channel main_channel(const Observations& observations, const Fit& with, const Finding& finding) {
+  Channel best = channels_of(observations).front();
+  double most = 0;
+  for (const Channel channel : channels_of(observations)) {
+    const double noise =
+        observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
+    const double fall = (observations.rms(finding.without.remainder, channel, true) -
+                         observations.rms(with.remainder, channel, true)) /
+                        noise;
+    if (fall > most) {
+      most = fall;
+      best = channel;
+    }
+  }
+  return best;
+}
+
+Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
+  const Choice& choice = diagnosis.choice;
+  const Finding& finding = choice.findings[index];
+  const Hypothesis& hypothesis = *choice.fit.chosen[index].hypothesis;
+  Json parameters = Json::object();
+  for (const Estimate& estimate : estimates(observations, choice.fit, index)) {
+    parameters[estimate.name] = {
+        {"value", estimate.value},
+        {"std", std::isfinite(estimate.deviation) ? Json(estimate.deviation) : Json(nullptr)},
+        {"unit", estimate.unit}};
+  }
+  Json alternatives = Json::array();
+  for (const Alternative& other : finding.alternatives) {
+    alternatives.push_back({{"effect", other.effect},
+                            {"joint", joint_or_null(other.joint)},
+                            {"delta_bic", other.delta_bic}});
+  }
+  const Channel channel = main_channel(observations, choice.fit, finding);
+  return {{"effect", hypothesis.effect},
+          {"joint", joint_or_null(hypothesis.joint)},
+          {"parameters", parameters},
+          {"evidence",
+           {{"delta_bic", finding.evidence.delta_bic},
+            {"p_value", finding.evidence.p_value},
+            {"channel", kChannels[channel]},
+            {"holdout_rms_before", observations.rms(finding.without.remainder, channel, true)},
+            {"holdout_rms_after", observations.rms(choice.fit.remainder, channel, true)}}},
+          {"alternatives", alternatives},
+          {"statement", statement(observations, diagnosis, index)}};
+}
+
+Json places(const std::vector<Place>& all) {
+  Json json = Json::array();
+  for (const Place& place : all) {
+    json.push_back({{"effect", place.effect}, {"joint", joint_or_null(place.joint)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
+  Json json = {{"schema", "flexcomp/diagnosis/1"}, {"verdict", diagnosis.verdict}};
+  json["channels"] = Json::array();
+  for (const Channel channel : channels_of(observations)) {
+    json["channels"].push_back(kChannels[channel]);
+  }
+  json["noise_floor_rms"] = noise_floor(observations);
+  json["baseline"] = rms_of(observations, observations.residual);
+  json["final"] = rms_of(observations, diagnosis.choice.fit.remainder);
+  json["location"] = location(diagnosis.location);
+  json["findings"] = Json::array();
+  for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
+    json["findings"].push_back(finding_json(observations, diagnosis, i));
+  }
+  json["unexplained"] = nullptr;
+  if (!diagnosis.reason.empty()) {
+    json["unexplained"] = {{"reason", diagnosis.reason},
+                           {"location", location(diagnosis.left)},
+                           {"nearest", places(diagnosis.nearest)}};
+  }
+  json["indistinguishable"] = Json::array();
+  for (const std::vector<Place>& group : diagnosis.indistinguishable) {
+    json["indistinguishable"].push_back(places(group));
+  }
+  json["suggested_experiment"] =
+      diagnosis.suggested_experiment.empty() ? Json(nullptr) : Json(diagnosis.suggested_experiment);
+  json["clocks"] = Json::array();
+  for (const ClockCheck& clock : diagnosis.clocks) {
+    json["clocks"].push_back(
+        {{"group", clock.group}, {"delay", clock.delay}, {"std", clock.deviation}});
+  }
+  json["outliers"] = observations.outliers;
+  return json;
+}
+
+}  // namespace flexcomp::diagnosis

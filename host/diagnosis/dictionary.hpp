@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "diagnosis/effect.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// A hypothesis with the starting values of what is not linear in it: columns of the dictionary.
+struct Entry {
+  std::size_t hypothesis;
+  Values start;
+  Eigen::Index first;  ///< column
+  Eigen::Index count;
+};
+
+/// How every hypothesis would change the prediction, per unit of its linear parameters.
+class Dictionary {
+ public:
+  /// Progress is told after each hypothesis: done, of how many.
+  Dictionary(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+             const std::function<void(std::size_t, std::size_t)>& progress);
+
+  /// The first entry of a hypothesis; null where it does not show.
+  const Entry* find(const Hypothesis& hypothesis) const;
+
+  std::vector<Entry> entries;
+  Eigen::MatrixXd columns;  ///< samples × columns, over the noise
+  Eigen::MatrixXd gram;     ///< columns × columns, over the samples to fit to
+
+ private:
+  const std::vector<Hypothesis>* hypotheses_;
+};
+
+/// What an entry would explain beside what is fitted already.
+struct Screened {
+  std::size_t entry = 0;
+  double sum = 0;             ///< of squares that it would leave
+  Eigen::VectorXd amplitude;  ///< of its columns
+};
+
+/// Every entry beside columns that are fitted already (samples × p, the parameters' derivatives);
+/// entries with amplitudes out of bounds are left out. Unsorted.
+std::vector<Screened> screen(const Observations& observations,
+                             const std::vector<Hypothesis>& hypotheses,
+                             const Dictionary& dictionary, const Eigen::VectorXd& remainder,
+                             const Eigen::MatrixXd& fitted);
+
+/// What a fit of all linear entries at once leaves: the fullest fit there is.
+struct FullestFit {
+  Eigen::VectorXd remainder;  ///< of the samples to fit to
+  Eigen::Index freedom = 0;   ///< samples less independent columns
+};
+FullestFit fit_all(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+                   const Dictionary& dictionary);
+
+/// The parameters that an entry with amplitudes stands for, within their bounds.
+Values values_of(const Hypothesis& hypothesis, const Entry& entry,
+                 const Eigen::VectorXd& amplitude);
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,63 @@
+#include "diagnosis/effects/effects.hpp"
+
+namespace flexcomp::diagnosis {
+
+namespace {
+
+/// values: stiffness torque K, pull torque P, anchor ratio r, zero angle.
+simulation::Term balancer(int joint, const Values& values) {
+  return {simulation::Term::wrench,
+          [=](const Scene&, const Simulation& at, Prediction* prediction) {
+            const Eigen::Index column = joint - 1;
+            const Eigen::ArrayXd lean = at.q.col(column).array() + values[3];
+            const Eigen::ArrayXd length =
+                (1 + values[2] * values[2] - 2 * values[2] * lean.cos()).sqrt();
+            const Eigen::VectorXd torque = -lean.sin() * (values[0] + values[1] / length);
+            const Eigen::VectorXd angle = at.joint_compliance[column] * torque;
+            add_joint_angle(at, joint, angle, prediction);
+            prediction->load.col(column) += torque;
+            if (prediction->dynamic_load.cols() > 0) {
+              prediction->dynamic_load.col(column) += torque;
+            }
+            if (prediction->channel[simulation::joint_torque].cols() > 0) {
+              add_torque(joint, -torque, prediction);
+            }
+          }};
+}
+
+}  // namespace
+
+// A coil spring or gas balancer between two links, missing from the model: anchored at distances a
+// and b from the joint's axis, l apart, it pulls with F0 + k (l - l0); its torque is -sin(lean) (K
+// + P / l'), with l' = sqrt(1 + r^2 - 2 r cos(lean)), lean the angle from where it does nothing, r
+// = b/a. Needs gravity in the model.
+std::vector<Hypothesis> gravity_compensator(const Observations& observations) {
+  std::vector<Hypothesis> all;
+  if (!observations.has_weight()) {
+    return all;
+  }
+  for (const int joint : {2, 3}) {
+    Hypothesis hypothesis;
+    hypothesis.effect = "gravity_compensator";
+    hypothesis.joint = joint;
+    hypothesis.parameters = {{"stiffness_torque", "N·m", -1e6, 1e6, 100},
+                             {"pull_torque", "N·m", -1e6, 1e6, 100},
+                             {"anchor_ratio", "1", 0.05, 0.95, 0.05},
+                             {"zero_angle", "rad", -4, 4, 0.05}};
+    hypothesis.linear = 2;
+    hypothesis.starts.clear();
+    for (const double ratio : {0.3, 0.45, 0.65}) {
+      for (int sector = 0; sector < 12; ++sector) {
+        hypothesis.starts.push_back({ratio, (sector - 6) * M_PI / 6});
+      }
+    }
+    hypothesis.statement = fmt::format("a balancer acts on joint {}", joint);
+    hypothesis.apply = [joint](const Values& values, Machine* machine) {
+      machine->terms.push_back(balancer(joint, values));
+    };
+    all.push_back(hypothesis);
+  }
+  return all;
+}
+
+}  // namespace flexcomp::diagnosis

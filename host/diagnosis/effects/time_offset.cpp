@@ -1,0 +1,73 @@
+#include "diagnosis/effects/effects.hpp"
+
+namespace flexcomp::diagnosis {
+
+namespace {
+
+const char* clock_name(Channel channel) {
+  return channel == simulation::tcp_position   ? "TCP measurement"
+         : channel == simulation::joint_torque ? "torques"
+                                               : "link encoders";
+}
+
+simulation::Term late_channel(Channel channel, double delay) {
+  return {simulation::Term::clock,
+          [=](const Scene& scene, const Simulation&, Prediction* prediction) {
+            Eigen::MatrixXd& values = prediction->channel[channel];
+            if (values.cols() > 0 && !scene.is_static) {
+              values = simulation::delayed(scene.time, values, delay);
+            }
+          }};
+}
+
+simulation::Term late_wrench(double delay) {
+  return {simulation::Term::wrench,
+          [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
+            if (!scene.is_static) {
+              add_wrench(at, simulation::delayed(scene.time, scene.wrench, -delay) - scene.wrench,
+                         prediction);
+            }
+          }};
+}
+
+}  // namespace
+
+// Two clocks of the recording disagree: a group of columns belongs to an earlier time than the
+// joint angles beside it. Needs motion or, for the wrench, a changing load.
+std::vector<Hypothesis> time_offset(const Observations& observations) {
+  std::vector<Hypothesis> all;
+  if (observations.is_static) {
+    return all;
+  }
+  Hypothesis hypothesis;
+  hypothesis.effect = "time_offset";
+  hypothesis.parameters = {{"delay", "s", -0.5, 0.5, 1e-3}};
+  hypothesis.linear = 1;
+  for (const Channel channel :
+       {simulation::tcp_position, simulation::joint_torque, simulation::joint_deflection}) {
+    if (observations.has(channel)) {
+      hypothesis.statement = fmt::format(
+          "the clock of the {} disagrees with that of the joint angles", clock_name(channel));
+      hypothesis.apply = [channel](const Values& values, Machine* machine) {
+        machine->terms.push_back(late_channel(channel, values[0]));
+      };
+      all.push_back(hypothesis);
+    }
+  }
+  if (observations.has_wrench()) {
+    hypothesis.statement = "the clock of the force sensor disagrees with that of the joint angles";
+    hypothesis.linear = 0;
+    hypothesis.starts.clear();
+    for (double delay = 1e-3; delay < 0.1; delay *= 1.35) {
+      hypothesis.starts.push_back({delay});
+      hypothesis.starts.push_back({-delay});
+    }
+    hypothesis.apply = [](const Values& values, Machine* machine) {
+      machine->terms.push_back(late_wrench(values[0]));
+    };
+    all.push_back(hypothesis);
+  }
+  return all;
+}
+
+}  // namespace flexcomp::diagnosis

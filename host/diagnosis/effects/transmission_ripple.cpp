@@ -1,0 +1,37 @@
+#include "diagnosis/effects/effects.hpp"
+
+namespace flexcomp::diagnosis {
+
+// Position error of a gear, a sinusoid of the joint's angle (eccentricity, tooth pitch; Sweet and
+// Good 1985 for robots' gears), simulated along the motion. Needs the TCP or link encoders, and two
+// periods of motion.
+std::vector<Hypothesis> transmission_ripple(const Observations& observations) {
+  std::vector<Hypothesis> all;
+  if (!(sees_angles(observations) && !observations.is_static)) {
+    return all;
+  }
+  for (int joint = 1; joint <= 6; ++joint) {
+    Hypothesis hypothesis;
+    hypothesis.effect = "transmission_ripple";
+    hypothesis.joint = joint;
+    hypothesis.parameters = {{"sine", "rad", -0.01, 0.01, 1e-4},
+                             {"cosine", "rad", -0.01, 0.01, 1e-4},
+                             {"order", "1", 1, 1000, 0.5}};
+    hypothesis.linear = 2;
+    hypothesis.starts = ripple_orders(observations, joint, observations.angle_residual(joint));
+    hypothesis.statement = fmt::format("the gear of joint {} has a periodic error", joint);
+    hypothesis.apply = [joint](const Values& values, Machine* machine) {
+      machine->terms.push_back(
+          {simulation::Term::output,
+           [=](const Scene&, const Simulation& at, Prediction* prediction) {
+             const Eigen::ArrayXd wave = values[2] * at.q.col(joint - 1).array();
+             add_joint_angle(at, joint, values[0] * wave.sin() + values[1] * wave.cos(),
+                             prediction);
+           }});
+    };
+    all.push_back(hypothesis);
+  }
+  return all;
+}
+
+}  // namespace flexcomp::diagnosis

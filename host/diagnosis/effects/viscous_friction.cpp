@@ -1,0 +1,33 @@
+#include "diagnosis/effects/effects.hpp"
+
+namespace flexcomp::diagnosis {
+
+// Friction in proportion to speed (Armstrong-Helouvry, Dupont and Canudas de Wit 1994). Needs
+// torques, and several speeds.
+std::vector<Hypothesis> viscous_friction(const Observations& observations) {
+  std::vector<Hypothesis> all;
+  if (!(observations.has(simulation::joint_torque) && !observations.is_static)) {
+    return all;
+  }
+  for (int joint = 1; joint <= 6; ++joint) {
+    Hypothesis hypothesis;
+    hypothesis.effect = "viscous_friction";
+    hypothesis.joint = joint;
+    const auto index = static_cast<std::size_t>(joint - 1);
+    const double size = std::max(0.02 * observations.largest_torque(joint), 0.01) /
+                        std::max(observations.largest_speed(joint), 1e-3);
+    hypothesis.parameters = {{"coefficient", "N·m·s/rad",
+                              -observations.machine.robot.dynamics[index].viscous, 100 * size,
+                              size}};
+    hypothesis.linear = 1;
+    hypothesis.alters_model = true;
+    hypothesis.statement = fmt::format("joint {} has another viscous friction", joint);
+    hypothesis.apply = [index](const Values& values, Machine* machine) {
+      machine->robot.dynamics[index].viscous += values[0];
+    };
+    all.push_back(hypothesis);
+  }
+  return all;
+}
+
+}  // namespace flexcomp::diagnosis

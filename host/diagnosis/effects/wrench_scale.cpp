@@ -1,0 +1,23 @@
+#include "diagnosis/effects/effects.hpp"
+
+namespace flexcomp::diagnosis {
+
+// Gain of the force sensor: it reads gain times the wrench. Needs a wrench.
+std::vector<Hypothesis> wrench_scale(const Observations& observations) {
+  if (!observations.has_wrench()) {
+    return {};
+  }
+  Hypothesis hypothesis;
+  hypothesis.effect = "wrench_scale";
+  hypothesis.parameters = {{"gain_error", "1", -0.9, 5, 0.05}};
+  hypothesis.linear = 1;
+  hypothesis.statement = "the force sensor has another gain";
+  hypothesis.apply = [](const Values& values, Machine* machine) {
+    const double gain = 1 + values[0];
+    machine->terms.push_back(
+        sensor([gain](const Wrench<double>& read) { return Wrench<double>(read / gain); }));
+  };
+  return {hypothesis};
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/fit.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// What speaks for a hypothesis, the others of a fit being there.
+struct Evidence {
+  double delta_bic = 0;     ///< BIC without it less BIC with it
+  double p_value = 1;       ///< of so large a gain by chance, times the places looked at
+  double confirmation = 0;  ///< deviations by which the held-out sum of squares falls
+  double strength = 0;      ///< root mean square of its share in the component that shows it most,
+                            ///< over the noise
+  double effective_samples = 0;
+};
+
+/// Compares two fits to the same observations; `with` has one hypothesis more, its last.
+/// `places`: how many hypotheses were looked at to find it.
+Evidence weigh(const Observations& observations, const Fit& without, const Fit& with,
+               double places);
+
+/// Samples to fit to that are independent, by the correlation of neighbours in a remainder.
+double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder);
+
+/// Schwarz's criterion: n·ln(before/after) less ln(n) for each parameter; n independent samples.
+double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters);
+
+/// Root mean square of the remainder of the samples to fit to, over the noise, in the channel where
+/// it is largest.
+double largest_ratio(const Observations& observations, const Eigen::VectorXd& remainder);
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,294 @@
+#include "diagnosis/fit.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/parallel.hpp"
+#include "error.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kHuber = 3;            // deviations
+constexpr double kRelativeStep = 0.02;  // of a parameter's size, for finite differences
+
+/// Predictions as a function of the parameters of chosen hypotheses.
+class Evaluator {
+ public:
+  Evaluator(const Observations& observations, std::vector<Chosen> chosen,
+            const Dictionary* dictionary)
+      : observations_(observations), chosen_(std::move(chosen)), dictionary_(dictionary) {
+    for (const Chosen& each : chosen_) {
+      const bool alters = each.hypothesis->alters_model;
+      const Entry* entry =
+          alters && dictionary != nullptr ? dictionary->find(*each.hypothesis) : nullptr;
+      for (std::size_t i = 0; i < each.hypothesis->parameters.size(); ++i) {
+        alters_.push_back(alters);
+        known_.push_back(entry != nullptr ? entry->first + static_cast<Eigen::Index>(i) : -1);
+      }
+    }
+  }
+
+  std::size_t size() const { return alters_.size(); }
+
+  const Parameter& parameter(std::size_t index) const {
+    for (const Chosen& each : chosen_) {
+      if (index < each.hypothesis->parameters.size()) {
+        return each.hypothesis->parameters[index];
+      }
+      index -= each.hypothesis->parameters.size();
+    }
+    return chosen_.front().hypothesis->parameters.front();
+  }
+
+  Values values() const {
+    Values all;
+    for (const Chosen& each : chosen_) {
+      all.insert(all.end(), each.values.begin(), each.values.end());
+    }
+    return all;
+  }
+
+  void set(const Values& all) {
+    auto at = all.begin();
+    for (Chosen& each : chosen_) {
+      const auto count = static_cast<std::ptrdiff_t>(each.values.size());
+      each.values.assign(at, at + count);
+      at += count;
+    }
+  }
+
+  const std::vector<Chosen>& chosen() const { return chosen_; }
+
+  std::vector<Simulation> simulate_scenes(const Machine& machine) const {
+    const bool alters = std::any_of(chosen_.begin(), chosen_.end(), [](const Chosen& each) {
+      return each.hypothesis->alters_model;
+    });
+    if (!alters) {
+      return observations_.simulations;
+    }
+    simulation::Wanted wanted;
+    wanted.levers = !machine.terms.empty();
+    std::vector<Simulation> simulations;
+    for (const Scene& scene : observations_.scenes) {
+      simulations.push_back(simulate(machine, scene, wanted));
+    }
+    return simulations;
+  }
+
+  std::vector<Prediction> add_terms(const Machine& machine,
+                                    const std::vector<Simulation>& simulations) const {
+    std::vector<Prediction> predictions;
+    for (std::size_t s = 0; s < simulations.size(); ++s) {
+      predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations[s]));
+    }
+    return predictions;
+  }
+
+  /// Stacked prediction, and its derivative where wanted.
+  Eigen::VectorXd evaluate(const Values& values, Eigen::MatrixXd* derivative) {
+    set(values);
+    const Machine machine = machine_with(observations_, chosen_);
+    const std::vector<Simulation> simulations = simulate_scenes(machine);
+    const Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
+    if (derivative != nullptr) {
+      derivative->resize(base.size(), static_cast<Eigen::Index>(size()));
+      const std::vector<Chosen> here = chosen_;
+      in_parallel(
+          size(), [](std::size_t, std::size_t) {},
+          [&](std::size_t i) {
+            if (known_[i] >= 0) {
+              derivative->col(static_cast<Eigen::Index>(i)) = dictionary_->columns.col(known_[i]);
+              return;
+            }
+            const Parameter& bounds = parameter(i);
+            double step = kRelativeStep * bounds.step;
+            if (values[i] + step > bounds.upper) {
+              step = -step;
+            }
+            Evaluator moved(observations_, here, nullptr);
+            Values other = values;
+            other[i] += step;
+            moved.set(other);
+            const Machine changed = machine_with(observations_, moved.chosen_);
+            const std::vector<Prediction> predictions =
+                alters_[i] != 0 ? add_terms(changed, moved.simulate_scenes(changed))
+                                : add_terms(changed, simulations);
+            derivative->col(static_cast<Eigen::Index>(i)) =
+                (observations_.stacked(predictions) - base) / step;
+          });
+    }
+    return base;
+  }
+
+ private:
+  const Observations& observations_;
+  std::vector<Chosen> chosen_;
+  const Dictionary* dictionary_;
+  std::vector<char> alters_;
+  std::vector<Eigen::Index> known_;  ///< column of the dictionary, or −1
+};
+
+Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder) {
+  const double spread =
+      std::max(1.0, std::sqrt(remainder.squaredNorm() / static_cast<double>(remainder.size())));
+  return (kHuber * spread / remainder.array().abs().max(1e-12)).min(1.0).matrix();
+}
+
+/// Ceres' view: weighted remainder of the samples to fit to, in parameters over their steps.
+class WeightedRemainder : public ceres::CostFunction {
+ public:
+  WeightedRemainder(const Observations& observations, Evaluator* evaluator,
+                    const Eigen::VectorXd* weight)
+      : observations_(observations), evaluator_(evaluator), weight_(weight) {
+    set_num_residuals(static_cast<int>(observations.train));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(evaluator->size()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    Values values(evaluator_->size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = parameters[0][i] * evaluator_->parameter(i).step;
+    }
+    const bool wants = jacobians != nullptr && jacobians[0] != nullptr;
+    Eigen::MatrixXd derivative;
+    Eigen::VectorXd predicted;
+    try {
+      predicted = evaluator_->evaluate(values, wants ? &derivative : nullptr);
+    } catch (const InputError&) {
+      return false;  // springs so soft that there is no rest
+    }
+    const Eigen::Index n = observations_.train;
+    const Eigen::VectorXd base = observations_.stacked(observations_.predictions);
+    const Eigen::VectorXd root = weight_->cwiseSqrt();
+    Eigen::Map<Eigen::VectorXd>(residuals, n) =
+        root.cwiseProduct((observations_.residual + base - predicted).head(n));
+    if (wants) {
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      const auto columns = static_cast<Eigen::Index>(values.size());
+      Eigen::Map<RowMajor> jacobian(jacobians[0], n, columns);
+      for (Eigen::Index i = 0; i < columns; ++i) {
+        jacobian.col(i) = -evaluator_->parameter(static_cast<std::size_t>(i)).step *
+                          root.cwiseProduct(derivative.col(i).head(n));
+      }
+    }
+    return Eigen::Map<Eigen::VectorXd>(residuals, n).allFinite();
+  }
+
+ private:
+  const Observations& observations_;
+  Evaluator* evaluator_;
+  const Eigen::VectorXd* weight_;
+};
+
+void solve(const Observations& observations, Evaluator* evaluator, const Eigen::VectorXd& weight,
+           int most_steps) {
+  Values scaled = evaluator->values();
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    const Parameter& bounds = evaluator->parameter(i);
+    scaled[i] = std::clamp(scaled[i], bounds.lower, bounds.upper) / bounds.step;
+  }
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  WeightedRemainder cost(observations, evaluator, &weight);
+  problem.AddResidualBlock(&cost, nullptr, scaled.data());
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    const Parameter& bounds = evaluator->parameter(i);
+    problem.SetParameterLowerBound(scaled.data(), static_cast<int>(i), bounds.lower / bounds.step);
+    problem.SetParameterUpperBound(scaled.data(), static_cast<int>(i), bounds.upper / bounds.step);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = most_steps;
+  options.function_tolerance = 1e-7;
+  options.logging_type = ceres::SILENT;
+  options.initial_trust_region_radius = 1e6;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  Values values(scaled.size());
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    const Parameter& bounds = evaluator->parameter(i);
+    values[i] = std::clamp(scaled[i] * bounds.step, bounds.lower, bounds.upper);
+  }
+  evaluator->set(values);
+}
+
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
+                              double variance) {
+  const Eigen::MatrixXd weighted = weight.asDiagonal() * derivative;
+  Eigen::MatrixXd gram = derivative.transpose() * weighted;
+  const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  const Eigen::VectorXd inverse = scale.cwiseInverse();
+  gram = inverse.asDiagonal() * gram * inverse.asDiagonal();
+  const Eigen::MatrixXd inner = gram.completeOrthogonalDecomposition().pseudoInverse() * variance;
+  Eigen::MatrixXd covariance = inverse.asDiagonal() * inner * inverse.asDiagonal();
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    if (!(derivative.col(i).norm() > 0)) {
+      covariance.row(i).setZero();
+      covariance.col(i).setZero();
+    }
+  }
+  return covariance;
+}
+
+}  // namespace
+
+std::size_t Fit::parameters() const {
+  std::size_t count = 0;
+  for (const Chosen& each : chosen) {
+    count += each.values.size();
+  }
+  return count;
+}
+
+Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen) {
+  Machine machine = observations.machine;
+  // Terms may hold a copy of the robot: what alters it comes first.
+  for (const bool alters : {true, false}) {
+    for (const Chosen& each : chosen) {
+      if (each.hypothesis->alters_model == alters) {
+        each.hypothesis->apply(each.values, &machine);
+      }
+    }
+  }
+  return machine;
+}
+
+Fit fit(const Observations& observations, std::vector<Chosen> start, int most_steps,
+        const Dictionary* dictionary) {
+  Fit result;
+  const Eigen::Index n = observations.train;
+  Evaluator evaluator(observations, std::move(start), dictionary);
+  const Eigen::VectorXd base = observations.stacked(observations.predictions);
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(n);
+  if (evaluator.size() > 0) {
+    const Eigen::VectorXd first = evaluator.evaluate(evaluator.values(), nullptr);
+    weight = huber_weights((observations.residual + base - first).head(n));
+    solve(observations, &evaluator, weight, most_steps);
+  }
+  result.chosen = evaluator.chosen();
+  result.machine = machine_with(observations, result.chosen);
+  Eigen::VectorXd predicted = base;
+  result.derivative.resize(base.size(), 0);
+  if (evaluator.size() > 0) {
+    predicted = evaluator.evaluate(evaluator.values(), &result.derivative);
+  }
+  result.remainder = observations.residual + base - predicted;
+  weight = huber_weights(result.remainder.head(n));
+  result.train_sum = weight.dot(result.remainder.head(n).cwiseAbs2());
+  const Eigen::VectorXd rest = result.remainder.tail(result.remainder.size() - n);
+  result.holdout_sum = rest.size() > 0 ? huber_weights(rest).dot(rest.cwiseAbs2()) : 0;
+  const double freedom = static_cast<double>(n) - static_cast<double>(evaluator.size());
+  if (evaluator.size() > 0) {
+    result.covariance = covariance_of(result.derivative.topRows(n), weight,
+                                      result.train_sum / std::max(freedom, 1.0));
+  }
+  return result;
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/dictionary.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// A hypothesis with values for its parameters.
+struct Chosen {
+  const Hypothesis* hypothesis = nullptr;
+  Values values;
+};
+
+/// Hypotheses fitted together to the samples to fit to.
+struct Fit {
+  std::vector<Chosen> chosen;
+  Machine machine;             ///< the model with them
+  Eigen::VectorXd remainder;   ///< all samples: measured less predicted, over the noise
+  Eigen::MatrixXd derivative;  ///< samples × parameters, of the prediction over the noise
+  Eigen::MatrixXd covariance;  ///< parameters × parameters; zero where nothing depends on one
+  double train_sum = 0;        ///< robust sum of squares of the remainder
+  double holdout_sum = 0;
+
+  std::size_t parameters() const;
+};
+
+/// The machine with hypotheses added to the observations' model.
+Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen);
+
+/// Fits parameters within their bounds by Ceres (Levenberg–Marquardt) from given values on, with
+/// weights by Huber's function (3 deviations) so that single samples do not decide. Predictions are
+/// simulated anew for every step, not linearised.
+///
+/// With a dictionary the derivatives by parameters that alter the model are those that it holds, of
+/// the model as it was: quicker, and close enough to find the same minimum.
+Fit fit(const Observations& observations, std::vector<Chosen> start, int most_steps,
+        const Dictionary* dictionary = nullptr);
+
+}  // namespace flexcomp::diagnosis

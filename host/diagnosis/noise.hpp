@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace flexcomp::diagnosis {
+
+/// Standard deviation of the noise in a signal that is otherwise smooth from row to row, by the
+/// median size of its third differences, which leave √20 of white noise. NaN rows are missing.
+double white_noise(const Eigen::VectorXd& signal);
+
+/// 1.4826 times the median size: the standard deviation of a normal distribution, outliers or not.
+double robust_deviation(const Eigen::VectorXd& values);
+
+/// Does a row stand alone, far from the median of its neighbours?
+bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise);
+
+/// How many independent samples so many correlated ones are worth: n(1−ρ)/(1+ρ), ρ the correlation
+/// of neighbours (first-order autoregression; Bayley and Hammersley 1946).
+double effective_samples(double count, double correlation);
+
+}  // namespace flexcomp::diagnosis

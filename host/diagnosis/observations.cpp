@@ -1,0 +1,247 @@
+#include "diagnosis/observations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/noise.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+using simulation::joint_deflection;
+using simulation::joint_torque;
+using simulation::tcp_position;
+
+constexpr Channel kAllChannels[] = {tcp_position, joint_torque, joint_deflection};
+/// Exact data still need a scale: a nanometre, a nanoradian, a millinewton-metre.
+constexpr double kLeastNoise[] = {1e-9, 1e-3, 1e-9};
+
+/// A quarter of the time, in whole stretches.
+bool is_held_out(Eigen::Index row, Eigen::Index rows) {
+  constexpr Eigen::Index kStretches = 20;
+  return (row * kStretches / rows) % 4 == 2;
+}
+
+template <typename Values>
+double largest(const std::vector<Values>& all) {
+  double most = 0;
+  for (const Values& values : all) {
+    most = values.size() > 0 ? std::max(most, values.cwiseAbs().maxCoeff()) : most;
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes) {
+  std::vector<Prediction> predictions;
+  simulation::Wanted wanted;
+  wanted.levers = !machine.terms.empty();
+  for (const Scene& scene : scenes) {
+    predictions.push_back(with_terms(machine.terms, scene, simulate(machine, scene, wanted)));
+  }
+  return predictions;
+}
+
+Observations::Observations(Machine model, std::vector<Scene> all, std::size_t holdouts)
+    : machine(std::move(model)), scenes(std::move(all)) {
+  for (const Scene& scene : scenes) {
+    simulations.push_back(simulate(machine, scene));
+    predictions.push_back(with_terms(machine.terms, scene, simulations.back()));
+  }
+  is_static = scenes.front().is_static;
+  noise_is_known = !is_static;
+  collect(holdouts);
+  renew_residual();
+}
+
+void Observations::collect(std::size_t holdouts) {
+  std::array<std::vector<Sample>, 2> parts;
+  std::array<std::vector<double>, 2> noises;
+  for (const Channel channel : kAllChannels) {
+    for (std::size_t s = 0; s < scenes.size(); ++s) {
+      for (Eigen::Index c = 0; c < scenes[s].measured[channel].cols(); ++c) {
+        add_component(s, channel, c, holdouts == 0, s + holdouts >= scenes.size(), &parts, &noises);
+      }
+    }
+  }
+  train = static_cast<Eigen::Index>(parts[0].size());
+  samples = parts[0];
+  samples.insert(samples.end(), parts[1].begin(), parts[1].end());
+  noise.resize(static_cast<Eigen::Index>(samples.size()));
+  noise << Eigen::Map<Eigen::VectorXd>(noises[0].data(), train),
+      Eigen::Map<Eigen::VectorXd>(noises[1].data(), noise.size() - train);
+}
+
+void Observations::add_component(std::size_t s, Channel channel, Eigen::Index component,
+                                 bool splits, bool is_holdout,
+                                 std::array<std::vector<Sample>, 2>* parts,
+                                 std::array<std::vector<double>, 2>* noises) {
+  const Scene& scene = scenes[s];
+  const Eigen::VectorXd difference =
+      scene.measured[channel].col(component) - predictions[s].channel[channel].col(component);
+  // In a load test neighbours say nothing of the noise: one unit for all until a fit tells.
+  const double deviation =
+      scene.is_static ? 1e-5 : std::max(white_noise(difference), kLeastNoise[channel]);
+  for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+    if (!std::isfinite(difference[row])) {
+      continue;
+    }
+    if (!scene.is_static && stands_alone(difference, row, deviation)) {
+      ++outliers;
+      continue;
+    }
+    const std::size_t part = splits ? is_held_out(row, scene.rows()) : is_holdout;
+    (*parts)[part].push_back({s, row, channel, component});
+    (*noises)[part].push_back(deviation);
+  }
+}
+
+void Observations::renew_residual() {
+  residual = residual_of(predictions);
+  unexplained = residual;
+}
+
+bool Observations::has(Channel channel) const { return scenes.front().has(channel); }
+
+bool Observations::has_weight() const { return !machine.robot.elastic.gravity.isZero(0); }
+
+bool Observations::has_wrench() const {
+  return std::any_of(scenes.begin(), scenes.end(), [](const Scene& scene) {
+    return scene.has_wrench && !scene.wrench.isZero(0);
+  });
+}
+
+bool Observations::follows_command() const { return scenes.front().follows_command; }
+
+double Observations::largest_load(int joint) const {
+  std::vector<Eigen::VectorXd> loads;
+  for (const Prediction& prediction : predictions) {
+    loads.emplace_back(prediction.load.col(joint - 1));
+    if (prediction.dynamic_load.cols() > 0) {
+      loads.emplace_back(prediction.dynamic_load.col(joint - 1));
+    }
+  }
+  return largest(loads);
+}
+
+double Observations::largest_torque(int joint) const {
+  std::vector<Eigen::VectorXd> torques;
+  for (const Prediction& prediction : predictions) {
+    torques.emplace_back(prediction.channel[joint_torque].cols() > 0
+                             ? prediction.channel[joint_torque].col(joint - 1)
+                             : prediction.load.col(joint - 1));
+  }
+  return largest(torques);
+}
+
+double Observations::largest_speed(int joint) const {
+  std::vector<Eigen::VectorXd> speeds;
+  for (const Scene& scene : scenes) {
+    speeds.emplace_back(scene.velocity.col(joint - 1));
+  }
+  return largest(speeds);
+}
+
+double Observations::range(int joint) const {
+  double most = 0;
+  for (const Scene& scene : scenes) {
+    const auto q = scene.q.col(joint - 1);
+    most = std::max(most, q.maxCoeff() - q.minCoeff());
+  }
+  return most;
+}
+
+Eigen::VectorXd Observations::stacked(const std::vector<Prediction>& values) const {
+  Eigen::VectorXd column(noise.size());
+  for (Eigen::Index i = 0; i < noise.size(); ++i) {
+    const Sample& at = samples[static_cast<std::size_t>(i)];
+    column[i] = values[at.scene].channel[at.channel](at.row, at.component) / noise[i];
+  }
+  return column;
+}
+
+Eigen::VectorXd Observations::residual_of(const std::vector<Prediction>& values) const {
+  Eigen::VectorXd column(noise.size());
+  for (Eigen::Index i = 0; i < noise.size(); ++i) {
+    const Sample& at = samples[static_cast<std::size_t>(i)];
+    column[i] = (scenes[at.scene].measured[at.channel](at.row, at.component) -
+                 values[at.scene].channel[at.channel](at.row, at.component)) /
+                noise[i];
+  }
+  return column;
+}
+
+double Observations::rms(const Eigen::VectorXd& values, Channel channel, bool held_out) const {
+  double sum = 0;
+  double count = 0;
+  for (Eigen::Index i = held_out ? train : 0; i < (held_out ? size() : train); ++i) {
+    if (samples[static_cast<std::size_t>(i)].channel == channel) {
+      sum += std::pow(values[i] * noise[i], 2);
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+std::vector<JointResidual> Observations::angle_residual(int joint) const {
+  std::vector<JointResidual> all;
+  for (const Scene& scene : scenes) {
+    all.push_back({Eigen::VectorXd::Zero(scene.rows()), Eigen::VectorXd::Zero(scene.rows())});
+  }
+  for (Eigen::Index i = 0; i < train; ++i) {
+    const Sample& at = samples[static_cast<std::size_t>(i)];
+    double lever = 0;
+    if (at.channel == tcp_position) {
+      lever =
+          simulations[at.scene].jacobian[static_cast<std::size_t>(at.row)](at.component, joint - 1);
+    } else if (at.channel == joint_deflection && at.component == joint - 1) {
+      lever = 1;
+    }
+    all[at.scene].product[at.row] += lever * unexplained[i] / noise[i];
+    all[at.scene].weight[at.row] += lever * lever / (noise[i] * noise[i]);
+  }
+  return all;
+}
+
+std::vector<JointResidual> Observations::torque_residual(int joint) const {
+  std::vector<JointResidual> all;
+  for (const Scene& scene : scenes) {
+    all.push_back({Eigen::VectorXd::Zero(scene.rows()), Eigen::VectorXd::Zero(scene.rows())});
+  }
+  for (Eigen::Index i = 0; i < train; ++i) {
+    const Sample& at = samples[static_cast<std::size_t>(i)];
+    if (at.channel == joint_torque && at.component == joint - 1) {
+      all[at.scene].product[at.row] += unexplained[i] / noise[i];
+      all[at.scene].weight[at.row] += 1 / (noise[i] * noise[i]);
+    }
+  }
+  return all;
+}
+
+void Observations::drop_outliers(const Eigen::VectorXd& values, double limit) {
+  std::vector<Eigen::Index> kept;
+  Eigen::Index kept_train = 0;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (std::abs(values[i]) <= limit) {
+      kept.push_back(i);
+      kept_train += i < train ? 1 : 0;
+    }
+  }
+  outliers += static_cast<std::size_t>(size()) - kept.size();
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    samples[i] = samples[static_cast<std::size_t>(kept[i])];
+    noise[static_cast<Eigen::Index>(i)] = noise[kept[i]];
+  }
+  samples.resize(kept.size());
+  noise.conservativeResize(static_cast<Eigen::Index>(kept.size()));
+  train = kept_train;
+  renew_residual();
+}
+
+void Observations::set_noise(double factor) {
+  noise *= factor;
+  renew_residual();
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "simulation/machine.hpp"
+
+namespace flexcomp::diagnosis {
+
+using simulation::Channel;
+using simulation::Machine;
+using simulation::Prediction;
+using simulation::Scene;
+using simulation::Simulation;
+
+/// One scalar that was measured: a component of a channel in a row of a scene.
+struct Sample {
+  std::size_t scene;
+  Eigen::Index row;
+  Channel channel;
+  Eigen::Index component;
+};
+
+/// A component of a channel in a scene, in its own space: a joint's angle or torque.
+struct JointResidual {
+  Eigen::VectorXd product;  ///< n, lever · residual over variance, the measured minus the predicted
+  Eigen::VectorXd weight;   ///< n, lever² over variance; zero in rows that are held out or missing
+};
+
+/// Recordings of one machine beside what its model predicts for them.
+class Observations {
+ public:
+  /// Simulates the scenes; the last `holdouts` of them are to check with. Without any, a quarter of
+  /// each recording is held out: whole stretches of its time.
+  Observations(Machine machine, std::vector<Scene> scenes, std::size_t holdouts);
+
+  Machine machine;  ///< the model that is doubted
+  std::vector<Scene> scenes;
+  std::vector<Simulation> simulations;  ///< of that model
+  std::vector<Prediction> predictions;  ///< with its terms
+  /// Measured samples: those to fit to, then those held out; within each part samples of one
+  /// component follow in time.
+  std::vector<Sample> samples;
+  Eigen::Index train = 0;       ///< how many of the samples are there to fit to
+  Eigen::VectorXd noise;        ///< standard deviation of each sample, SI
+  Eigen::VectorXd residual;     ///< measured less predicted, over the noise
+  Eigen::VectorXd unexplained;  ///< residual that starts are sought in; at first all of it
+  std::size_t outliers = 0;     ///< samples that were left out
+  bool noise_is_known = true;   ///< false in a load test, whose noise only a fit can tell
+  bool is_static = false;
+
+  Eigen::Index size() const { return residual.size(); }
+  bool has(Channel channel) const;
+  bool has_weight() const;
+  bool has_wrench() const;
+  bool follows_command() const;
+  double largest_load(int joint) const;    ///< N·m
+  double largest_torque(int joint) const;  ///< N·m, predicted
+  double largest_speed(int joint) const;   ///< rad/s
+  double range(int joint) const;           ///< rad
+
+  /// Predictions as one column over the noise.
+  Eigen::VectorXd stacked(const std::vector<Prediction>& predictions) const;
+  /// Residual of other predictions, over the noise.
+  Eigen::VectorXd residual_of(const std::vector<Prediction>& predictions) const;
+  /// Root mean square over a channel of values that are over the noise, SI.
+  double rms(const Eigen::VectorXd& values, Channel channel, bool held_out) const;
+  /// What is unexplained as an error of a joint's angle (TCP and link encoders), by scene.
+  std::vector<JointResidual> angle_residual(int joint) const;
+  /// What is unexplained of a joint's torque, by scene.
+  std::vector<JointResidual> torque_residual(int joint) const;
+
+  /// Leaves out samples whose `values` (over the noise) are beyond `limit`.
+  void drop_outliers(const Eigen::VectorXd& values, double limit);
+  /// Sets the noise of a load test from what the fullest fit leaves.
+  void set_noise(double factor);
+
+ private:
+  void collect(std::size_t holdouts);
+  void add_component(std::size_t scene, Channel channel, Eigen::Index component, bool splits,
+                     bool is_holdout, std::array<std::vector<Sample>, 2>* parts,
+                     std::array<std::vector<double>, 2>* noises);
+  void renew_residual();
+};
+
+/// Predictions of a machine for all scenes.
+std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes);
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,44 @@
+#include "diagnosis/parallel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace flexcomp::diagnosis {
+
+void in_parallel(std::size_t count, const std::function<void(std::size_t, std::size_t)>& progress,
+                 const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto run = [&](bool tells) {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(failing);
+        failure = failure ? failure : std::current_exception();
+        next = count;
+      }
+      if (tells) {
+        progress(std::min<std::size_t>(next, count), count);
+      }
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) {
+    helpers.emplace_back(run, false);
+  }
+  run(true);
+  for (std::thread& helper : helpers) {
+    helper.join();
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+}
+
+}  // namespace flexcomp::diagnosis

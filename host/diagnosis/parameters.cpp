@@ -1,0 +1,61 @@
+#include "diagnosis/parameters.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+double deviation_at(const Eigen::MatrixXd& covariance, Eigen::Index i) {
+  return covariance(i, i) > 0 ? std::sqrt(covariance(i, i)) : kUnknown;
+}
+
+/// From the waves' amplitudes a sin + b cos = amplitude · sin(… + phase), errors to first order.
+void add_wave(const Values& values, const std::string& unit, const Eigen::MatrixXd& covariance,
+              std::vector<Estimate>* all) {
+  const double amplitude = std::hypot(values[0], values[1]);
+  const Eigen::Vector2d along(values[0] / amplitude, values[1] / amplitude);
+  const Eigen::Vector2d across(-values[1] / (amplitude * amplitude),
+                               values[0] / (amplitude * amplitude));
+  const Eigen::Matrix2d inner = covariance.topLeftCorner<2, 2>();
+  all->push_back({"amplitude", unit, amplitude, std::sqrt(along.dot(inner * along))});
+  all->push_back(
+      {"phase", "rad", std::atan2(values[1], values[0]), std::sqrt(across.dot(inner * across))});
+}
+
+}  // namespace
+
+std::vector<Estimate> estimates(const Observations& observations, const Fit& fit,
+                                std::size_t index) {
+  Eigen::Index first = 0;
+  for (std::size_t i = 0; i < index; ++i) {
+    first += static_cast<Eigen::Index>(fit.chosen[i].values.size());
+  }
+  const Hypothesis& hypothesis = *fit.chosen[index].hypothesis;
+  const Values& values = fit.chosen[index].values;
+  const auto count = static_cast<Eigen::Index>(values.size());
+  const Eigen::MatrixXd covariance = fit.covariance.block(first, first, count, count);
+  const bool is_wave = hypothesis.parameters.front().name == "sine";
+  std::vector<Estimate> all;
+  if (is_wave) {
+    add_wave(values, hypothesis.parameters.front().unit, covariance, &all);
+  }
+  for (Eigen::Index i = is_wave ? 2 : 0; i < count; ++i) {
+    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
+    all.push_back({parameter.name, parameter.unit, values[static_cast<std::size_t>(i)],
+                   deviation_at(covariance, i)});
+  }
+  if (hypothesis.effect == "joint_stiffness") {
+    const Joint<double>& joint =
+        observations.machine.robot.elastic.joints[static_cast<std::size_t>(hypothesis.joint - 1)];
+    all.push_back(
+        {"compliance", "rad/(N·m)", joint.compliance + values[0], deviation_at(covariance, 0)});
+  } else if (hypothesis.effect == "wrench_scale") {
+    all.push_back({"gain", "1", 1 + values[0], deviation_at(covariance, 0)});
+  }
+  return all;
+}
+
+}  // namespace flexcomp::diagnosis

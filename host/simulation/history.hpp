@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Physics that remembers, simulated along a recording; a signal has one value a row.
+namespace flexcomp::simulation {
+
+/// The play operator: follows `input` with a gap of twice `half_gap`, from the middle of the gap
+/// on. Motion-driven backlash (Visintin 1994, "Differential models of hysteresis").
+Eigen::VectorXd play(const Eigen::VectorXd& input, double half_gap);
+
+/// Flank, −1 or 1, on which a loaded gear with play rests: it changes over when the torque (N·m)
+/// has reversed and exceeds `hold`, the drag that keeps the link where it is. Torque-driven
+/// backlash (Nordin and Gutman 2002, "Controlling mechanical systems with backlash", the massless
+/// limit).
+Eigen::VectorXd flank(const Eigen::VectorXd& torque, double hold);
+
+/// Loop of Bouc and Wen (Wen 1976) with n = 1, β = γ = 1/2, driven by `torque`: in −1…1, from 0 on;
+/// `yield` is in the torque's unit. Solved exactly between rows.
+Eigen::VectorXd bouc_wen(const Eigen::VectorXd& torque, double yield);
+
+/// Loop of elastic elements that slide one after another, with slip torques spread evenly up to
+/// twice `yield` (Prandtl 1928, Ishlinskii 1944): in −1…1, from 0 on.
+Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield);
+
+/// Response of a mode of `frequency` (Hz) and damping ratio `damping` (below 1) with unit static
+/// gain to `input`, at rest at first; exact for an input that is straight between the times (s).
+Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double frequency,
+                     double damping);
+
+/// What follows `input` by a first-order lag (s), having caught up with its slope at first; exact
+/// for an input that is straight between the times (s).
+Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double constant);
+
+/// `values` (n×m) as they were `delay` (s) before: straight between the times (s), held at the
+/// ends.
+Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay);
+
+}  // namespace flexcomp::simulation

@@ -1,0 +1,185 @@
+#include "simulation/machine.hpp"
+
+#include <algorithm>
+
+#include "simulation/history.hpp"
+#include "simulation/inverse_dynamics.hpp"
+#include "simulation/quasi_static.hpp"
+
+namespace flexcomp::simulation {
+namespace {
+
+using Row = JointVector<double, 6>;
+
+Row row_of(const Eigen::MatrixXd& matrix, Eigen::Index row) { return matrix.row(row).transpose(); }
+
+void move(const Machine& machine, const Scene& scene, Simulation* at) {
+  at->q = scene.q.rowwise() + machine.encoder_offset.transpose();
+  at->velocity = scene.velocity;
+  at->acceleration = scene.acceleration;
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    const double constant = machine.lag[joint];
+    if (constant > 0 && !scene.is_static && scene.follows_command) {
+      const Eigen::VectorXd command = at->q.col(joint);
+      at->q.col(joint) = lag(scene.time, command, constant);
+      at->velocity.col(joint) = (command - at->q.col(joint)) / constant;
+      at->acceleration.col(joint) =
+          (scene.velocity.col(joint) - at->velocity.col(joint)) / constant;
+    }
+  }
+}
+
+/// Where the robot rests, with its levers.
+void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index row,
+          Simulation* at) {
+  const RobotModel<double, 6>& elastic = machine.robot.elastic;
+  const Wrench<double> wrench = scene.wrench.row(row).transpose();
+  const Equilibrium equilibrium = settle(elastic, row_of(at->q, row), wrench);
+  if (scene.has(tcp_position)) {
+    at->prediction.channel[tcp_position].row(row) = equilibrium.tcp.position.transpose();
+  }
+  if (levers) {
+    const auto i = static_cast<std::size_t>(row);
+    at->bent[i] = forward_kinematics<double, 6>(elastic, equilibrium.q_link);
+    at->jacobian[i] = geometric_jacobian<double, 6>(at->bent[i]);
+    at->compliance[i] = tcp_compliance<double, 6>(elastic, at->bent[i]);
+    at->prediction.load.row(row) = (wrench_torque<double, 6>(at->jacobian[i], wrench) +
+                                    weight_torque<double, 6>(elastic, at->bent[i]))
+                                       .transpose();
+  }
+}
+
+/// Torque of inertia, weight and wrench that the drives must hold, at link angles `q`.
+Row drive_torque(const Machine& machine, const Scene& scene, const InverseDynamics& dynamics,
+                 const Simulation& at, const Row& q, Eigen::Index row) {
+  const Row rigid = dynamics.torque(q, row_of(at.velocity, row), row_of(at.acceleration, row));
+  if (!scene.has_wrench) {
+    return rigid;
+  }
+  const Kinematics<double, 6> straight = forward_kinematics<double, 6>(machine.robot.elastic, q);
+  const Wrench<double> wrench = scene.wrench.row(row).transpose();
+  return rigid - wrench_torque<double, 6>(geometric_jacobian<double, 6>(straight), wrench);
+}
+
+Row friction(const Machine& machine, const Simulation& at, Eigen::Index row) {
+  constexpr double kStanding = 1e-4;  // rad/s, slower than any programmed motion
+  Row torque;
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    const model::JointDynamics& dynamics = machine.robot.dynamics[static_cast<std::size_t>(joint)];
+    const double speed = at.velocity(row, joint);
+    const double direction = speed > kStanding ? 1 : (speed < -kStanding ? -1 : 0);
+    torque[joint] = dynamics.viscous * speed + dynamics.coulomb * direction +
+                    dynamics.rotor_inertia * at.acceleration(row, joint);
+  }
+  return torque;
+}
+
+void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Simulation* at) {
+  const InverseDynamics dynamics(machine.robot);
+  Prediction& prediction = at->prediction;
+  const bool torque = scene.has(joint_torque) && wanted.channel[joint_torque];
+  const bool deflection = scene.has(joint_deflection) && wanted.channel[joint_deflection];
+  for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+    const Row q = row_of(at->q, row);
+    const Row straight = drive_torque(machine, scene, dynamics, *at, q, row);
+    if (torque) {
+      prediction.channel[joint_torque].row(row) =
+          (straight + friction(machine, *at, row)).transpose();
+    }
+    if (deflection) {
+      const Row first = joint_windup<double, 6>(machine.robot.elastic, -straight);
+      const Row load = -drive_torque(machine, scene, dynamics, *at, q + first, row);
+      prediction.dynamic_load.row(row) = load.transpose();
+      prediction.channel[joint_deflection].row(row) =
+          (q + joint_windup<double, 6>(machine.robot.elastic, load)).transpose() - scene.q.row(row);
+    } else if (prediction.dynamic_load.cols() > 0) {
+      prediction.dynamic_load.row(row) = -straight.transpose();
+    }
+  }
+}
+
+}  // namespace
+
+Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wanted) {
+  Simulation at;
+  move(machine, scene, &at);
+  const Eigen::Index n = scene.rows();
+  for (const Channel channel : {tcp_position, joint_torque, joint_deflection}) {
+    at.prediction.channel[channel] = Eigen::MatrixXd::Zero(n, scene.measured[channel].cols());
+  }
+  const bool moves = scene.has(joint_torque) || scene.has(joint_deflection);
+  at.prediction.load = Eigen::MatrixXd::Zero(n, 6);
+  at.prediction.dynamic_load = Eigen::MatrixXd::Zero(n, moves ? 6 : 0);
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    at.joint_compliance[joint] =
+        machine.robot.elastic.joints[static_cast<std::size_t>(joint)].compliance;
+  }
+  if (wanted.levers) {
+    at.bent.resize(static_cast<std::size_t>(n));
+    at.jacobian.resize(static_cast<std::size_t>(n));
+    at.compliance.resize(static_cast<std::size_t>(n));
+  }
+  if (wanted.levers || (wanted.channel[tcp_position] && scene.has(tcp_position))) {
+    for (Eigen::Index row = 0; row < n; ++row) {
+      rest(machine, scene, wanted.levers, row, &at);
+    }
+  }
+  if (moves &&
+      (wanted.levers || wanted.channel[joint_torque] || wanted.channel[joint_deflection])) {
+    drive(machine, scene, wanted, &at);
+  }
+  return at;
+}
+
+Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
+                      const Simulation& simulation) {
+  Prediction prediction = simulation.prediction;
+  for (const Term::Stage stage : {Term::wrench, Term::load, Term::output, Term::clock}) {
+    for (const Term& term : terms) {
+      if (term.stage == stage) {
+        term.add(scene, simulation, &prediction);
+      }
+    }
+  }
+  return prediction;
+}
+
+void add_joint_angle(const Simulation& simulation, int joint, const Eigen::VectorXd& angle,
+                     const Eigen::VectorXd& dynamic, Prediction* prediction) {
+  const Eigen::Index column = joint - 1;
+  Eigen::MatrixXd& position = prediction->channel[tcp_position];
+  for (Eigen::Index row = 0; row < position.rows() && position.cols() > 0; ++row) {
+    position.row(row) +=
+        angle[row] *
+        simulation.jacobian[static_cast<std::size_t>(row)].block<3, 1>(0, column).transpose();
+  }
+  if (prediction->channel[joint_deflection].cols() > 0) {
+    prediction->channel[joint_deflection].col(column) += dynamic;
+  }
+}
+
+void add_wrench(const Simulation& simulation, const Eigen::MatrixXd& change,
+                Prediction* prediction) {
+  for (Eigen::Index row = 0; row < change.rows(); ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    const Wrench<double> wrench = change.row(row).transpose();
+    const Eigen::RowVectorXd load = (simulation.jacobian[i].transpose() * wrench).transpose();
+    prediction->load.row(row) += load;
+    if (prediction->dynamic_load.cols() > 0) {
+      prediction->dynamic_load.row(row) += load;
+    }
+    if (prediction->channel[tcp_position].cols() > 0) {
+      prediction->channel[tcp_position].row(row) +=
+          (simulation.compliance[i].topRows<3>() * wrench).transpose();
+    }
+    if (prediction->channel[joint_torque].cols() > 0) {
+      prediction->channel[joint_torque].row(row) -= load;
+    }
+    if (prediction->channel[joint_deflection].cols() > 0) {
+      prediction->channel[joint_deflection].row(row) +=
+          load.cwiseProduct(simulation.joint_compliance.transpose());
+    }
+  }
+}
+
+}  // namespace flexcomp::simulation

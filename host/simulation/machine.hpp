@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "flexcomp/compliance.hpp"
+#include "model/robot.hpp"
+#include "simulation/scene.hpp"
+
+namespace flexcomp::simulation {
+
+/// What a recording should show, by channel (n×3 m, n×6 N·m, n×6 rad), and the loads behind it.
+struct Prediction {
+  std::array<Eigen::MatrixXd, 3> channel;  ///< no columns where the scene does not have it
+  Eigen::MatrixXd load;          ///< n×6, N·m, torque of wrench and weight on each joint's spring
+  Eigen::MatrixXd dynamic_load;  ///< n×6, the same with inertia; no columns without that channel
+};
+
+/// A machine along a scene: motion, levers and springs at every row, and what follows from them.
+struct Simulation {
+  Eigen::MatrixXd q;                           ///< n×6, motors as the machine has them, rad
+  Eigen::MatrixXd velocity;                    ///< n×6, rad/s
+  Eigen::MatrixXd acceleration;                ///< n×6, rad/s²
+  std::vector<Kinematics<double, 6>> bent;     ///< links and TCP of the robot at rest under load
+  std::vector<Jacobian<double, 6>> jacobian;   ///< of the TCP, bent
+  std::vector<Compliance<double>> compliance;  ///< at the TCP, bent
+  JointVector<double, 6> joint_compliance;     ///< rad/(N·m)
+  Prediction prediction;                       ///< of everything but the terms
+};
+
+/// Physics that adds to what a rigid robot on springs does, in the order in which it acts.
+struct Term {
+  enum Stage { wrench, load, output, clock };
+  Stage stage;
+  std::function<void(const Scene&, const Simulation&, Prediction*)> add;
+};
+
+/// What is believed of a machine: its model, and physics that the model has no keys for.
+struct Machine {
+  model::Robot robot;
+  JointVector<double, 6> encoder_offset =
+      JointVector<double, 6>::Zero();                           ///< rad, q = reading + it
+  JointVector<double, 6> lag = JointVector<double, 6>::Zero();  ///< s, behind the command
+  std::vector<Term> terms;
+};
+
+/// Which channels to simulate; levers and springs are kept only with `levers`.
+struct Wanted {
+  std::array<bool, 3> channel = {true, true, true};
+  bool levers = true;
+};
+
+/// Simulates a scene without the machine's terms. TCP position: forward kinematics and the elastic
+/// deflection under wrench and weight (Klimchik et al. 2017). Torque: rigid-body inverse dynamics
+/// (recursive Newton–Euler, Orocos KDL), friction and rotor inertia, less Jᵀ·wrench. Joint
+/// deflection: wind-up under the torque at the link, inertia included.
+Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wanted = {});
+
+/// The simulation's prediction with terms added in the order of their stages.
+Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
+                      const Simulation& simulation);
+
+/// Adds an angle (n, rad) by which a joint stands elsewhere on its link side, to first order.
+/// `dynamic` is what the link encoder sees of it.
+void add_joint_angle(const Simulation& simulation, int joint, const Eigen::VectorXd& angle,
+                     const Eigen::VectorXd& dynamic, Prediction* prediction);
+
+/// Adds a change of the wrench (n×6, base frame), to first order.
+void add_wrench(const Simulation& simulation, const Eigen::MatrixXd& change,
+                Prediction* prediction);
+
+}  // namespace flexcomp::simulation

@@ -1,0 +1,167 @@
+#include "simulation/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <vector>
+
+#include "error.hpp"
+
+namespace flexcomp::simulation {
+namespace {
+
+constexpr double kHalfWindow = 0.016;  // s
+constexpr Eigen::Index kFewestNeighbours = 3;
+constexpr int kOrder = 5;
+
+/// Contract: t counts 0, 1, 2, … in static load tests.
+bool is_load_test(const Eigen::VectorXd& time) {
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    if (time[i] != static_cast<double>(i)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Velocity and acceleration (2×6) at one row.
+Eigen::Matrix<double, 2, 6> local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
+                                         Eigen::Index row) {
+  const Eigen::Index end = time.size() - 1;
+  Eigen::Index first = row;
+  Eigen::Index last = row;
+  while (first > 0 &&
+         (row - first < kFewestNeighbours || time[row] - time[first - 1] <= kHalfWindow)) {
+    --first;
+  }
+  while (last < end &&
+         (last - row < kFewestNeighbours || time[last + 1] - time[row] <= kHalfWindow)) {
+    ++last;
+  }
+  const double span = std::max(time[last] - time[row], time[row] - time[first]);
+  Eigen::Matrix<double, kOrder + 1, kOrder + 1> gram;
+  Eigen::Matrix<double, kOrder + 1, 6> moment;
+  gram.setZero();
+  moment.setZero();
+  Eigen::Index used = 0;
+  for (Eigen::Index i = first; i <= last; ++i) {
+    if (q.row(i).allFinite()) {
+      Eigen::Matrix<double, kOrder + 1, 1> powers;
+      const double s = (time[i] - time[row]) / span;
+      powers[0] = 1;
+      for (int k = 1; k <= kOrder; ++k) {
+        powers[k] = powers[k - 1] * s;
+      }
+      gram += powers * powers.transpose();
+      moment += powers * (q.row(i) - q.row(row));
+      ++used;
+    }
+  }
+  Eigen::Matrix<double, 2, 6> motion;
+  motion.setZero();
+  if (used > kOrder) {
+    const Eigen::Matrix<double, kOrder + 1, 6> fit = gram.ldlt().solve(moment);
+    motion.row(0) = fit.row(1) / span;
+    motion.row(1) = 2 * fit.row(2) / (span * span);
+  }
+  return motion;
+}
+
+template <typename Group>
+Eigen::MatrixXd picked(const Group& group, const std::vector<Eigen::Index>& rows) {
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(rows.size()), group.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    values.row(static_cast<Eigen::Index>(i)) = group.row(rows[i]);
+  }
+  return values;
+}
+
+void refuse_unusable(const recording::Recording& recording) {
+  if (!recording.q_meas && !recording.q_cmd) {
+    throw InputError(
+        fmt::format("{}: joint angles are needed: columns q_meas_1..q_meas_6 or q_cmd_1..q_cmd_6",
+                    recording.file));
+  }
+  if (!recording.position && !recording.tau && !(recording.q_link && recording.q_meas)) {
+    throw InputError(fmt::format(
+        "{}: nothing to compare with: columns x,y,z or tau_1..tau_6 or q_link_1..q_link_6 with "
+        "q_meas_1..q_meas_6 are needed",
+        recording.file));
+  }
+}
+
+std::vector<Eigen::Index> usable_rows(const recording::Recording& recording,
+                                      const recording::Samples& q, Eigen::Index most_rows,
+                                      Preparation* preparation) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index row = 0; row < recording.size(); ++row) {
+    if (q.row(row).allFinite() && (!recording.wrench || recording.wrench->row(row).allFinite())) {
+      rows.push_back(row);
+    }
+  }
+  if (rows.empty()) {
+    throw InputError(fmt::format("{}: no row has all joint angles{}", recording.file,
+                                 recording.wrench ? " and the whole wrench" : ""));
+  }
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  preparation->rows = recording.size();
+  preparation->incomplete = recording.size() - count;
+  preparation->kept_each = std::max<Eigen::Index>(1, (count + most_rows - 1) / most_rows);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < count; i += preparation->kept_each) {
+    kept.push_back(rows[static_cast<std::size_t>(i)]);
+  }
+  return kept;
+}
+
+void describe_times(const Eigen::VectorXd& time, Preparation* preparation) {
+  if (time.size() < 2) {
+    return;
+  }
+  Eigen::VectorXd steps = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  preparation->largest_gap = steps.maxCoeff();
+  std::nth_element(steps.data(), steps.data() + steps.size() / 2, steps.data() + steps.size());
+  preparation->median_step = steps[steps.size() / 2];
+}
+
+}  // namespace
+
+Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
+              Preparation* preparation) {
+  refuse_unusable(recording);
+  const recording::Samples& q = recording.q_meas ? *recording.q_meas : *recording.q_cmd;
+  const std::vector<Eigen::Index> rows = usable_rows(recording, q, most_rows, preparation);
+  describe_times(recording.time, preparation);
+  Scene scene;
+  scene.file = recording.file;
+  scene.time = picked(recording.time, rows);
+  scene.is_static = is_load_test(recording.time);
+  scene.follows_command = !recording.q_meas;
+  scene.has_wrench = recording.wrench.has_value();
+  scene.q = picked(q, rows);
+  const Eigen::Index n = scene.rows();
+  scene.velocity = Eigen::MatrixXd::Zero(n, 6);
+  scene.acceleration = Eigen::MatrixXd::Zero(n, 6);
+  for (Eigen::Index i = 0; i < n && !scene.is_static; ++i) {
+    const auto motion = local_motion(recording.time, q, rows[static_cast<std::size_t>(i)]);
+    scene.velocity.row(i) = motion.row(0);
+    scene.acceleration.row(i) = motion.row(1);
+  }
+  scene.wrench = scene.has_wrench ? picked(*recording.wrench, rows) : Eigen::MatrixXd::Zero(n, 6);
+  if (recording.temperature) {
+    scene.temperature = picked(*recording.temperature, rows);
+  }
+  if (recording.position) {
+    scene.measured[tcp_position] = picked(*recording.position, rows);
+  }
+  if (recording.tau) {
+    scene.measured[joint_torque] = picked(*recording.tau, rows);
+  }
+  if (recording.q_link && recording.q_meas) {
+    scene.measured[joint_deflection] = picked(*recording.q_link, rows) - scene.q;
+  }
+  return scene;
+}
+
+}  // namespace flexcomp::simulation

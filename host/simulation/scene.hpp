@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+
+#include "recording/recording.hpp"
+
+namespace flexcomp::simulation {
+
+enum Channel : std::size_t { tcp_position, joint_torque, joint_deflection };
+constexpr std::array<const char*, 3> kChannels = {"tcp_position", "joint_torque",
+                                                  "joint_deflection"};
+constexpr std::array<const char*, 3> kChannelUnits = {"m", "N·m", "rad"};
+
+/// A recording made ready for simulation: what drove the robot, and what was measured of it. SI
+/// units, base frame, one row a sample.
+struct Scene {
+  std::string file;
+  Eigen::VectorXd time;          ///< n, s
+  bool is_static = false;        ///< a load test: one row a pose and load, no motion between rows
+  bool follows_command = false;  ///< `q` is the command, because there are no encoders
+  bool has_wrench = false;
+  Eigen::MatrixXd q;             ///< n×6, motor side, rad
+  Eigen::MatrixXd velocity;      ///< n×6, rad/s; zero in a static test
+  Eigen::MatrixXd acceleration;  ///< n×6, rad/s²
+  Eigen::MatrixXd wrench;        ///< n×6, zero where none was recorded
+  Eigen::VectorXd temperature;   ///< n, °C; empty where not recorded
+  /// What was measured, by channel (n×3, n×6, n×6): no columns where not recorded, NaN where a
+  /// sample is missing. Joint deflection is q_link − q_meas.
+  std::array<Eigen::MatrixXd, 3> measured;
+
+  Eigen::Index rows() const { return time.size(); }
+  bool has(Channel channel) const { return measured[channel].cols() > 0; }
+};
+
+/// What was done to a recording to make it usable.
+struct Preparation {
+  Eigen::Index rows = 0;        ///< in the file
+  Eigen::Index incomplete = 0;  ///< left out: without all joint angles or without the whole wrench
+  Eigen::Index kept_each = 1;   ///< of the rest, one row of so many is used
+  double largest_gap = 0;       ///< s, between rows that follow each other
+  double median_step = 0;       ///< s
+};
+
+/// Makes a recording ready; with more than `most_rows` usable rows, evenly spread ones are taken.
+///
+/// Velocities and accelerations come from all rows: polynomials of fifth order through the
+/// neighbours within 16 ms, at their true times (Savitzky and Golay 1964). Throws InputError where
+/// the recording has no joint angles or nothing to compare a simulation with.
+Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
+              Preparation* preparation);
+
+}  // namespace flexcomp::simulation

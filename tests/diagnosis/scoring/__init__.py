@@ -1,0 +1,1 @@
+"""Runs `flexcomp diagnose` on generated cases and counts how often it is right."""
