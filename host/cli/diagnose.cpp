@@ -7,6 +7,8 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/learned.hpp"
+#include "diagnosis/report.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 
@@ -30,7 +32,8 @@ Eigen::Index components(const recording::Recording& recording) {
          (recording.q_link && recording.q_meas ? 6 : 0);
 }
 
-std::vector<simulation::Scene> read_scenes(const Options& options) {
+std::vector<simulation::Scene> read_scenes(const Options& options,
+                                           std::vector<diagnosis::Quality>* qualities) {
   std::vector<recording::Recording> recordings;
   for (const auto* files : {&options.recordings, &options.holdouts}) {
     for (const std::string& file : *files) {
@@ -42,8 +45,9 @@ std::vector<simulation::Scene> read_scenes(const Options& options) {
     const Eigen::Index most =
         std::min(kMostRows, kMostSamples / std::max<Eigen::Index>(components(each), 1)) /
         static_cast<Eigen::Index>(recordings.size());
-    simulation::Preparation preparation;
-    scenes.push_back(simulation::prepare(each, most, &preparation));
+    qualities->push_back({each.file, {}});
+    scenes.push_back(
+        simulation::prepare(each, std::max<Eigen::Index>(most, 1), &qualities->back().preparation));
   }
   return scenes;
 }
@@ -56,13 +60,37 @@ void make_folder(const std::string& folder) {
   }
 }
 
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  files::write_file(file, [&](std::ostream& stream) { stream << text; });
+}
+
+/// What a person reads first, on the terminal.
+void summarize(const diagnosis::Observations& observations, const diagnosis::Diagnosis& result,
+               const std::string& folder) {
+  for (const diagnosis::ClockCheck& clock : result.clocks) {
+    fmt::print("clock of {}: late by {:.2f} ms, standard deviation {:.2f} ms\n", clock.group,
+               1e3 * clock.delay, 1e3 * clock.deviation);
+  }
+  fmt::print("{}{}\n", result.verdict, result.reason.empty() ? "" : ": " + result.reason);
+  for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
+    fmt::print("{}\n", diagnosis::statement(observations, result, i));
+  }
+  if (!result.suggested_experiment.empty()) {
+    fmt::print("{}\n", result.suggested_experiment);
+  }
+  fmt::print("{}/report.html, diagnosis.json, updated_model.yaml\n", folder);
+}
+
 int run(const Options& options) {
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
   }
-  simulation::Machine machine;
-  machine.robot = model::load_robot(options.model);
-  diagnosis::Observations observations(machine, read_scenes(options), options.holdouts.size());
+  const model::Robot robot = model::load_robot(options.model);
+  std::vector<diagnosis::Quality> qualities;
+  std::vector<simulation::Scene> scenes = read_scenes(options, &qualities);
+  simulation::Machine machine = diagnosis::machine_of(robot, scenes);
+  diagnosis::Observations observations(std::move(machine), std::move(scenes),
+                                       options.holdouts.size());
   const std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
   Progress simulating("simulating hypotheses", hypotheses.size());
   Progress choosing("choosing", 6);
@@ -71,12 +99,16 @@ int run(const Options& options) {
   settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };
   settings.choosing = [&](std::size_t done, std::size_t) { choosing.show(done); };
   const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
+  // All of it is made before any of it is written.
+  const std::string json = diagnosis::to_json(observations, result).dump(2) + "\n";
+  const std::string html = diagnosis::to_html(observations, result, qualities);
   make_folder(options.out);
-  files::write_file(std::filesystem::path(options.out) / "diagnosis.json",
-                    [&](std::ostream& stream) {
-                      stream << diagnosis::to_json(observations, result).dump(2) << '\n';
-                    });
-  fmt::print("{}\n{}\n", result.verdict, diagnosis::headline(observations, result));
+  const std::filesystem::path folder(options.out);
+  write_text(folder / "diagnosis.json", json);
+  write_text(folder / "report.html", html);
+  model::write_robot(folder / "updated_model.yaml",
+                     diagnosis::updated_robot(observations, result.choice.fit));
+  summarize(observations, result, options.out);
   return kDone;
 }
 

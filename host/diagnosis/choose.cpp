@@ -1,7 +1,9 @@
 #include "diagnosis/choose.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <memory>
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -9,15 +11,23 @@ namespace {
 constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kConfirmed = 2;
 constexpr double kLeastStrength = 1.0 / 3;
+constexpr double kLeastShare = 0.1;  // of what is left: many small steps are a wrong way
 constexpr std::size_t kMostFindings = 6;
 constexpr std::size_t kShortlist = 5;
 constexpr std::size_t kMostAlternatives = 5;
 constexpr int kQuickSteps = 4;
+constexpr double kSettled = 1.1;  // times the noise: nothing left that two could share
 constexpr int kSteps = 25;
+
+/// A hypothesis with values to begin with, and what it promises.
+struct Candidate {
+  double gain;
+  Chosen chosen;
+};
 
 class Chooser {
  public:
-  Chooser(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+  Chooser(Observations* observations, const std::vector<Hypothesis>& hypotheses,
           const Dictionary& dictionary, double false_discovery)
       : observations_(observations),
         hypotheses_(hypotheses),
@@ -26,53 +36,134 @@ class Chooser {
 
   /// The most promising hypotheses beside a fit, one start each, the best first.
   std::vector<Chosen> shortlist(const Fit& fit, std::size_t most) const {
-    struct Ranked {
-      double gain;
-      Chosen chosen;
-    };
+    std::vector<Chosen> chosen;
+    for (Candidate& candidate : candidates(fit)) {
+      if (chosen.size() < most) {
+        chosen.push_back(std::move(candidate.chosen));
+      }
+    }
+    return chosen;
+  }
+
+  /// Effects at places by what they explain alone, the best form of each.
+  std::vector<Ranked> ranking(const Fit& fit) const {
+    std::vector<Ranked> all;
+    for (const Candidate& candidate : candidates(fit)) {
+      const Hypothesis& own = *candidate.chosen.hypothesis;
+      const bool is_known = std::any_of(all.begin(), all.end(), [&](const Ranked& other) {
+        return other.effect == own.effect && other.joint == own.joint;
+      });
+      if (!is_known && candidate.gain > 0) {
+        all.push_back({own.effect, own.joint, candidate.gain});
+      }
+    }
+    return all;
+  }
+
+  /// Every hypothesis beside a fit with the best of its starts, the most promising first.
+  std::vector<Candidate> candidates(const Fit& fit) const {
+    std::vector<Candidate> all;
+    add_candidates(fit, hypotheses_, dictionary_, &all);
+    if (sought_dictionary_) {
+      add_candidates(fit, *sought_.back(), *sought_dictionary_, &all);
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+    return all;
+  }
+
+  void add_candidates(const Fit& fit, const std::vector<Hypothesis>& hypotheses,
+                      const Dictionary& dictionary, std::vector<Candidate>* all) const {
     const std::vector<Screened> screened =
-        screen(observations_, hypotheses_, dictionary_, fit.remainder, fit.derivative);
-    std::vector<const Screened*> best(hypotheses_.size(), nullptr);
-    double least = fit.train_sum;
+        screen(*observations_, hypotheses, dictionary, fit.remainder, fit.derivative);
+    std::vector<const Screened*> best(hypotheses.size(), nullptr);
     for (const Screened& each : screened) {
-      const std::size_t hypothesis = dictionary_.entries[each.entry].hypothesis;
+      const std::size_t hypothesis = dictionary.entries[each.entry].hypothesis;
       if (best[hypothesis] == nullptr || each.sum < best[hypothesis]->sum) {
         best[hypothesis] = &each;
       }
-      least = std::min(least, each.sum);
     }
-    std::vector<Ranked> ranking;
-    const double samples = independent_samples(observations_, fit.remainder);
-    for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-      if (best[h] == nullptr || is_among(hypotheses_[h], fit)) {
-        continue;
+    const double samples = independent_samples(*observations_, fit.remainder);
+    const double before = fit.remainder.head(observations_->train).squaredNorm();
+    for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+      if (best[h] != nullptr && !is_among(hypotheses[h], fit)) {
+        const double gain =
+            bic_gain(samples, before, best[h]->sum, hypotheses[h].parameters.size());
+        all->push_back({gain, chosen_of(hypotheses, dictionary, *best[h])});
       }
-      const double gain = bic_gain(samples, fit.remainder.head(observations_.train).squaredNorm(),
-                                   best[h]->sum, hypotheses_[h].parameters.size());
-      ranking.push_back(
-          {gain,
-           {&hypotheses_[h],
-            values_of(hypotheses_[h], dictionary_.entries[best[h]->entry], best[h]->amplitude)}});
     }
-    std::sort(ranking.begin(), ranking.end(),
-              [](const Ranked& a, const Ranked& b) { return a.gain > b.gain; });
-    std::vector<Chosen> chosen;
-    for (std::size_t i = 0; i < std::min(most, ranking.size()); ++i) {
-      chosen.push_back(ranking[i].chosen);
+  }
+
+  static Chosen chosen_of(const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary,
+                          const Screened& screened) {
+    const Entry& entry = dictionary.entries[screened.entry];
+    const Hypothesis& hypothesis = hypotheses[entry.hypothesis];
+    return {&hypothesis, values_of(hypothesis, entry, screened.amplitude)};
+  }
+
+  /// Seeks new starts in what a fit leaves, for the hypotheses that need it.
+  void seek(const Fit& fit) {
+    observations_->unexplained = fit.remainder;
+    std::vector<Hypothesis> found;
+    for (Hypothesis& hypothesis : all_hypotheses(*observations_)) {
+      if (hypothesis.is_sought) {
+        found.push_back(std::move(hypothesis));
+      }
     }
-    return chosen;
+    if (!found.empty()) {
+      sought_.push_back(std::make_shared<const std::vector<Hypothesis>>(std::move(found)));
+      sought_dictionary_ = std::make_unique<Dictionary>(*observations_, *sought_.back(),
+                                                        [](std::size_t, std::size_t) {});
+    }
+  }
+
+  const std::vector<std::shared_ptr<const std::vector<Hypothesis>>>& sought() const {
+    return sought_;
+  }
+
+  /// The best fit of a pair, if it is better than a fit that is there.
+  bool pair_up(Fit* current) const {
+    constexpr std::size_t kPairs = 3;
+    bool bettered = false;
+    for (const ScreenedPair& pair :
+         screen_pairs(*observations_, hypotheses_, dictionary_, kPairs)) {
+      const Fit tried = fit(*observations_,
+                            {chosen_of(hypotheses_, dictionary_, pair.first),
+                             chosen_of(hypotheses_, dictionary_, pair.second)},
+                            kSteps, &dictionary_);
+      if (criterion(tried) < criterion(*current) - kStrong && all_hold(tried)) {
+        *current = tried;
+        bettered = true;
+      }
+    }
+    return bettered;
+  }
+
+  double criterion(const Fit& fit) const {
+    const auto samples = static_cast<double>(observations_->train);
+    return samples * std::log(std::max(fit.train_sum, 1e-9)) +
+           static_cast<double>(fit.parameters()) * std::log(samples);
+  }
+
+  bool all_hold(const Fit& whole) const {
+    for (std::size_t i = 0; i < whole.chosen.size(); ++i) {
+      if (!holds(judge(whole, i).evidence)) {
+        return false;
+      }
+    }
+    return true;
   }
 
   Fit with(const Fit& fit_before, const Chosen& chosen, int steps) const {
     std::vector<Chosen> all = fit_before.chosen;
     all.push_back(chosen);
-    return fit(observations_, std::move(all), steps, &dictionary_);
+    return fit(*observations_, std::move(all), steps, &dictionary_);
   }
 
   Fit without(const Fit& whole, std::size_t index) const {
     std::vector<Chosen> others = whole.chosen;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(index));
-    return fit(observations_, std::move(others), kQuickSteps, &dictionary_);
+    return fit(*observations_, std::move(others), kQuickSteps, &dictionary_);
   }
 
   /// The best of a shortlist beside a fit, fitted; nothing chosen if the list is empty.
@@ -87,22 +178,23 @@ class Chooser {
         best = std::move(tried);
       }
     }
-    return best.chosen.empty() ? best : fit(observations_, best.chosen, kSteps, &dictionary_);
+    return best.chosen.empty() ? best : fit(*observations_, best.chosen, kSteps, &dictionary_);
   }
 
   /// BIC gain in a common count of samples, so that fits beside the same one can be compared.
   double relative_gain(const Fit& before, const Fit& after) const {
-    return bic_gain(static_cast<double>(observations_.train), before.train_sum, after.train_sum,
+    return bic_gain(static_cast<double>(observations_->train), before.train_sum, after.train_sum,
                     after.chosen.back().values.size());
   }
 
   bool holds(const Evidence& evidence) const {
     return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
-           evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength;
+           evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
+           evidence.share > kLeastShare;
   }
 
   Evidence weigh_last(const Fit& before, const Fit& after) const {
-    return weigh(observations_, before, after, static_cast<double>(dictionary_.entries.size()));
+    return weigh(*observations_, before, after, static_cast<double>(dictionary_.entries.size()));
   }
 
   bool grow(Fit* current) const {
@@ -122,12 +214,12 @@ class Chooser {
       if (replaced.chosen.empty()) {
         continue;
       }
-      const bool better =
-          replaced.train_sum < current->train_sum &&
-          bic_gain(static_cast<double>(observations_.train), current->train_sum, replaced.train_sum,
-                   0) > kStrong + (static_cast<double>(replaced.parameters()) -
-                                   static_cast<double>(current->parameters())) *
-                                      std::log(static_cast<double>(observations_.train));
+      const bool better = replaced.train_sum < current->train_sum &&
+                          bic_gain(static_cast<double>(observations_->train), current->train_sum,
+                                   replaced.train_sum, 0) >
+                              kStrong + (static_cast<double>(replaced.parameters()) -
+                                         static_cast<double>(current->parameters())) *
+                                            std::log(static_cast<double>(observations_->train));
       if (better && holds(weigh_last(others, replaced))) {
         *current = replaced;
         return true;
@@ -201,10 +293,12 @@ class Chooser {
   }
 
  private:
-  const Observations& observations_;
+  Observations* observations_;
   const std::vector<Hypothesis>& hypotheses_;
   const Dictionary& dictionary_;
   double false_discovery_;
+  std::vector<std::shared_ptr<const std::vector<Hypothesis>>> sought_;
+  std::unique_ptr<Dictionary> sought_dictionary_;
 };
 
 void strongest_first(Choice* choice) {
@@ -225,24 +319,36 @@ void strongest_first(Choice* choice) {
 
 }  // namespace
 
-Choice choose(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+Choice choose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
               const Dictionary& dictionary, double false_discovery, const Tell& tell) {
-  const Chooser chooser(observations, hypotheses, dictionary, false_discovery);
+  Chooser chooser(observations, hypotheses, dictionary, false_discovery);
   Choice choice;
-  choice.fit = fit(observations, {}, 0);
-  for (std::size_t step = 1; step <= kMostFindings && chooser.grow(&choice.fit); ++step) {
-    tell(step, kMostFindings);
-    for (int pass = 0; pass < 2 && chooser.revise(&choice.fit); ++pass) {
+  choice.fit = fit(*observations, {}, 0);
+  choice.ranking = chooser.ranking(choice.fit);
+  const auto grow = [&] {
+    while (choice.fit.chosen.size() < kMostFindings && chooser.grow(&choice.fit)) {
+      tell(choice.fit.chosen.size(), kMostFindings);
+      for (int pass = 0; pass < 2 && chooser.revise(&choice.fit); ++pass) {
+      }
+      chooser.seek(choice.fit);
     }
+  };
+  grow();
+  const bool is_settled =
+      choice.fit.parameters() <= 2 && largest_ratio(*observations, choice.fit.remainder) < kSettled;
+  if (!is_settled && chooser.pair_up(&choice.fit)) {
+    chooser.seek(choice.fit);
+    grow();
   }
-  choice.fit = fit(observations, choice.fit.chosen, kSteps);
+  choice.fit = fit(*observations, choice.fit.chosen, kSteps);
   chooser.prune(&choice);
   for (std::size_t i = 0; i < choice.findings.size(); ++i) {
     chooser.find_alternatives(choice.fit, i, &choice.findings[i]);
   }
   strongest_first(&choice);
   // In the order that the covariance and the derivative have from here on.
-  choice.fit = fit(observations, choice.fit.chosen, 0);
+  choice.fit = fit(*observations, choice.fit.chosen, 0);
+  choice.sought = chooser.sought();
   return choice;
 }
 

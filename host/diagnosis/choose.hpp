@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "diagnosis/dictionary.hpp"
 #include "diagnosis/evidence.hpp"
@@ -23,7 +24,17 @@ struct Finding {
   std::vector<Alternative> alternatives;
 };
 
+/// How much an effect at a place would explain alone, by its linear part.
+struct Ranked {
+  std::string effect;
+  int joint = 0;
+  double gain = 0;  ///< in BIC
+};
+
 struct Choice {
+  std::vector<Ranked> ranking;  ///< of all effects at all places before any is chosen, best first
+  /// Hypotheses with starts sought along the way; what was chosen may point to them.
+  std::vector<std::shared_ptr<const std::vector<Hypothesis>>> sought;
   Fit fit;
   std::vector<Finding> findings;  ///< in the order of `fit.chosen`, the strongest first
 };
@@ -34,9 +45,14 @@ using Tell = std::function<void(std::size_t, std::size_t)>;
 /// Chooses what explains the residual: one hypothesis at a time, the one with the largest gain in
 /// BIC after a fit of all that are chosen; then each choice is tried against all others anew, and
 /// dropped if it no longer holds. A hypothesis holds if its gain is strong, its chance (times the
-/// hypotheses looked at) is below `false_discovery`, what was held out confirms it, and it moves
-/// some component by more than a third of its noise.
-Choice choose(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+/// hypotheses looked at) is below `false_discovery`, what was held out confirms it, it moves some
+/// component by more than a third of its noise, and accounts for a tenth of what was left beyond
+/// the noise.
+///
+/// The starts of hypotheses that are sought in the residual are sought anew after every step (the
+/// observations' `unexplained` is used for that). In the end the best pairs of hypotheses are tried
+/// too: a third may look better than either of the two alone.
+Choice choose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
               const Dictionary& dictionary, double false_discovery, const Tell& tell);
 
 }  // namespace flexcomp::diagnosis

@@ -12,13 +12,16 @@ Eigen::MatrixXd delay_columns(const Observations& observations,
                               std::vector<std::string>* groups) {
   constexpr double kStep = 1e-3;  // s
   std::vector<Eigen::VectorXd> columns;
-  std::size_t number = 0;
   for (const Hypothesis& hypothesis : hypotheses) {
     if (hypothesis.effect != "time_offset") {
       continue;
     }
     Machine machine;
-    hypothesis.apply({kStep}, &machine);
+    if (hypothesis.sketch) {
+      machine.terms.push_back(hypothesis.sketch({kStep}));
+    } else {
+      hypothesis.apply({kStep}, &machine);
+    }
     std::vector<Prediction> late;
     std::vector<Prediction> on_time;
     for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
@@ -26,14 +29,8 @@ Eigen::MatrixXd delay_columns(const Observations& observations,
       late.push_back(with_terms(machine.terms, observations.scenes[s], simulation));
       on_time.push_back(simulation.prediction);
     }
-    while (number < simulation::kChannels.size() &&
-           !observations.has(static_cast<Channel>(number))) {
-      ++number;
-    }
-    groups->emplace_back(number < simulation::kChannels.size() ? simulation::kChannels[number]
-                                                               : "wrench");
-    ++number;
-    columns.push_back((observations.stacked(late) - observations.stacked(on_time)) / kStep);
+    groups->push_back(hypothesis.form);
+    columns.emplace_back((observations.stacked(late) - observations.stacked(on_time)) / kStep);
   }
   Eigen::MatrixXd all(observations.size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) {

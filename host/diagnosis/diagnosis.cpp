@@ -103,27 +103,34 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary);
   diagnosis.location = locate(*observations, observations->residual);
   diagnosis.choice =
-      choose(*observations, hypotheses, dictionary, settings.false_discovery, settings.choosing);
+      choose(observations, hypotheses, dictionary, settings.false_discovery, settings.choosing);
   find_groups(&diagnosis);
   judge(*observations, &diagnosis);
   if (diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained") {
     diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
   }
+  for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
+    const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;
+    if (diagnosis.suggested_experiment.empty() && !others.empty() &&
+        others.front().delta_bic < kSameEvidence) {
+      diagnosis.suggested_experiment = suggest_experiment(*observations, diagnosis, i);
+    }
+  }
   return diagnosis;
 }
 
 std::string statement(const Observations& observations, const Diagnosis& diagnosis,
-                      std::size_t index) {
-  const Finding& finding = diagnosis.choice.findings[index];
+                      std::size_t finding) {
+  const Finding& found = diagnosis.choice.findings[finding];
   const auto count =
       static_cast<double>(std::max<Eigen::Index>(observations.size() - observations.train, 1));
-  std::string clause = diagnosis.choice.fit.chosen[index].hypothesis->statement;
+  std::string clause = diagnosis.choice.fit.chosen[finding].hypothesis->statement;
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
   return fmt::format(
       "{}, which the model lacks: held-out error falls from {:.2f} to {:.2f} times "
       "the noise.",
-      clause, std::sqrt(finding.holdout_sum_before / count),
-      std::sqrt(finding.holdout_sum_after / count));
+      clause, std::sqrt(found.holdout_sum_before / count),
+      std::sqrt(found.holdout_sum_after / count));
 }
 
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {

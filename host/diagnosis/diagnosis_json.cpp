@@ -41,14 +41,13 @@ Json noise_floor(const Observations& observations) {
 
 Json location(const Location& location) {
   Json correlates = Json::array();
-  for (const auto& [name, share] : location.correlates_with) {
-    correlates.push_back({{"with", name}, {"share", share}});
+  for (const Correlate& each : location.correlates_with) {
+    correlates.push_back(
+        {{"with", each.cue}, {"share_of_power", each.share}, {"p_value", each.p_value}});
   }
-  return {{"joints", location.joints},
-          {"axes", location.axes},
-          {"time", location.time},
-          {"frequency_hz", location.frequency_hz},
-          {"correlates_with", correlates}};
+  return {{"joints", location.joints},     {"axes", location.axes},
+          {"time", location.time},         {"frequency_hz", location.frequency_hz},
+          {"correlates_with", correlates}, {"places_looked_at", location.places}};
 }
 
 /// The channel that a finding betters most, for its held-out errors.

@@ -11,8 +11,8 @@ namespace flexcomp::diagnosis {
 namespace {
 
 /// A guess of the whole effect may be off by so much and still be its own.
-constexpr double kLeastShare = 0.4;
-constexpr double kMostShare = 2.5;
+constexpr double kLeastWhole = 0.4;
+constexpr double kMostWhole = 2.5;
 
 class Columns {
  public:
@@ -22,14 +22,18 @@ class Columns {
   /// Change of the whole prediction over the noise, by the values of the parameters.
   Eigen::VectorXd change(const Values& values) const {
     std::vector<Prediction> predictions;
-    if (hypothesis_.alters_model) {
+    if (hypothesis_.alters_model && !hypothesis_.sketch) {
       Machine machine = observations_.machine;
       hypothesis_.apply(values, &machine);
       predictions = predict(machine, observations_.scenes);
     } else {
       Machine machine;
       machine.robot = observations_.machine.robot;
-      hypothesis_.apply(values, &machine);
+      if (hypothesis_.sketch) {
+        machine.terms.push_back(hypothesis_.sketch(values));
+      } else {
+        hypothesis_.apply(values, &machine);
+      }
       for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
         predictions.push_back(
             with_terms(machine.terms, observations_.scenes[s], observations_.simulations[s]));
@@ -72,21 +76,6 @@ class Columns {
   const Observations& observations_;
   const Hypothesis& hypothesis_;
 };
-
-bool within_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitude) {
-  if (hypothesis.linear == 0) {
-    return amplitude[0] > kLeastShare && amplitude[0] < kMostShare;
-  }
-  for (Eigen::Index i = 0; i < amplitude.size(); ++i) {
-    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
-    // Noise may take a parameter that is nothing a little below its bound.
-    const double slack = amplitude.size() > 1 ? 2 * parameter.step : 0;
-    if (!(amplitude[i] >= parameter.lower - slack && amplitude[i] <= parameter.upper + slack)) {
-      return false;
-    }
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -203,6 +192,21 @@ FullestFit fit_all(const Observations& observations, const std::vector<Hypothesi
   fit.remainder = target - columns * qr.solve(target);
   fit.freedom = observations.train - qr.rank();
   return fit;
+}
+
+bool within_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitude) {
+  if (hypothesis.linear == 0) {
+    return amplitude[0] > kLeastWhole && amplitude[0] < kMostWhole;
+  }
+  for (Eigen::Index i = 0; i < amplitude.size(); ++i) {
+    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
+    // Noise may take a parameter that is nothing a little below its bound.
+    const double slack = amplitude.size() > 1 ? 2 * parameter.step : 0;
+    if (!(amplitude[i] >= parameter.lower - slack && amplitude[i] <= parameter.upper + slack)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 Values values_of(const Hypothesis& hypothesis, const Entry& entry,

@@ -48,6 +48,19 @@ std::vector<Screened> screen(const Observations& observations,
                              const Dictionary& dictionary, const Eigen::VectorXd& remainder,
                              const Eigen::MatrixXd& fitted);
 
+/// Two entries that explain a residual together.
+struct ScreenedPair {
+  Screened first;
+  Screened second;
+  double sum = 0;  ///< of squares that both would leave
+};
+
+/// The best pairs for the observations' residual, of different effects or joints, one start each,
+/// the smallest criterion (BIC) first: each of the most promising entries with every other.
+std::vector<ScreenedPair> screen_pairs(const Observations& observations,
+                                       const std::vector<Hypothesis>& hypotheses,
+                                       const Dictionary& dictionary, std::size_t most);
+
 /// What a fit of all linear entries at once leaves: the fullest fit there is.
 struct FullestFit {
   Eigen::VectorXd remainder;  ///< of the samples to fit to
@@ -55,6 +68,9 @@ struct FullestFit {
 };
 FullestFit fit_all(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
                    const Dictionary& dictionary);
+
+/// Are an entry's amplitudes such that its hypothesis allows them?
+bool within_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitude);
 
 /// The parameters that an entry with amplitudes stands for, within their bounds.
 Values values_of(const Hypothesis& hypothesis, const Entry& entry,

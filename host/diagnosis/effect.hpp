@@ -23,17 +23,26 @@ using Values = std::vector<double>;
 struct Hypothesis {
   std::string effect;                 ///< of the contract's vocabulary
   int joint = 0;                      ///< 1 to 6, 0 where the effect has no joint
+  std::string form;                   ///< of several that the effect takes; else empty
   std::vector<Parameter> parameters;  ///< all zero, the first `linear` of them: no effect
   std::size_t linear = 0;             ///< of the parameters, those that act (nearly) in proportion
   /// Where to begin with the other parameters; with `linear` zero each start is a whole guess.
   std::vector<Values> starts = {{}};
+  bool is_sought = false;     ///< the starts were sought in what was unexplained
   bool alters_model = false;  ///< the scene must be simulated anew; else it only adds a term
+  bool is_curved = false;     ///< far from proportion: derivatives must be taken where it stands
   std::function<void(const Values&, simulation::Machine*)> apply;
+  /// A term that does nearly the same, where `apply` alters the model; may be left out.
+  std::function<simulation::Term(const Values&)> sketch;
   std::string statement;  ///< one plain clause: what the machine has that the model lacks
 };
 
-/// The hypotheses that an effect offers for what was observed; none where it could not show.
-using Effect = std::vector<Hypothesis> (*)(const Observations&);
+/// An entry of the catalogue.
+struct Effect {
+  const char* name;  ///< of the contract's vocabulary
+  /// What it offers for what was observed; none where it could not show.
+  std::vector<Hypothesis> (*hypotheses)(const Observations&);
+};
 
 /// Every effect that is known; a new one is a file in effects/ and a line in registry.cpp.
 const std::vector<Effect>& registry();

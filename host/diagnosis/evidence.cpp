@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "diagnosis/noise.hpp"
+#include "recording/noise.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -72,7 +72,7 @@ double independent_samples(const Observations& observations, const Eigen::Vector
       square += 0.5 * (a * a + b * b);
     }
   }
-  return effective_samples(count, square > 0 ? product / square : 0);
+  return recording::effective_samples(count, square > 0 ? product / square : 0);
 }
 
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters) {
@@ -94,6 +94,8 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
     evidence.p_value =
         std::min(1.0, places * boost::math::cdf(boost::math::complement(chance, ratio)));
   }
+  const double beyond = without.train_sum - static_cast<double>(observations.train);
+  evidence.share = beyond > 0 ? (without.train_sum - with.train_sum) / beyond : 1;
   evidence.confirmation = confirmation_of(observations, without.remainder, with.remainder);
   evidence.strength = strength_of(observations, without.remainder - with.remainder);
   return evidence;

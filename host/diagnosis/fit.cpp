@@ -23,8 +23,11 @@ class Evaluator {
       : observations_(observations), chosen_(std::move(chosen)), dictionary_(dictionary) {
     for (const Chosen& each : chosen_) {
       const bool alters = each.hypothesis->alters_model;
-      const Entry* entry =
-          alters && dictionary != nullptr ? dictionary->find(*each.hypothesis) : nullptr;
+      const bool is_linear = each.hypothesis->linear == each.hypothesis->parameters.size() &&
+                             !each.hypothesis->is_curved;
+      const Entry* entry = alters && is_linear && dictionary != nullptr
+                               ? dictionary->find(*each.hypothesis)
+                               : nullptr;
       for (std::size_t i = 0; i < each.hypothesis->parameters.size(); ++i) {
         alters_.push_back(alters);
         known_.push_back(entry != nullptr ? entry->first + static_cast<Eigen::Index>(i) : -1);
@@ -70,10 +73,9 @@ class Evaluator {
     if (!alters) {
       return observations_.simulations;
     }
-    simulation::Wanted wanted;
-    wanted.levers = !machine.terms.empty();
     std::vector<Simulation> simulations;
     for (const Scene& scene : observations_.scenes) {
+      const simulation::Wanted wanted = wanted_of(machine, scene);
       simulations.push_back(simulate(machine, scene, wanted));
     }
     return simulations;
@@ -93,7 +95,7 @@ class Evaluator {
     set(values);
     const Machine machine = machine_with(observations_, chosen_);
     const std::vector<Simulation> simulations = simulate_scenes(machine);
-    const Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
+    Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
     if (derivative != nullptr) {
       derivative->resize(base.size(), static_cast<Eigen::Index>(size()));
       const std::vector<Chosen> here = chosen_;
@@ -115,8 +117,8 @@ class Evaluator {
             moved.set(other);
             const Machine changed = machine_with(observations_, moved.chosen_);
             const std::vector<Prediction> predictions =
-                alters_[i] != 0 ? add_terms(changed, moved.simulate_scenes(changed))
-                                : add_terms(changed, simulations);
+                alters_[i] ? add_terms(changed, moved.simulate_scenes(changed))
+                           : add_terms(changed, simulations);
             derivative->col(static_cast<Eigen::Index>(i)) =
                 (observations_.stacked(predictions) - base) / step;
           });
@@ -128,7 +130,7 @@ class Evaluator {
   const Observations& observations_;
   std::vector<Chosen> chosen_;
   const Dictionary* dictionary_;
-  std::vector<char> alters_;
+  std::vector<bool> alters_;
   std::vector<Eigen::Index> known_;  ///< column of the dictionary, or −1
 };
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
-#include "diagnosis/noise.hpp"
+#include "recording/noise.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -18,8 +19,25 @@ constexpr double kLeastNoise[] = {1e-9, 1e-3, 1e-9};
 
 /// A quarter of the time, in whole stretches.
 bool is_held_out(Eigen::Index row, Eigen::Index rows) {
-  constexpr Eigen::Index kStretches = 20;
-  return (row * kStretches / rows) % 4 == 2;
+  constexpr Eigen::Index kHoldoutStretches = 20;
+  return (row * kHoldoutStretches / rows) % 4 == 2;
+}
+
+/// Rows over which differentiation correlates the encoders' noise.
+Eigen::Index memory_of(const Scene& scene) {
+  constexpr double kSmoothed = 0.035;  // s
+  const Eigen::Index last = scene.rows() - 1;
+  const double step =
+      (scene.time[last] - scene.time[0]) / static_cast<double>(std::max<Eigen::Index>(last, 1));
+  return std::max<Eigen::Index>(7, static_cast<Eigen::Index>(kSmoothed / std::max(step, 1e-9)));
+}
+
+/// White noise of the measurement and what the encoders bring into the prediction, but not more
+/// than the residual shows at distances at which both count.
+double noise_of(const Eigen::VectorXd& difference, double prediction_noise, Eigen::Index memory) {
+  const double white = recording::white_noise(difference);
+  const double both = std::hypot(white, prediction_noise);
+  return std::min(both, std::max(white, recording::white_noise(difference, memory)));
 }
 
 template <typename Values>
@@ -33,12 +51,17 @@ double largest(const std::vector<Values>& all) {
 
 }  // namespace
 
+simulation::Wanted wanted_of(const Machine& machine, const Scene& scene) {
+  simulation::Wanted wanted;
+  wanted.levers = !machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench);
+  return wanted;
+}
+
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes) {
   std::vector<Prediction> predictions;
-  simulation::Wanted wanted;
-  wanted.levers = !machine.terms.empty();
   for (const Scene& scene : scenes) {
-    predictions.push_back(with_terms(machine.terms, scene, simulate(machine, scene, wanted)));
+    predictions.push_back(
+        with_terms(machine.terms, scene, simulate(machine, scene, wanted_of(machine, scene))));
   }
   return predictions;
 }
@@ -55,13 +78,48 @@ Observations::Observations(Machine model, std::vector<Scene> all, std::size_t ho
   renew_residual();
 }
 
+std::array<Eigen::RowVectorXd, 3> Observations::prediction_noise(std::size_t s) const {
+  Scene noisy = scenes[s];
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0, 1);
+  for (Eigen::Index row = 0; row < noisy.rows(); ++row) {
+    for (Eigen::Index joint = 0; joint < 6; ++joint) {
+      noisy.velocity(row, joint) += noisy.velocity_noise[joint] * normal(random);
+      noisy.acceleration(row, joint) += noisy.acceleration_noise[joint] * normal(random);
+    }
+  }
+  simulation::Wanted wanted;
+  wanted.levers = false;
+  wanted.channel[tcp_position] = false;
+  const Simulation with = simulate(machine, noisy, wanted);
+  std::array<Eigen::RowVectorXd, 3> deviation;
+  for (const Channel channel : {joint_torque, joint_deflection}) {
+    if (scenes[s].has(channel) && !scenes[s].is_static) {
+      deviation[channel] =
+          ((with.prediction.channel[channel] - simulations[s].prediction.channel[channel])
+               .array()
+               .square()
+               .colwise()
+               .mean())
+              .sqrt();
+    }
+  }
+  return deviation;
+}
+
 void Observations::collect(std::size_t holdouts) {
   std::array<std::vector<Sample>, 2> parts;
   std::array<std::vector<double>, 2> noises;
+  std::vector<std::array<Eigen::RowVectorXd, 3>> of_prediction;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    of_prediction.push_back(prediction_noise(s));
+  }
   for (const Channel channel : kAllChannels) {
     for (std::size_t s = 0; s < scenes.size(); ++s) {
       for (Eigen::Index c = 0; c < scenes[s].measured[channel].cols(); ++c) {
-        add_component(s, channel, c, holdouts == 0, s + holdouts >= scenes.size(), &parts, &noises);
+        const Eigen::RowVectorXd& own = of_prediction[s][channel];
+        add_component(s, channel, c, own.size() > 0 ? own[c] : 0.0, holdouts == 0,
+                      s + holdouts >= scenes.size(), &parts, &noises);
       }
     }
   }
@@ -74,20 +132,23 @@ void Observations::collect(std::size_t holdouts) {
 }
 
 void Observations::add_component(std::size_t s, Channel channel, Eigen::Index component,
-                                 bool splits, bool is_holdout,
+                                 double prediction_noise, bool splits, bool is_holdout,
                                  std::array<std::vector<Sample>, 2>* parts,
                                  std::array<std::vector<double>, 2>* noises) {
   const Scene& scene = scenes[s];
   const Eigen::VectorXd difference =
       scene.measured[channel].col(component) - predictions[s].channel[channel].col(component);
   // In a load test neighbours say nothing of the noise: one unit for all until a fit tells.
-  const double deviation =
-      scene.is_static ? 1e-5 : std::max(white_noise(difference), kLeastNoise[channel]);
+  const double deviation = scene.is_static
+                               ? 1e-5
+                               : std::max(noise_of(difference, prediction_noise, memory_of(scene)),
+                                          kLeastNoise[channel]);
   for (Eigen::Index row = 0; row < scene.rows(); ++row) {
-    if (!std::isfinite(difference[row])) {
+    if (!std::isfinite(difference[row]) ||
+        (channel == joint_torque && !scene.is_static && scene.stands(row, component) != 0)) {
       continue;
     }
-    if (!scene.is_static && stands_alone(difference, row, deviation)) {
+    if (!scene.is_static && recording::stands_alone(difference, row, deviation)) {
       ++outliers;
       continue;
     }

@@ -76,12 +76,19 @@ class Observations {
   void set_noise(double factor);
 
  private:
+  /// Noise that the encoders bring into the predictions of a scene, by channel and component.
+  std::array<Eigen::RowVectorXd, 3> prediction_noise(std::size_t scene) const;
   void collect(std::size_t holdouts);
-  void add_component(std::size_t scene, Channel channel, Eigen::Index component, bool splits,
-                     bool is_holdout, std::array<std::vector<Sample>, 2>* parts,
+  void add_component(std::size_t scene, Channel channel, Eigen::Index component,
+                     double prediction_noise, bool splits, bool is_holdout,
+                     std::array<std::vector<Sample>, 2>* parts,
                      std::array<std::vector<double>, 2>* noises);
   void renew_residual();
 };
+
+/// What the terms of a machine need of its simulation: levers only where they move a TCP or a
+/// wrench.
+simulation::Wanted wanted_of(const Machine& machine, const Scene& scene);
 
 /// Predictions of a machine for all scenes.
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes);

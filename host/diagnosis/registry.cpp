@@ -4,21 +4,41 @@ namespace flexcomp::diagnosis {
 
 const std::vector<Effect>& registry() {
   static const std::vector<Effect> kEffects = {
-      backlash,      base_compliance, coulomb_friction,    gravity_compensator,
-      hysteresis,    joint_offset,    joint_stiffness,     link_flexibility,
-      link_length,   link_mass,       nonlinear_stiffness, payload,
-      resonance,     rotor_inertia,   servo_lag,           stribeck_friction,
-      tcp_offset,    thermal_drift,   time_offset,         tool_compliance,
-      torque_offset, torque_ripple,   transmission_ripple, viscous_friction,
-      wrench_bias,   wrench_frame,    wrench_scale,
+      {"backlash", backlash},
+      {"base_compliance", base_compliance},
+      {"coulomb_friction", coulomb_friction},
+      {"gravity_compensator", gravity_compensator},
+      {"hysteresis", hysteresis},
+      {"joint_offset", joint_offset},
+      {"joint_stiffness", joint_stiffness},
+      {"link_flexibility", link_flexibility},
+      {"link_length", link_length},
+      {"link_mass", link_mass},
+      {"nonlinear_stiffness", nonlinear_stiffness},
+      {"payload", payload},
+      {"resonance", resonance},
+      {"rotor_inertia", rotor_inertia},
+      {"servo_lag", servo_lag},
+      {"stribeck_friction", stribeck_friction},
+      {"tcp_offset", tcp_offset},
+      {"thermal_drift", thermal_drift},
+      {"time_offset", time_offset},
+      {"tool_compliance", tool_compliance},
+      {"torque_offset", torque_offset},
+      {"torque_ripple", torque_ripple},
+      {"transmission_ripple", transmission_ripple},
+      {"viscous_friction", viscous_friction},
+      {"wrench_bias", wrench_bias},
+      {"wrench_frame", wrench_frame},
+      {"wrench_scale", wrench_scale},
   };
   return kEffects;
 }
 
 std::vector<Hypothesis> all_hypotheses(const Observations& observations) {
   std::vector<Hypothesis> all;
-  for (const Effect effect : registry()) {
-    for (Hypothesis& hypothesis : effect(observations)) {
+  for (const Effect& effect : registry()) {
+    for (Hypothesis& hypothesis : effect.hypotheses(observations)) {
       if (!hypothesis.starts.empty()) {
         all.push_back(std::move(hypothesis));
       }

@@ -7,7 +7,7 @@
 namespace flexcomp::geometry {
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+double turn_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
@@ -24,7 +24,7 @@ std::vector<std::size_t> convex_hull(const Profile& profile) {
     const std::size_t base = hull.size();
     for (auto it = begin; it != end; ++it) {
       while (hull.size() >= base + 2 &&
-             cross(profile[hull[hull.size() - 1]] - profile[hull[hull.size() - 2]],
+             turn_of(profile[hull[hull.size() - 1]] - profile[hull[hull.size() - 2]],
                    profile[*it] - profile[hull[hull.size() - 1]]) <= 0) {
         hull.pop_back();
       }

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "flexcomp/model.hpp"
 
@@ -18,6 +20,14 @@ struct JointDynamics {
   double velocity = 0;       ///< rad/s, largest speed
 };
 
+/// Physics of a machine that the other keys cannot say, as a diagnosis found it.
+struct LearnedEffect {
+  std::string effect;  ///< of the diagnosis' vocabulary, such as transmission_ripple
+  int joint = 0;       ///< 1 to 6, 0 where the effect has no joint
+  std::string form;    ///< which of its forms; empty where there is one
+  std::map<std::string, double> parameters;  ///< SI
+};
+
 /// A robot as its two files describe it: a YAML file and the URDF it names.
 struct Robot {
   std::string name;
@@ -31,13 +41,16 @@ struct Robot {
   /// Inertia (kg·m²) of each moved link about its centre of mass, in the link frame; bodies fixed
   /// to the link are part of it.
   std::array<Matrix3<double>, 6> link_inertia;
+  std::vector<LearnedEffect> effects;  ///< for simulations; the core does not know them
 };
 
 /// Reads a robot (schema flexcomp/robot/1). Throws InputError naming the file and the line, key,
 /// link or joint for anything that is missing, unknown, misspelt, of the wrong type or impossible.
 ///
 /// Beside the schema's keys a joint may have `link_compliance`: six numbers, m/N (3) and rad/(N·m)
-/// (3), of the link that the joint moves, diagonal in the link's frame, at the joint's origin.
+/// (3), of the link that the joint moves, diagonal in the link's frame, at the joint's origin; and
+/// the robot `effects`, a list of maps: `effect`, `joint` (1 to 6) and `form` where it has them,
+/// and the effect's parameters by name.
 Robot load_robot(const std::filesystem::path& file);
 
 /// Writes a robot's YAML file, whole or not at all; it names `robot.urdf` by a path relative to it.

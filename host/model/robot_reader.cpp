@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "error.hpp"
 #include "files/one_line.hpp"
@@ -57,6 +58,23 @@ void read_payload(const YamlMap& yaml, RobotModel<double, 6>* elastic) {
   }
 }
 
+LearnedEffect read_effect(const YamlMap& yaml) {
+  LearnedEffect learned;
+  learned.effect = yaml.text("effect");
+  learned.form = yaml.has("form") ? yaml.text("form") : "";
+  const double joint = yaml.number_or("joint", 0);
+  if (yaml.has("joint") && !(joint >= 1 && joint <= 6 && joint == std::floor(joint))) {
+    yaml.refuse("joint", "expected a joint, 1 to 6");
+  }
+  learned.joint = static_cast<int>(joint);
+  for (const std::string& key : yaml.keys()) {
+    if (key != "effect" && key != "form" && key != "joint") {
+      learned.parameters[key] = yaml.number(key);
+    }
+  }
+  return learned;
+}
+
 std::filesystem::path urdf_beside(const std::filesystem::path& file, const YamlMap& yaml) {
   std::filesystem::path urdf = file.parent_path() / yaml.text("urdf");
   std::error_code error;
@@ -82,7 +100,7 @@ Robot load_robot(const std::filesystem::path& file) {
                 fmt::format("expected {}, found {}", kRobotSchema, files::one_line(schema)));
   }
   yaml.allow_only({"schema", "name", "urdf", "base_link", "tool_link", "gravity", "joints",
-                   "base_compliance", "tool_compliance", "payload"});
+                   "base_compliance", "tool_compliance", "payload", "effects"});
   Robot robot;
   robot.yaml = file;
   robot.name = yaml.text("name");
@@ -97,6 +115,11 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.elastic.tool_compliance = read_compliance(yaml, "tool_compliance");
   if (yaml.has("payload")) {
     read_payload(yaml.map("payload"), &robot.elastic);
+  }
+  if (yaml.has("effects")) {
+    for (const YamlMap& effect : yaml.maps("effects")) {
+      robot.effects.push_back(read_effect(effect));
+    }
   }
   if (!is_computable(robot)) {
     throw InputError(

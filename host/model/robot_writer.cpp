@@ -75,6 +75,28 @@ void write_text(YAML::Emitter* out, const std::string& key, const std::string& t
   *out << YAML::Key << key << YAML::Value << text;
 }
 
+void write_effects(YAML::Emitter* out, const std::vector<LearnedEffect>& effects) {
+  if (effects.empty()) {
+    return;
+  }
+  *out << YAML::Key << "effects" << YAML::Value << YAML::BeginSeq;
+  for (const LearnedEffect& learned : effects) {
+    *out << YAML::Flow << YAML::BeginMap;
+    write_text(out, "effect", learned.effect);
+    if (learned.joint > 0) {
+      *out << YAML::Key << "joint" << YAML::Value << learned.joint;
+    }
+    if (!learned.form.empty()) {
+      write_text(out, "form", learned.form);
+    }
+    for (const auto& [name, value] : learned.parameters) {
+      *out << YAML::Key << name << YAML::Value << number(value);
+    }
+    *out << YAML::EndMap;
+  }
+  *out << YAML::EndSeq;
+}
+
 std::string document(const Robot& robot, const std::string& urdf) {
   YAML::Emitter out;
   out << YAML::BeginMap;
@@ -92,6 +114,7 @@ std::string document(const Robot& robot, const std::string& urdf) {
   write_list_unless_zero(&out, "base_compliance", robot.elastic.base_compliance);
   write_list_unless_zero(&out, "tool_compliance", robot.elastic.tool_compliance);
   write_payload(&out, robot.elastic);
+  write_effects(&out, robot.effects);
   out << YAML::EndMap << YAML::Newline;
   return out.c_str();
 }

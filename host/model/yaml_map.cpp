@@ -131,6 +131,26 @@ YamlMap YamlMap::map(const std::string& key) const {
   return {child, file_, where_.empty() ? key : where_ + "." + key};
 }
 
+std::vector<std::string> YamlMap::keys() const {
+  std::vector<std::string> all;
+  for (const auto& entry : node_) {
+    all.push_back(entry.first.Scalar());
+  }
+  return all;
+}
+
+std::vector<YamlMap> YamlMap::maps(const std::string& key) const {
+  const YAML::Node list = required(key);
+  if (!list.IsSequence()) {
+    refuse(key, fmt::format("expected a list, found {}", description(list)));
+  }
+  std::vector<YamlMap> all;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    all.emplace_back(list[i], file_, fmt::format("{}[{}]", key, i));
+  }
+  return all;
+}
+
 double YamlMap::scalar(const YAML::Node& node, const std::string& key) const {
   double value = 0;
   if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {

@@ -24,6 +24,10 @@ class YamlMap {
   bool has(const std::string& key) const;
   std::string text(const std::string& key) const;
   YamlMap map(const std::string& key) const;
+  std::vector<std::string> keys() const;
+
+  /// A list of mappings.
+  std::vector<YamlMap> maps(const std::string& key) const;
 
   /// A finite number.
   double number(const std::string& key) const;

@@ -11,8 +11,6 @@
 namespace flexcomp::planning {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Joints that turn by more than this (rad) from one point to the next have changed their branch.
 constexpr double kLargestStep = 0.35;
 
@@ -65,7 +63,7 @@ class CirclePlanner {
         360.0 * farthest / plan_.points));
   }
 
-  double angle(int point) const { return (plan_.clockwise ? -2 : 2) * kPi * point / plan_.points; }
+  double angle(int point) const { return (plan_.clockwise ? -2 : 2) * M_PI * point / plan_.points; }
 
  private:
   Pose<double> target(int point) const {
@@ -106,7 +104,7 @@ recording::Recording plan_circle(const RobotModel<double, 6>& model, const Circl
   recording.q_cmd = planner.plan(progress);
   recording.time.resize(plan.points + 1);
   recording.wrench = recording::Samples(plan.points + 1, 6);
-  const double step = 2 * kPi * plan.radius / plan.feed / plan.points;
+  const double step = 2 * M_PI * plan.radius / plan.feed / plan.points;
   for (int point = 0; point <= plan.points; ++point) {
     recording.time[point] = step * point;
     const Matrix3<double> frame = path_frame(plan, planner.angle(point % plan.points));

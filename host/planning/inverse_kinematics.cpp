@@ -9,8 +9,6 @@
 namespace flexcomp::planning {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 KDL::Vector to_kdl(const Vector3<double>& v) { return {v.x(), v.y(), v.z()}; }
 
 KDL::Frame to_kdl(const Pose<double>& pose) {
@@ -33,12 +31,12 @@ KDL::Chain to_kdl(const RobotModel<double, 6>& model) {
 
 /// Moves an angle by whole turns to the one nearest to `near` within limits.
 double nearest_turn(double angle, double near, const Joint<double>& joint) {
-  double turned = angle + 2 * kPi * std::round((near - angle) / (2 * kPi));
-  while (turned > joint.upper && turned - 2 * kPi >= joint.lower) {
-    turned -= 2 * kPi;
+  double turned = angle + 2 * M_PI * std::round((near - angle) / (2 * M_PI));
+  while (turned > joint.upper && turned - 2 * M_PI >= joint.lower) {
+    turned -= 2 * M_PI;
   }
-  while (turned < joint.lower && turned + 2 * kPi <= joint.upper) {
-    turned += 2 * kPi;
+  while (turned < joint.lower && turned + 2 * M_PI <= joint.upper) {
+    turned += 2 * M_PI;
   }
   return turned;
 }
@@ -119,7 +117,7 @@ std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<dou
     for (const double second : {0.5, 0.25, 0.75}) {
       for (const double third : {0.5, 0.75, 0.25}) {
         for (const double fifth : {0.7, 0.3}) {
-          for (const double wrist : {-kPi / 2, 0.0, kPi / 2}) {
+          for (const double wrist : {-M_PI / 2, 0.0, M_PI / 2}) {
             Angles seed;
             seed << seed_angle(0, first), seed_angle(1, second), seed_angle(2, third), wrist,
                 seed_angle(4, fifth), wrist;

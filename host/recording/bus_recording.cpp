@@ -15,7 +15,7 @@
 namespace flexcomp::recording {
 namespace {
 
-constexpr double kSecond = 1e9;
+constexpr double kPerSecond = 1e9;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t rejected(const CanDecoder& decoder) {
@@ -59,7 +59,7 @@ class Rows {
     Samples samples(rows, static_cast<Eigen::Index>(kColumns));
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      recording.time[row] = static_cast<double>(time_[i] - time_[0]) / kSecond;
+      recording.time[row] = static_cast<double>(time_[i] - time_[0]) / kPerSecond;
       std::copy(rows_[i].begin(), rows_[i].end(), samples.row(row).data());
     }
     const auto group = [&](std::size_t column, Eigen::Index width) -> std::optional<Samples> {
@@ -173,7 +173,7 @@ std::vector<LoggedMessage> to_messages(const Recording& recording, std::int64_t 
   std::vector<LoggedMessage> messages;
   for (Eigen::Index row = 0; row < recording.size(); ++row) {
     const std::int64_t time =
-        start + std::llround(kSecond * (recording.time[row] - recording.time[0]));
+        start + std::llround(kPerSecond * (recording.time[row] - recording.time[0]));
     JointAngles q{};
     std::array<double, 6> wrench{};
     std::array<double, 3> position{};

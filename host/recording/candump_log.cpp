@@ -14,7 +14,7 @@
 namespace flexcomp::recording {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::size_t kStandardDigits = 3;
 constexpr std::size_t kExtendedDigits = 8;
 
@@ -41,7 +41,7 @@ bool parse_time(std::string_view text, std::int64_t* time) {
   for (std::size_t i = digits.size(); i < 9; ++i) {
     nanoseconds *= 10;
   }
-  *time = kSecond * seconds + nanoseconds;
+  *time = kNanosecondsPerSecond * seconds + nanoseconds;
   return true;
 }
 
@@ -139,9 +139,9 @@ void write_candump_log(const std::filesystem::path& path, const std::vector<Logg
   files::write_file(path, [&](std::ostream& stream) {
     std::string line;
     for (const LoggedFrame& logged : frames) {
-      line = fmt::format("({}.{:06}) {} {:03X}#{}", logged.time / kSecond,
-                         logged.time % kSecond / 1000, logged.interface, logged.frame.id,
-                         logged.frame.fd ? "#1" : "");
+      line = fmt::format("({}.{:06}) {} {:03X}#{}", logged.time / kNanosecondsPerSecond,
+                         logged.time % kNanosecondsPerSecond / 1000, logged.interface,
+                         logged.frame.id, logged.frame.fd ? "#1" : "");
       for (std::size_t i = 0; i < logged.frame.size; ++i) {
         fmt::format_to(std::back_inserter(line), "{:02X}", logged.frame.data[i]);
       }

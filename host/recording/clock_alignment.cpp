@@ -10,7 +10,7 @@
 namespace flexcomp::recording {
 namespace {
 
-constexpr double kSecond = 1e9;
+constexpr double kNanoseconds = 1e9;
 
 /// Joint angles over time.
 struct Motion {
@@ -27,7 +27,7 @@ Motion motion_in(const std::vector<LoggedMessage>& messages) {
     if (motion.q.empty()) {
       motion.origin = time;
     }
-    const double seconds = static_cast<double>(time - motion.origin) / kSecond;
+    const double seconds = static_cast<double>(time - motion.origin) / kNanoseconds;
     if (std::isfinite(q[0]) && (motion.time.empty() || seconds > motion.time.back())) {
       motion.time.push_back(seconds);
       motion.q.push_back(q);
@@ -141,7 +141,7 @@ ClockAlignment refine(const Motion& first, const Motion& second, double offset) 
   alignment.rate = x[1];
   alignment.uncertainty = std::sqrt(variance * normal.inverse()(0, 0));
   alignment.offset =
-      x[0] - x[1] * middle + static_cast<double>(first.origin - second.origin) / kSecond;
+      x[0] - x[1] * middle + static_cast<double>(first.origin - second.origin) / kNanoseconds;
   return alignment;
 }
 
@@ -176,7 +176,7 @@ std::vector<LoggedMessage> merge(const std::vector<LoggedMessage>& first,
                                  const ClockAlignment& alignment) {
   for (LoggedMessage& logged : second) {
     const auto since = static_cast<double>(logged.time - alignment.origin);
-    logged.time += std::llround(kSecond * alignment.offset + alignment.rate * since);
+    logged.time += std::llround(kNanoseconds * alignment.offset + alignment.rate * since);
   }
   std::vector<LoggedMessage> all = first;
   all.insert(all.end(), second.begin(), second.end());

@@ -29,12 +29,54 @@ void move(const Machine& machine, const Scene& scene, Simulation* at) {
   }
 }
 
+/// The wrench behind what the sensor shows.
+void correct_wrench(const Machine& machine, const Scene& scene, Simulation* at) {
+  at->wrench = machine.wrench_delay != 0 && !scene.is_static
+                   ? delayed(scene.time, scene.wrench, -machine.wrench_delay)
+                   : scene.wrench;
+  if (machine.sensor.empty()) {
+    return;
+  }
+  for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+    const Matrix3<double> tool =
+        forward_kinematics<double, 6>(machine.robot.elastic, row_of(at->q, row)).tcp.rotation;
+    Wrench<double> wrench;
+    wrench << tool.transpose() * at->wrench.row(row).head<3>().transpose(),
+        tool.transpose() * at->wrench.row(row).tail<3>().transpose();
+    for (const auto& correct : machine.sensor) {
+      wrench = correct(wrench);
+    }
+    at->wrench.row(row) << (tool * wrench.head<3>()).transpose(),
+        (tool * wrench.tail<3>()).transpose();
+  }
+}
+
+Row balance(const Machine& machine, const Row& q) {
+  Row torque = Row::Zero();
+  for (const auto& balancer : machine.balancers) {
+    torque += balancer(q);
+  }
+  return torque;
+}
+
+/// A torque in parallel to a linear spring winds it up like a motor that stands elsewhere.
+Equilibrium settle_balanced(const Machine& machine, const Row& q, const Wrench<double>& wrench,
+                            const Row& compliance) {
+  Equilibrium equilibrium = settle(machine.robot.elastic, q, wrench);
+  for (int round = 0; round < 2 && !machine.balancers.empty(); ++round) {
+    const Row shift = compliance.cwiseProduct(balance(machine, equilibrium.q_link));
+    equilibrium = settle(machine.robot.elastic, q + shift, wrench);
+  }
+  return equilibrium;
+}
+
 /// Where the robot rests, with its levers.
 void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index row,
           Simulation* at) {
   const RobotModel<double, 6>& elastic = machine.robot.elastic;
-  const Wrench<double> wrench = scene.wrench.row(row).transpose();
-  const Equilibrium equilibrium = settle(elastic, row_of(at->q, row), wrench);
+  const Wrench<double> wrench = at->wrench.row(row).transpose();
+  const Equilibrium equilibrium =
+      settle_balanced(machine, row_of(at->q, row), wrench, at->joint_compliance);
   if (scene.has(tcp_position)) {
     at->prediction.channel[tcp_position].row(row) = equilibrium.tcp.position.transpose();
   }
@@ -43,21 +85,23 @@ void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index 
     at->bent[i] = forward_kinematics<double, 6>(elastic, equilibrium.q_link);
     at->jacobian[i] = geometric_jacobian<double, 6>(at->bent[i]);
     at->compliance[i] = tcp_compliance<double, 6>(elastic, at->bent[i]);
-    at->prediction.load.row(row) = (wrench_torque<double, 6>(at->jacobian[i], wrench) +
-                                    weight_torque<double, 6>(elastic, at->bent[i]))
-                                       .transpose();
+    at->prediction.load.row(row) =
+        (wrench_torque<double, 6>(at->jacobian[i], wrench) +
+         weight_torque<double, 6>(elastic, at->bent[i]) + balance(machine, equilibrium.q_link))
+            .transpose();
   }
 }
 
-/// Torque of inertia, weight and wrench that the drives must hold, at link angles `q`.
+/// Torque of inertia, weight, wrench and balancers that the drives must hold, at link angles `q`.
 Row drive_torque(const Machine& machine, const Scene& scene, const InverseDynamics& dynamics,
                  const Simulation& at, const Row& q, Eigen::Index row) {
-  const Row rigid = dynamics.torque(q, row_of(at.velocity, row), row_of(at.acceleration, row));
+  const Row rigid = dynamics.torque(q, row_of(at.velocity, row), row_of(at.acceleration, row)) -
+                    balance(machine, q);
   if (!scene.has_wrench) {
     return rigid;
   }
   const Kinematics<double, 6> straight = forward_kinematics<double, 6>(machine.robot.elastic, q);
-  const Wrench<double> wrench = scene.wrench.row(row).transpose();
+  const Wrench<double> wrench = at.wrench.row(row).transpose();
   return rigid - wrench_torque<double, 6>(geometric_jacobian<double, 6>(straight), wrench);
 }
 
@@ -103,6 +147,7 @@ void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Sim
 Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wanted) {
   Simulation at;
   move(machine, scene, &at);
+  correct_wrench(machine, scene, &at);
   const Eigen::Index n = scene.rows();
   for (const Channel channel : {tcp_position, joint_torque, joint_deflection}) {
     at.prediction.channel[channel] = Eigen::MatrixXd::Zero(n, scene.measured[channel].cols());

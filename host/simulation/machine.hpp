@@ -18,9 +18,10 @@ struct Prediction {
 
 /// A machine along a scene: motion, levers and springs at every row, and what follows from them.
 struct Simulation {
-  Eigen::MatrixXd q;                           ///< n×6, motors as the machine has them, rad
-  Eigen::MatrixXd velocity;                    ///< n×6, rad/s
-  Eigen::MatrixXd acceleration;                ///< n×6, rad/s²
+  Eigen::MatrixXd q;             ///< n×6, motors as the machine has them, rad
+  Eigen::MatrixXd velocity;      ///< n×6, rad/s
+  Eigen::MatrixXd acceleration;  ///< n×6, rad/s²
+  Eigen::MatrixXd wrench;        ///< n×6, on the tool, as the machine's sensor is believed
   std::vector<Kinematics<double, 6>> bent;     ///< links and TCP of the robot at rest under load
   std::vector<Jacobian<double, 6>> jacobian;   ///< of the TCP, bent
   std::vector<Compliance<double>> compliance;  ///< at the TCP, bent
@@ -41,6 +42,11 @@ struct Machine {
   JointVector<double, 6> encoder_offset =
       JointVector<double, 6>::Zero();                           ///< rad, q = reading + it
   JointVector<double, 6> lag = JointVector<double, 6>::Zero();  ///< s, behind the command
+  double wrench_delay = 0;  ///< s, by which the force sensor is late
+  /// What the force sensor's readings stand for, tool frame, one correction after another.
+  std::vector<std::function<Wrench<double>(const Wrench<double>& read)>> sensor;
+  /// Torques (N·m) in parallel to the drives, by the joint angles: gravity compensators.
+  std::vector<std::function<JointVector<double, 6>(const JointVector<double, 6>& q)>> balancers;
   std::vector<Term> terms;
 };
 

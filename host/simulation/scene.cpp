@@ -4,9 +4,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "error.hpp"
+#include "recording/noise.hpp"
 
 namespace flexcomp::simulation {
 namespace {
@@ -25,9 +27,33 @@ bool is_load_test(const Eigen::VectorXd& time) {
   return true;
 }
 
-/// Velocity and acceleration (2×6) at one row.
-Eigen::Matrix<double, 2, 6> local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
-                                         Eigen::Index row) {
+/// Motion at one row, and how much of the angles' noise gets into it.
+struct LocalMotion {
+  Eigen::Matrix<double, 2, 6> values;  ///< velocity, acceleration
+  Eigen::Vector2d gain;                ///< 1/s, 1/s²
+  Eigen::Matrix<int, 1, 6> stands;
+};
+
+/// A joint that stands still all the while has no speed, whatever a polynomial says.
+void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
+                   const Eigen::RowVectorXd& angle_noise, Eigen::Index first, Eigen::Index last,
+                   LocalMotion* motion) {
+  constexpr double kStanding = 1e-5;  // rad/s, far below any programmed motion
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    Eigen::Index standing = 0;
+    for (Eigen::Index i = first; i < last; ++i) {
+      const double moved = std::abs(q(i + 1, joint) - q(i, joint));
+      standing += moved <= kStanding * (time[i + 1] - time[i]) + 4 * angle_noise[joint] ? 1 : 0;
+    }
+    motion->stands[joint] = standing > 0 ? 1 : 0;
+    if (standing == last - first) {
+      motion->values.col(joint).setZero();
+    }
+  }
+}
+
+LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
+                         const Eigen::RowVectorXd& angle_noise, Eigen::Index row) {
   const Eigen::Index end = time.size() - 1;
   Eigen::Index first = row;
   Eigen::Index last = row;
@@ -38,6 +64,11 @@ Eigen::Matrix<double, 2, 6> local_motion(const Eigen::VectorXd& time, const reco
   while (last < end &&
          (last - row < kFewestNeighbours || time[last + 1] - time[row] <= kHalfWindow)) {
     ++last;
+  }
+  // At the ends of a recording one side makes up for the other.
+  while (last - first < 2 * kFewestNeighbours && (first > 0 || last < end)) {
+    first -= first > 0 && last == end ? 1 : 0;
+    last += last < end ? 1 : 0;
   }
   const double span = std::max(time[last] - time[row], time[row] - time[first]);
   Eigen::Matrix<double, kOrder + 1, kOrder + 1> gram;
@@ -58,13 +89,20 @@ Eigen::Matrix<double, 2, 6> local_motion(const Eigen::VectorXd& time, const reco
       ++used;
     }
   }
-  Eigen::Matrix<double, 2, 6> motion;
-  motion.setZero();
+  LocalMotion motion;
+  motion.values.setZero();
+  motion.gain.setZero();
   if (used > kOrder) {
-    const Eigen::Matrix<double, kOrder + 1, 6> fit = gram.ldlt().solve(moment);
-    motion.row(0) = fit.row(1) / span;
-    motion.row(1) = 2 * fit.row(2) / (span * span);
+    const auto factors = gram.ldlt();
+    const Eigen::Matrix<double, kOrder + 1, 6> fit = factors.solve(moment);
+    motion.values.row(0) = fit.row(1) / span;
+    motion.values.row(1) = 2 * fit.row(2) / (span * span);
+    const Eigen::Matrix<double, kOrder + 1, kOrder + 1> covariance =
+        factors.solve(Eigen::Matrix<double, kOrder + 1, kOrder + 1>::Identity());
+    motion.gain << std::sqrt(covariance(1, 1)) / span,
+        2 * std::sqrt(covariance(2, 2)) / (span * span);
   }
+  find_standing(time, q, angle_noise, first, last, &motion);
   return motion;
 }
 
@@ -143,10 +181,22 @@ Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
   const Eigen::Index n = scene.rows();
   scene.velocity = Eigen::MatrixXd::Zero(n, 6);
   scene.acceleration = Eigen::MatrixXd::Zero(n, 6);
+  scene.stands = Eigen::MatrixXi::Zero(n, 6);
+  Eigen::RowVectorXd angle_noise(6);
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    angle_noise[joint] = recording::encoder_noise(q.col(joint));
+  }
+  scene.velocity_noise = scene.acceleration_noise = Eigen::RowVectorXd::Zero(6);
   for (Eigen::Index i = 0; i < n && !scene.is_static; ++i) {
-    const auto motion = local_motion(recording.time, q, rows[static_cast<std::size_t>(i)]);
-    scene.velocity.row(i) = motion.row(0);
-    scene.acceleration.row(i) = motion.row(1);
+    const LocalMotion motion =
+        local_motion(recording.time, q, angle_noise, rows[static_cast<std::size_t>(i)]);
+    scene.velocity.row(i) = motion.values.row(0);
+    scene.acceleration.row(i) = motion.values.row(1);
+    scene.stands.row(i) = motion.stands;
+    if (i == n / 2) {
+      scene.velocity_noise = motion.gain[0] * angle_noise;
+      scene.acceleration_noise = motion.gain[1] * angle_noise;
+    }
   }
   scene.wrench = scene.has_wrench ? picked(*recording.wrench, rows) : Eigen::MatrixXd::Zero(n, 6);
   if (recording.temperature) {

@@ -25,7 +25,13 @@ struct Scene {
   Eigen::MatrixXd velocity;      ///< n×6, rad/s; zero in a static test
   Eigen::MatrixXd acceleration;  ///< n×6, rad/s²
   Eigen::MatrixXd wrench;        ///< n×6, zero where none was recorded
-  Eigen::VectorXd temperature;   ///< n, °C; empty where not recorded
+  /// n×6, 1 where a joint stands, starts or stops: friction may hold any torque up to break-away
+  /// there, so that its torque tells nothing.
+  Eigen::MatrixXi stands;
+  /// Standard deviations that the encoders' noise leaves in velocity (rad/s) and acceleration
+  /// (rad/s²) of each joint.
+  Eigen::RowVectorXd velocity_noise, acceleration_noise;
+  Eigen::VectorXd temperature;  ///< n, °C; empty where not recorded
   /// What was measured, by channel (n×3, n×6, n×6): no columns where not recorded, NaN where a
   /// sample is missing. Joint deflection is q_link − q_meas.
   std::array<Eigen::MatrixXd, 3> measured;

@@ -42,6 +42,7 @@ std::vector<Hypothesis> backlash(const Observations& observations) {
     hypothesis.statement = fmt::format("joint {} has play", joint);
     const double load = observations.largest_load(joint);
     if (load > 1) {
+      hypothesis.form = "load";
       hypothesis.parameters = {{"gap", "rad", 0, 0.05, 1e-4},
                                {"hold", "N·m", 1e-3 * load, 0.3 * load, 1e-3 * load}};
       hypothesis.starts.clear();
@@ -54,6 +55,7 @@ std::vector<Hypothesis> backlash(const Observations& observations) {
       all.push_back(hypothesis);
     }
     if (!observations.is_static) {
+      hypothesis.form = "motion";
       hypothesis.parameters = {{"gap", "rad", 0, 0.05, 1e-4}};
       hypothesis.starts = {{}};
       hypothesis.apply = [joint](const Values& values, Machine* machine) {

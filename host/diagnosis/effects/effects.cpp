@@ -31,21 +31,27 @@ void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction
   }
 }
 
-simulation::Term sensor(std::function<Wrench<double>(const Wrench<double>& read)> truth) {
-  return {
-      simulation::Term::wrench,
-      [truth = std::move(truth)](const Scene& scene, const Simulation& at, Prediction* prediction) {
-        Eigen::MatrixXd change(scene.rows(), 6);
-        for (Eigen::Index row = 0; row < scene.rows(); ++row) {
-          const Matrix3<double>& tool = at.bent[static_cast<std::size_t>(row)].tcp.rotation;
-          Wrench<double> read;
-          read << tool.transpose() * scene.wrench.row(row).head<3>().transpose(),
-              tool.transpose() * scene.wrench.row(row).tail<3>().transpose();
-          const Wrench<double> gap = truth(read) - read;
-          change.row(row) << (tool * gap.head<3>()).transpose(), (tool * gap.tail<3>()).transpose();
-        }
-        add_wrench(at, change, prediction);
-      }};
+void set_sensor(SensorModel truth, Hypothesis* hypothesis) {
+  hypothesis->alters_model = true;
+  hypothesis->apply = [truth](const Values& values, Machine* machine) {
+    machine->sensor.emplace_back([=](const Wrench<double>& read) { return truth(values, read); });
+  };
+  hypothesis->sketch = [truth](const Values& values) {
+    return simulation::Term{
+        simulation::Term::wrench, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+          Eigen::MatrixXd change(at.wrench.rows(), 6);
+          for (Eigen::Index row = 0; row < change.rows(); ++row) {
+            const Matrix3<double>& tool = at.bent[static_cast<std::size_t>(row)].tcp.rotation;
+            Wrench<double> read;
+            read << tool.transpose() * at.wrench.row(row).head<3>().transpose(),
+                tool.transpose() * at.wrench.row(row).tail<3>().transpose();
+            const Wrench<double> gap = truth(values, read) - read;
+            change.row(row) << (tool * gap.head<3>()).transpose(),
+                (tool * gap.tail<3>()).transpose();
+          }
+          add_wrench(at, change, prediction);
+        }};
+  };
 }
 
 std::vector<Values> ripple_orders(const Observations& observations, int joint,
@@ -78,11 +84,12 @@ std::vector<Values> ripple_orders(const Observations& observations, int joint,
   }
   std::sort(found.begin(), found.end());
   std::vector<Values> orders;
-  for (const auto& [explained, order] : found) {
+  for (const std::pair<double, double>& each : found) {
+    const double order = each.second;
     const bool is_new = std::all_of(orders.begin(), orders.end(), [&](const Values& other) {
       return std::abs(other[0] - order) > 2.5 * spacing;
     });
-    if (is_new && orders.size() < kMost && std::isfinite(explained)) {
+    if (is_new && orders.size() < kMost && std::isfinite(each.first)) {
       orders.push_back({order});
     }
   }

@@ -51,8 +51,11 @@ void add_load_driven(const Simulation& simulation, int joint,
 /// Adds a torque (n, N·m) of a joint's drive.
 void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction);
 
-/// The machine's force sensor: `truth` gives the wrench, tool frame, from what it reads.
-simulation::Term sensor(std::function<Wrench<double>(const Wrench<double>& read)> truth);
+/// What a force sensor's reading stands for, tool frame, by an effect's values.
+using SensorModel = std::function<Wrench<double>(const Values&, const Wrench<double>& read)>;
+
+/// Completes a hypothesis about the force sensor.
+void set_sensor(SensorModel truth, Hypothesis* hypothesis);
 
 /// Orders (periods a turn) whose sinusoids of a joint's angle explain most, the best first; none
 /// where fewer than two periods of any would be seen.

@@ -4,24 +4,27 @@ namespace flexcomp::diagnosis {
 
 namespace {
 
-/// values: stiffness torque K, pull torque P, anchor ratio r, zero angle.
+/// Torque by the joint's angle; values: stiffness torque K, pull torque P, anchor ratio r, zero
+/// angle.
+double balancing_torque(const Values& values, double q) {
+  const double lean = q + values[3];
+  const double length = std::sqrt(1 + values[2] * values[2] - 2 * values[2] * std::cos(lean));
+  return -std::sin(lean) * (values[0] + values[1] / length);
+}
+
+/// To first order: the drives and springs carry so much less.
 simulation::Term balancer(int joint, const Values& values) {
   return {simulation::Term::wrench,
           [=](const Scene&, const Simulation& at, Prediction* prediction) {
             const Eigen::Index column = joint - 1;
-            const Eigen::ArrayXd lean = at.q.col(column).array() + values[3];
-            const Eigen::ArrayXd length =
-                (1 + values[2] * values[2] - 2 * values[2] * lean.cos()).sqrt();
-            const Eigen::VectorXd torque = -lean.sin() * (values[0] + values[1] / length);
-            const Eigen::VectorXd angle = at.joint_compliance[column] * torque;
-            add_joint_angle(at, joint, angle, prediction);
+            const Eigen::VectorXd torque =
+                at.q.col(column).unaryExpr([&](double q) { return balancing_torque(values, q); });
+            add_joint_angle(at, joint, at.joint_compliance[column] * torque, prediction);
             prediction->load.col(column) += torque;
             if (prediction->dynamic_load.cols() > 0) {
               prediction->dynamic_load.col(column) += torque;
             }
-            if (prediction->channel[simulation::joint_torque].cols() > 0) {
-              add_torque(joint, -torque, prediction);
-            }
+            add_torque(joint, -torque, prediction);
           }};
 }
 
@@ -52,9 +55,15 @@ std::vector<Hypothesis> gravity_compensator(const Observations& observations) {
       }
     }
     hypothesis.statement = fmt::format("a balancer acts on joint {}", joint);
+    hypothesis.alters_model = true;
     hypothesis.apply = [joint](const Values& values, Machine* machine) {
-      machine->terms.push_back(balancer(joint, values));
+      machine->balancers.emplace_back([joint, values](const JointVector<double, 6>& q) {
+        JointVector<double, 6> torque = JointVector<double, 6>::Zero();
+        torque[joint - 1] = balancing_torque(values, q[joint - 1]);
+        return torque;
+      });
     };
+    hypothesis.sketch = [joint](const Values& values) { return balancer(joint, values); };
     all.push_back(hypothesis);
   }
   return all;

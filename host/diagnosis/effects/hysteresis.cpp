@@ -27,6 +27,7 @@ std::vector<Hypothesis> hysteresis(const Observations& observations) {
     }
     hypothesis.statement = fmt::format("joint {} has a loop in its torque-deflection curve", joint);
     for (const auto loop : {simulation::bouc_wen, simulation::prandtl_ishlinskii}) {
+      hypothesis.form = loop == simulation::bouc_wen ? "bouc_wen" : "prandtl_ishlinskii";
       hypothesis.apply = [joint, loop](const Values& values, Machine* machine) {
         machine->terms.push_back({simulation::Term::load,
                                   [=](const Scene&, const Simulation& at, Prediction* prediction) {

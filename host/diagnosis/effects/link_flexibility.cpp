@@ -37,7 +37,7 @@ simulation::Term bending_beam(const RobotModel<double, 6>& robot, int joint, dou
       const Vector3<double> middle = frame.position + frame.rotation * (0.5 * beam);
       Vector3<double> force;
       Vector3<double> moment;
-      load_beyond(robot, bent, scene.wrench.row(row).transpose(), link, middle, &force, &moment);
+      load_beyond(robot, bent, at.wrench.row(row).transpose(), link, middle, &force, &moment);
       const Matrix3<double> base = frame.rotation * across * frame.rotation.transpose();
       const Vector3<double> turn = compliance * base * moment;
       const Vector3<double> shift = compliance * length * length / 12 * base * force;
@@ -73,6 +73,7 @@ std::vector<Hypothesis> link_flexibility(const Observations& observations) {
       hypothesis.parameters.push_back(
           {fmt::format("bending_{}", "xyz"[axis]), "rad/(N·m)", 0, 1e-4, 1e-7});
     }
+    hypothesis.form = "springs";
     hypothesis.linear = 2;
     hypothesis.alters_model = true;
     hypothesis.apply = [index, first = across[0], second = across[1]](const Values& values,
@@ -86,6 +87,7 @@ std::vector<Hypothesis> link_flexibility(const Observations& observations) {
       continue;
     }
     hypothesis.parameters = {{"beam", "rad/(N·m)", 0, 1e-4, 1e-7}};
+    hypothesis.form = "beam";
     hypothesis.linear = 1;
     hypothesis.alters_model = false;
     hypothesis.apply = [joint](const Values& values, Machine* machine) {

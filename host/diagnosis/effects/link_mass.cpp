@@ -39,6 +39,7 @@ std::vector<Hypothesis> link_mass(const Observations& observations) {
     hypothesis.alters_model = true;
     if (mass > 0) {
       hypothesis.parameters = {{"mass", "kg", -0.95 * mass, 10 * mass, 0.1 * mass}};
+      hypothesis.form = "body";
       hypothesis.linear = 1;
       hypothesis.apply = [index](const Values& values, Machine* machine) {
         Joint<double>& link = machine->robot.elastic.joints[index];
@@ -51,6 +52,7 @@ std::vector<Hypothesis> link_mass(const Observations& observations) {
                              {"mx", "kg·m", -1000, 1000, 1},
                              {"my", "kg·m", -1000, 1000, 1},
                              {"mz", "kg·m", -1000, 1000, 1}};
+    hypothesis.form = "mounted";
     hypothesis.linear = 4;
     hypothesis.apply = [index](const Values& values, Machine* machine) {
       mount(values[0], {values[1], values[2], values[3]}, index, &machine->robot);

@@ -19,7 +19,7 @@ std::vector<Hypothesis> nonlinear_stiffness(const Observations& observations) {
         observations.machine.robot.elastic.joints[static_cast<std::size_t>(joint - 1)].compliance;
     const double size = known / (load * load);
     hypothesis.parameters = {
-        {"cubic_compliance", "rad/(N·m)^3", -0.34 * size, 1e3 * size, 0.1 * size}};
+        {"cubic_compliance", "rad/(N·m)^3", -2 * size, 1e3 * size, 0.1 * size}};
     hypothesis.linear = 1;
     hypothesis.alters_model = true;
     hypothesis.statement = fmt::format("joint {} winds up out of proportion to its torque", joint);

@@ -93,6 +93,7 @@ std::vector<Hypothesis> resonance(const Observations& observations) {
     hypothesis.joint = joint;
     hypothesis.parameters = {{"frequency", "Hz", 0.5, 300, 0.1}, {"damping", "1", 1e-3, 0.5, 0.01}};
     hypothesis.linear = 0;
+    hypothesis.is_sought = true;
     hypothesis.starts = resonant_modes(observations, joint);
     hypothesis.statement = fmt::format("joint {} vibrates in a lightly damped mode", joint);
     hypothesis.apply = [joint](const Values& values, Machine* machine) {

@@ -17,6 +17,7 @@ std::vector<Hypothesis> servo_lag(const Observations& observations) {
     hypothesis.parameters = {{"time_constant", "s", 0, 1, 0.01}};
     hypothesis.linear = 1;
     hypothesis.alters_model = true;
+    hypothesis.is_curved = true;
     hypothesis.statement = joint == 0 ? "the joints follow their command late"
                                       : fmt::format("joint {} follows its command late", joint);
     hypothesis.apply = [joint](const Values& values, Machine* machine) {

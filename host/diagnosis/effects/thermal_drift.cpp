@@ -31,6 +31,7 @@ std::vector<Hypothesis> thermal_drift(const Observations& observations) {
   hypothesis.effect = "thermal_drift";
   hypothesis.parameters = {
       {"x", unit, -0.1, 0.1, step}, {"y", unit, -0.1, 0.1, step}, {"z", unit, -0.1, 0.1, step}};
+  hypothesis.form = by_temperature ? "temperature" : "time";
   hypothesis.linear = 3;
   hypothesis.statement = "the structure grows as it warms";
   if (!by_temperature) {

@@ -24,7 +24,7 @@ simulation::Term late_wrench(double delay) {
   return {simulation::Term::wrench,
           [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
             if (!scene.is_static) {
-              add_wrench(at, simulation::delayed(scene.time, scene.wrench, -delay) - scene.wrench,
+              add_wrench(at, simulation::delayed(scene.time, at.wrench, -delay) - at.wrench,
                          prediction);
             }
           }};
@@ -48,6 +48,7 @@ std::vector<Hypothesis> time_offset(const Observations& observations) {
     if (observations.has(channel)) {
       hypothesis.statement = fmt::format(
           "the clock of the {} disagrees with that of the joint angles", clock_name(channel));
+      hypothesis.form = simulation::kChannels[channel];
       hypothesis.apply = [channel](const Values& values, Machine* machine) {
         machine->terms.push_back(late_channel(channel, values[0]));
       };
@@ -56,15 +57,18 @@ std::vector<Hypothesis> time_offset(const Observations& observations) {
   }
   if (observations.has_wrench()) {
     hypothesis.statement = "the clock of the force sensor disagrees with that of the joint angles";
+    hypothesis.form = "wrench";
     hypothesis.linear = 0;
     hypothesis.starts.clear();
     for (double delay = 1e-3; delay < 0.1; delay *= 1.35) {
       hypothesis.starts.push_back({delay});
       hypothesis.starts.push_back({-delay});
     }
+    hypothesis.alters_model = true;
     hypothesis.apply = [](const Values& values, Machine* machine) {
-      machine->terms.push_back(late_wrench(values[0]));
+      machine->wrench_delay += values[0];
     };
+    hypothesis.sketch = [](const Values& values) { return late_wrench(values[0]); };
     all.push_back(hypothesis);
   }
   return all;

@@ -18,6 +18,7 @@ std::vector<Hypothesis> torque_ripple(const Observations& observations) {
                              {"cosine", "N·m", -100 * size, 100 * size, size},
                              {"order", "1", 1, 1000, 0.5}};
     hypothesis.linear = 2;
+    hypothesis.is_sought = true;
     hypothesis.starts = ripple_orders(observations, joint, observations.torque_residual(joint));
     hypothesis.statement = fmt::format("the torque of joint {} has a periodic part", joint);
     hypothesis.apply = [joint](const Values& values, Machine* machine) {

@@ -18,6 +18,7 @@ std::vector<Hypothesis> transmission_ripple(const Observations& observations) {
                              {"cosine", "rad", -0.01, 0.01, 1e-4},
                              {"order", "1", 1, 1000, 0.5}};
     hypothesis.linear = 2;
+    hypothesis.is_sought = true;
     hypothesis.starts = ripple_orders(observations, joint, observations.angle_residual(joint));
     hypothesis.statement = fmt::format("the gear of joint {} has a periodic error", joint);
     hypothesis.apply = [joint](const Values& values, Machine* machine) {

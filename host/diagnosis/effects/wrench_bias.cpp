@@ -17,11 +17,11 @@ std::vector<Hypothesis> wrench_bias(const Observations& observations) {
   }
   hypothesis.linear = 6;
   hypothesis.statement = "the force sensor has another zero";
-  hypothesis.apply = [](const Values& values, Machine* machine) {
-    const Wrench<double> bias = Eigen::Map<const Wrench<double>>(values.data());
-    machine->terms.push_back(
-        sensor([bias](const Wrench<double>& read) { return Wrench<double>(read - bias); }));
-  };
+  set_sensor(
+      [](const Values& values, const Wrench<double>& read) {
+        return Wrench<double>(read - Eigen::Map<const Wrench<double>>(values.data()));
+      },
+      &hypothesis);
   return {hypothesis};
 }
 

@@ -18,18 +18,20 @@ std::vector<Hypothesis> wrench_frame(const Observations& observations) {
   }
   hypothesis.linear = 3;
   hypothesis.statement = "the force sensor is mounted turned";
-  hypothesis.apply = [](const Values& values, Machine* machine) {
-    const Vector3<double> turn(values[0], values[1], values[2]);
-    const double angle = turn.norm();
-    const Matrix3<double> back = angle > 0
-                                     ? Eigen::AngleAxisd(-angle, turn / angle).toRotationMatrix()
-                                     : Matrix3<double>::Identity();
-    machine->terms.push_back(sensor([back](const Wrench<double>& read) {
-      Wrench<double> truth;
-      truth << back * read.head<3>(), back * read.tail<3>();
-      return truth;
-    }));
-  };
+  hypothesis.is_curved = true;
+  set_sensor(
+      [](const Values& values, const Wrench<double>& read) {
+        const Vector3<double> turn(values[0], values[1], values[2]);
+        const double angle = turn.norm();
+        if (!(angle > 0)) {
+          return read;
+        }
+        const Matrix3<double> back = Eigen::AngleAxisd(-angle, turn / angle).toRotationMatrix();
+        Wrench<double> truth;
+        truth << back * read.head<3>(), back * read.tail<3>();
+        return truth;
+      },
+      &hypothesis);
   return {hypothesis};
 }
 

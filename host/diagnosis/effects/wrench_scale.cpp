@@ -12,11 +12,9 @@ std::vector<Hypothesis> wrench_scale(const Observations& observations) {
   hypothesis.parameters = {{"gain_error", "1", -0.9, 5, 0.05}};
   hypothesis.linear = 1;
   hypothesis.statement = "the force sensor has another gain";
-  hypothesis.apply = [](const Values& values, Machine* machine) {
-    const double gain = 1 + values[0];
-    machine->terms.push_back(
-        sensor([gain](const Wrench<double>& read) { return Wrench<double>(read / gain); }));
-  };
+  set_sensor([](const Values& values,
+                const Wrench<double>& read) { return Wrench<double>(read / (1 + values[0])); },
+             &hypothesis);
   return {hypothesis};
 }
 

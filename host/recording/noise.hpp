@@ -2,11 +2,16 @@
 
 #include <Eigen/Core>
 
-namespace flexcomp::diagnosis {
+namespace flexcomp::recording {
 
 /// Standard deviation of the noise in a signal that is otherwise smooth from row to row, by the
-/// median size of its third differences, which leave √20 of white noise. NaN rows are missing.
-double white_noise(const Eigen::VectorXd& signal);
+/// median size of its third differences, which leave √20 of white noise. NaN rows are missing. With
+/// a stride beyond the memory of coloured noise, that noise counts too.
+double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride = 1);
+
+/// The same for a signal that is nearly noiseless, an encoder's: by sixth differences, which leave
+/// less of the motion and √924 of white noise.
+double encoder_noise(const Eigen::VectorXd& angle);
 
 /// 1.4826 times the median size: the standard deviation of a normal distribution, outliers or not.
 double robust_deviation(const Eigen::VectorXd& values);
@@ -18,4 +23,4 @@ bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise)
 /// of neighbours (first-order autoregression; Bayley and Hammersley 1946).
 double effective_samples(double count, double correlation);
 
-}  // namespace flexcomp::diagnosis
+}  // namespace flexcomp::recording

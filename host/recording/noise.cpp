@@ -1,10 +1,10 @@
-#include "diagnosis/noise.hpp"
+#include "recording/noise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace flexcomp::diagnosis {
+namespace flexcomp::recording {
 namespace {
 
 double median(std::vector<double>* values) {
@@ -28,15 +28,28 @@ double robust_deviation(const Eigen::VectorXd& values) {
   return 1.4826 * median(&sizes);
 }
 
-double white_noise(const Eigen::VectorXd& signal) {
+double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride) {
   constexpr Eigen::Index kFewest = 12;
-  if (signal.size() < kFewest) {
+  const Eigen::Index n = signal.size() - 3 * stride;
+  if (n < kFewest - 3) {
     return robust_deviation(signal);
   }
-  const Eigen::Index n = signal.size() - 3;
-  return robust_deviation(signal.segment(3, n) - 3 * signal.segment(2, n) +
-                          3 * signal.segment(1, n) - signal.head(n)) /
+  return robust_deviation(signal.tail(n) - 3 * signal.segment(2 * stride, n) +
+                          3 * signal.segment(stride, n) - signal.head(n)) /
          std::sqrt(20.0);
+}
+
+double encoder_noise(const Eigen::VectorXd& angle) {
+  constexpr Eigen::Index kOrder = 6;
+  if (angle.size() < 2 * kOrder) {
+    return 0;
+  }
+  Eigen::VectorXd difference = angle;
+  for (Eigen::Index order = 0; order < kOrder; ++order) {
+    const Eigen::Index n = difference.size() - 1;
+    difference = (difference.tail(n) - difference.head(n)).eval();
+  }
+  return robust_deviation(difference) / std::sqrt(924.0);
 }
 
 bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise) {
@@ -64,4 +77,4 @@ double effective_samples(double count, double correlation) {
   return std::max(count * (1 - bounded) / (1 + bounded), 3.0);
 }
 
-}  // namespace flexcomp::diagnosis
+}  // namespace flexcomp::recording

@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "diagnosis/diagnosis.hpp"
+#include "error.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kForce = 1000;  // N, a load test's
+
+/// Something that could be recorded, and how a person would be told to.
+struct Experiment {
+  std::string description;
+  recording::Recording recording;
+};
+
+/// Poses within the middle of the joint limits, each under a force along and against an axis.
+std::vector<Experiment> load_tests(const model::Robot& robot) {
+  constexpr int kPoses = 12;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> within(0.2, 0.8);
+  std::vector<Experiment> all;
+  for (int pose = 0; pose < kPoses; ++pose) {
+    Eigen::RowVectorXd q(6);
+    for (Eigen::Index joint = 0; joint < 6; ++joint) {
+      const Joint<double>& limits = robot.elastic.joints[static_cast<std::size_t>(joint)];
+      q[joint] = limits.lower + within(random) * (limits.upper - limits.lower);
+    }
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      Experiment experiment;
+      recording::Recording& recording = experiment.recording;
+      recording.time = Eigen::VectorXd::LinSpaced(4, 0, 3);
+      recording.q_meas = recording::Samples(q.replicate(4, 1));
+      recording.wrench = recording::Samples(recording::Samples::Zero(4, 6));
+      recording.wrench->col(axis) << kForce, -kForce, 0.5 * kForce, -0.5 * kForce;
+      experiment.description = fmt::format(
+          "a load test with {:.0f} and {:.0f} N along and against {} at the joint angles {:.2f}, "
+          "{:.2f}, {:.2f}, {:.2f}, {:.2f}, {:.2f} rad",
+          0.5 * kForce, kForce, "xyz"[axis], q[0], q[1], q[2], q[3], q[4], q[5]);
+      all.push_back(std::move(experiment));
+    }
+  }
+  return all;
+}
+
+/// One joint at a time to and fro about where the recording began, slowly and fast.
+std::vector<Experiment> motions(const Scene& scene) {
+  constexpr double kSwing = 0.3;  // rad
+  constexpr Eigen::Index kRows = 600;
+  std::vector<Experiment> all;
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    for (const double speed : {0.02, 0.1, 0.5}) {
+      Experiment experiment;
+      recording::Recording& recording = experiment.recording;
+      const double omega = speed / kSwing;
+      recording.time = Eigen::VectorXd::LinSpaced(kRows, 0, 4 * M_PI / omega);
+      recording.q_meas = recording::Samples(scene.q.row(0).replicate(kRows, 1));
+      recording.q_meas->col(joint).array() += kSwing * (omega * recording.time.array()).sin();
+      experiment.description = fmt::format(
+          "joint {} alone to and fro in both directions by {:.1f} rad, at up to {} "
+          "rad/s",
+          joint + 1, kSwing, speed);
+      all.push_back(std::move(experiment));
+    }
+  }
+  return all;
+}
+
+std::vector<Experiment> experiments(const Observations& observations) {
+  std::vector<Experiment> all = load_tests(observations.machine.robot);
+  for (Experiment& motion : motions(observations.scenes.front())) {
+    all.push_back(std::move(motion));
+  }
+  for (Experiment& experiment : all) {
+    recording::Recording& recording = experiment.recording;
+    const auto nothing = [&](Eigen::Index columns) {
+      return recording::Samples(recording::Samples::Zero(recording.size(), columns));
+    };
+    if (observations.has(simulation::tcp_position)) {
+      recording.position = nothing(3);
+    }
+    if (observations.has(simulation::joint_torque)) {
+      recording.tau = nothing(6);
+    }
+    if (observations.has(simulation::joint_deflection)) {
+      recording.q_link = nothing(6);
+    }
+  }
+  return all;
+}
+
+/// Root mean square noise of each channel.
+std::array<double, 3> noises(const Observations& observations) {
+  std::array<double, 3> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto channel = static_cast<Channel>(i);
+    all[i] = observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
+  }
+  return all;
+}
+
+/// Largest difference of two machines' predictions over the noise, and where.
+double separation(const Machine& first, const Machine& second, const Scene& scene,
+                  const std::array<double, 3>& noise, std::string* where) {
+  const Prediction a = with_terms(first.terms, scene, simulate(first, scene));
+  const Prediction b = with_terms(second.terms, scene, simulate(second, scene));
+  double most = 0;
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    if (noise[i] > 0 && a.channel[i].cols() > 0) {
+      const double apart = (a.channel[i] - b.channel[i]).cwiseAbs().maxCoeff();
+      if (apart / noise[i] > most) {
+        most = apart / noise[i];
+        *where = fmt::format("{:.2g} {}", apart, simulation::kChannelUnits[i]);
+      }
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+std::string suggest_experiment(const Observations& observations, const Diagnosis& diagnosis,
+                               std::size_t finding) {
+  const Finding& found = diagnosis.choice.findings[finding];
+  if (found.alternatives.empty()) {
+    return "";
+  }
+  std::vector<Chosen> rivals = found.without.chosen;
+  rivals.push_back(found.alternatives.front().chosen);
+  const Machine rival = machine_with(observations, rivals);
+  const std::array<double, 3> noise = noises(observations);
+  double most = 1;
+  std::string text;
+  for (const Experiment& experiment : experiments(observations)) {
+    simulation::Preparation preparation;
+    const Scene scene =
+        simulation::prepare(experiment.recording, experiment.recording.size(), &preparation);
+    std::string where;
+    try {
+      const double apart = separation(diagnosis.choice.fit.machine, rival, scene, noise, &where);
+      if (apart > most) {
+        most = apart;
+        text = fmt::format(
+            "Record {}: as fitted so far, {} and {} differ there by up to {}, {:.0f} times the "
+            "noise.",
+            experiment.description, diagnosis.choice.fit.chosen[finding].hypothesis->effect,
+            found.alternatives.front().effect, where, apart);
+      }
+    } catch (const InputError&) {
+      continue;  // a pose in which the robot would not bear the load
+    }
+  }
+  return text;
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,194 @@
+#include "diagnosis/report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "diagnosis/parameters.hpp"
+#include "diagnosis/report_pictures.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr const char* kStyle =
+    "body{font-family:sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#222}"
+    "table{border-collapse:collapse}td,th{padding:.3em .8em;text-align:left;vertical-align:top;"
+    "border-bottom:1px solid #ddd}svg{max-width:100%;height:auto}.lead{font-size:1.2em}"
+    "h2{margin-top:1.6em}";
+
+std::string escaped(const std::string& text) {
+  std::string html;
+  for (const char c : text) {
+    html += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return html;
+}
+
+std::string channel_rows(const Observations& observations, const Eigen::VectorXd& after) {
+  std::string rows;
+  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
+    const auto channel = static_cast<Channel>(i);
+    if (!observations.has(channel)) {
+      continue;
+    }
+    const auto rms = [&](const Eigen::VectorXd& values, bool held_out) {
+      return shown(channel, observations.rms(values, channel, held_out));
+    };
+    rows += fmt::format(
+        "<tr><td>{}, {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td>"
+        "<td>{:.3g}</td></tr>\n",
+        simulation::kChannels[i], shown_unit(channel),
+        rms(Eigen::VectorXd::Ones(observations.size()), false), rms(observations.residual, false),
+        rms(after, false), rms(observations.residual, true), rms(after, true));
+  }
+  return "<table><tr><th>channel</th><th>noise</th><th>before, fitted</th><th>after, fitted</th>"
+         "<th>before, held out</th><th>after, held out</th></tr>\n" +
+         rows + "</table>\n";
+}
+
+std::string finding_rows(const Observations& observations, const Diagnosis& diagnosis) {
+  std::string rows;
+  for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
+    const Finding& finding = diagnosis.choice.findings[i];
+    const Hypothesis& hypothesis = *diagnosis.choice.fit.chosen[i].hypothesis;
+    std::string values;
+    for (const Estimate& each : estimates(observations, diagnosis.choice.fit, i)) {
+      const std::string deviation =
+          std::isfinite(each.deviation) ? fmt::format(" ± {:.1g}", 1.96 * each.deviation) : "";
+      const std::string unit = each.unit == "1" ? "" : " " + each.unit;
+      values += fmt::format("{} = {:.4g}{}{}<br>", each.name, each.value, deviation, unit);
+    }
+    std::string others;
+    for (const Alternative& other : finding.alternatives) {
+      others += fmt::format("{}: {:.0f} worse<br>", place_name(other.effect, other.joint),
+                            other.delta_bic);
+    }
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.1g}</td><td>{}</td></tr>\n",
+        place_name(hypothesis.effect, hypothesis.joint), values, finding.evidence.delta_bic,
+        finding.evidence.p_value, others.empty() ? "none comes near" : others);
+  }
+  if (rows.empty()) {
+    return "<p>No effect is proved.</p>\n";
+  }
+  return "<table><tr><th>finding</th><th>parameters, ± 95 %</th><th>evidence, BIC</th>"
+         "<th>by chance</th><th>next best</th></tr>\n" +
+         rows + "</table>\n";
+}
+
+template <typename List, typename Text>
+std::string joined(const List& list, const Text& text) {
+  std::string all;
+  for (const auto& each : list) {
+    all += (all.empty() ? "" : ", ") + text(each);
+  }
+  return all.empty() ? "none stands out" : all;
+}
+
+std::string location_table(const Location& location) {
+  const auto number = [](auto value) { return fmt::format("{:.4g}", static_cast<double>(value)); };
+  std::string rows = fmt::format(
+      "<tr><th>joints</th><td>{}</td></tr>\n<tr><th>axes</th><td>{}</td></tr>\n"
+      "<tr><th>time</th><td>{}</td></tr>\n<tr><th>frequency</th><td>{}</td></tr>\n",
+      joined(location.joints, number),
+      joined(location.axes, [](const std::string& axis) { return axis; }),
+      joined(location.time,
+             [&](const auto& stretch) {
+               return number(stretch.first) + " to " + number(stretch.second) + " s";
+             }),
+      joined(location.frequency_hz, [&](double hertz) { return number(hertz) + " Hz"; }));
+  for (const Correlate& each : location.correlates_with) {
+    rows += fmt::format("<tr><th>goes with</th><td>{}: {:.0f} % of its power</td></tr>\n", each.cue,
+                        100 * each.share);
+  }
+  return fmt::format(
+      "<table>\n{}</table>\n<p>{} places were looked at; what stands here is "
+      "significant at 1 % with that counted.</p>\n",
+      rows, location.places);
+}
+
+std::string quality_table(const Observations& observations, const Diagnosis& diagnosis,
+                          const std::vector<Quality>& qualities) {
+  std::string html =
+      "<table><tr><th>recording</th><th>rows</th><th>incomplete</th><th>used</th>"
+      "<th>median step, s</th><th>largest gap, s</th></tr>\n";
+  for (const Quality& each : qualities) {
+    const simulation::Preparation& done = each.preparation;
+    html += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>one in {}</td><td>{:.4g}</td>"
+        "<td>{:.4g}</td></tr>\n",
+        escaped(each.file), done.rows, done.incomplete, done.kept_each, done.median_step,
+        done.largest_gap);
+  }
+  html += fmt::format(
+      "</table>\n<p>{} samples stood alone, far from their neighbours, and were "
+      "left out.</p>\n",
+      observations.outliers);
+  for (const ClockCheck& clock : diagnosis.clocks) {
+    html += fmt::format("<p>Clock of {}: late by {:.2f} ± {:.2f} ms (95 %).</p>\n", clock.group,
+                        1e3 * clock.delay, 1.96e3 * clock.deviation);
+  }
+  html +=
+      "<table><tr><th>joint</th><th>moves over, rad</th><th>up to, rad/s</th>"
+      "<th>load up to, N·m</th></tr>\n";
+  for (int joint = 1; joint <= 6; ++joint) {
+    html += fmt::format("<tr><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></tr>\n",
+                        joint, observations.range(joint), observations.largest_speed(joint),
+                        observations.largest_load(joint));
+  }
+  return html + "</table>\n";
+}
+
+std::string groups(const Diagnosis& diagnosis) {
+  std::string html;
+  for (const std::vector<Place>& group : diagnosis.indistinguishable) {
+    html += "<p>" + joined(group, [](const Place& p) { return place_name(p.effect, p.joint); }) +
+            "</p>\n";
+  }
+  return html.empty() ? "<p>Nothing that matters.</p>\n" : html;
+}
+
+}  // namespace
+
+std::string to_html(const Observations& observations, const Diagnosis& diagnosis,
+                    const std::vector<Quality>& qualities) {
+  const Eigen::VectorXd& after = diagnosis.choice.fit.remainder;
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis</title>\n"
+      "<style>{}</style></head><body>\n<h1>Diagnosis of {}</h1>\n<p class=\"lead\">{}</p>\n"
+      "<p>Verdict: <b>{}</b>{}</p>\n",
+      kStyle, escaped(observations.machine.robot.name), escaped(headline(observations, diagnosis)),
+      diagnosis.verdict, diagnosis.reason.empty() ? "" : " (" + diagnosis.reason + ")");
+  html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
+  html += "<h2>Residual</h2>\n" + channel_rows(observations, after);
+  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
+    const auto channel = static_cast<Channel>(i);
+    if (observations.has(channel)) {
+      html += fmt::format("<h3>{}</h3>\n{}\n", simulation::kChannels[i],
+                          time_picture(observations, after, channel));
+    }
+  }
+  if (observations.has(simulation::tcp_position) && !observations.is_static) {
+    html += "<h3>along the path</h3>\n" + path_picture(observations, after);
+  }
+  html += "<h2>Where the mismatch is</h2>\n" + location_table(diagnosis.location);
+  if (!diagnosis.reason.empty()) {
+    html += "<h2>Where what is left is</h2>\n" + location_table(diagnosis.left);
+  }
+  if (!diagnosis.nearest.empty()) {
+    html += "<p>Nearest to it, without proof: " +
+            joined(diagnosis.nearest,
+                   [](const Place& place) { return place_name(place.effect, place.joint); }) +
+            ".</p>\n";
+  }
+  html += "<h2>Hypotheses</h2>\n" + ranking_picture(diagnosis.choice.ranking);
+  html += "<h2>What cannot be told apart</h2>\n" + groups(diagnosis);
+  html += "<h2>What to record next</h2>\n<p>" +
+          (diagnosis.suggested_experiment.empty() ? "Nothing is open that a recording would settle."
+                                                  : escaped(diagnosis.suggested_experiment)) +
+          "</p>\n";
+  html += "<h2>Data</h2>\n" + quality_table(observations, diagnosis, qualities);
+  return html + "</body></html>\n";
+}
+
+}  // namespace flexcomp::diagnosis

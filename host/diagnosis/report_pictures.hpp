@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// Size of the residual along the time of the first recording, before and after (SVG).
+std::string time_picture(const Observations& observations, const Eigen::VectorXd& after,
+                         Channel channel);
+
+/// Root mean square of the TCP's residual along the path angle of the first recording (SVG).
+std::string path_picture(const Observations& observations, const Eigen::VectorXd& after);
+
+/// What each effect would explain alone, as bars (SVG); empty without any.
+std::string ranking_picture(const std::vector<Ranked>& ranking);
+
+/// "joint_stiffness, joint 2"
+std::string place_name(const std::string& effect, int joint);
+
+/// A value of a channel in the unit that people read: µm, N·m, µrad.
+double shown(Channel channel, double value);
+std::string shown_unit(Channel channel);
+
+}  // namespace flexcomp::diagnosis

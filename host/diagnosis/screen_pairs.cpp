@@ -1,0 +1,119 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/dictionary.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr std::size_t kMostPromising = 80;
+
+/// Bounded least squares of two entries, from products that are known already.
+class PairSolver {
+ public:
+  PairSolver(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+             const Dictionary& dictionary)
+      : hypotheses_(hypotheses), dictionary_(dictionary) {
+    const auto target = observations.residual.head(observations.train);
+    sum_ = target.squaredNorm();
+    product_ = dictionary.columns.topRows(observations.train).transpose() * target;
+    samples_ = static_cast<double>(observations.train);
+  }
+
+  /// The smaller the better; infinite where an amplitude leaves its bounds.
+  double criterion(std::size_t a, std::size_t b, ScreenedPair* pair) const {
+    const Entry& first = dictionary_.entries[a];
+    const Entry& second = dictionary_.entries[b];
+    const Eigen::Index m = first.count;
+    const Eigen::Index n = m + second.count;
+    Eigen::MatrixXd inner(n, n);
+    const Eigen::MatrixXd& gram = dictionary_.gram;
+    inner.topLeftCorner(m, m) = gram.block(first.first, first.first, m, m);
+    inner.bottomRightCorner(n - m, n - m) = gram.block(second.first, second.first, n - m, n - m);
+    inner.topRightCorner(m, n - m) = gram.block(first.first, second.first, m, n - m);
+    inner.bottomLeftCorner(n - m, m) = inner.topRightCorner(m, n - m).transpose();
+    Eigen::VectorXd moment(n);
+    moment << product_.segment(first.first, m), product_.segment(second.first, n - m);
+    const Eigen::VectorXd scale = inner.diagonal().cwiseSqrt().cwiseMax(1e-300);
+    inner = scale.cwiseInverse().asDiagonal() * inner * scale.cwiseInverse().asDiagonal();
+    inner.diagonal().array() += 1e-9;
+    moment = moment.cwiseQuotient(scale);
+    const Eigen::VectorXd solved = inner.ldlt().solve(moment);
+    const Eigen::VectorXd amplitude = solved.cwiseQuotient(scale);
+    pair->sum = std::max(sum_ - (2 * moment.dot(solved) - solved.dot(inner * solved)), 1e-9);
+    pair->first = {a, pair->sum, amplitude.head(m)};
+    pair->second = {b, pair->sum, amplitude.tail(n - m)};
+    const Hypothesis& one = hypotheses_[first.hypothesis];
+    const Hypothesis& other = hypotheses_[second.hypothesis];
+    if (!amplitude.allFinite() || !within_bounds(one, amplitude.head(m)) ||
+        !within_bounds(other, amplitude.tail(n - m))) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return samples_ * std::log(pair->sum) +
+           static_cast<double>(one.parameters.size() + other.parameters.size()) *
+               std::log(samples_);
+  }
+
+ private:
+  const std::vector<Hypothesis>& hypotheses_;
+  const Dictionary& dictionary_;
+  double sum_ = 0;
+  double samples_ = 0;
+  Eigen::VectorXd product_;
+};
+
+bool are_the_same(const Hypothesis& a, const Hypothesis& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
+
+}  // namespace
+
+std::vector<ScreenedPair> screen_pairs(const Observations& observations,
+                                       const std::vector<Hypothesis>& hypotheses,
+                                       const Dictionary& dictionary, std::size_t most) {
+  std::vector<Screened> singles =
+      screen(observations, hypotheses, dictionary, observations.residual,
+             Eigen::MatrixXd(observations.size(), 0));
+  std::sort(singles.begin(), singles.end(),
+            [](const Screened& a, const Screened& b) { return a.sum < b.sum; });
+  singles.resize(std::min(singles.size(), kMostPromising));
+  const PairSolver solver(observations, hypotheses, dictionary);
+  std::vector<std::pair<double, ScreenedPair>> found;
+  for (const Screened& single : singles) {
+    const std::size_t own = dictionary.entries[single.entry].hypothesis;
+    std::pair<double, ScreenedPair> best{std::numeric_limits<double>::infinity(), {}};
+    for (std::size_t other = 0; other < dictionary.entries.size(); ++other) {
+      if (are_the_same(hypotheses[own], hypotheses[dictionary.entries[other].hypothesis])) {
+        continue;
+      }
+      ScreenedPair pair;
+      const double criterion = solver.criterion(single.entry, other, &pair);
+      if (criterion < best.first) {
+        best = {criterion, pair};
+      }
+    }
+    if (std::isfinite(best.first)) {
+      found.push_back(best);
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<ScreenedPair> pairs;
+  for (const auto& [criterion, pair] : found) {
+    const auto place = [&](const Screened& screened) {
+      return dictionary.entries[screened.entry].hypothesis;
+    };
+    const bool is_new = std::none_of(pairs.begin(), pairs.end(), [&](const ScreenedPair& other) {
+      return (place(other.first) == place(pair.first) &&
+              place(other.second) == place(pair.second)) ||
+             (place(other.first) == place(pair.second) && place(other.second) == place(pair.first));
+    });
+    if (is_new && pairs.size() < most) {
+      pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace flexcomp::diagnosis
