@@ -93,7 +93,7 @@ int run(const Options& options) {
                                        options.holdouts.size());
   const std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
   Progress simulating("simulating hypotheses", hypotheses.size());
-  Progress choosing("choosing", 6);
+  Progress choosing("choosing", 5);
   diagnosis::Settings settings;
   settings.false_discovery = options.false_discovery;
   settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };

@@ -12,12 +12,12 @@ constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kConfirmed = 2;
 constexpr double kLeastStrength = 1.0 / 3;
 constexpr double kLeastShare = 0.1;  // of what is left: many small steps are a wrong way
-constexpr std::size_t kMostFindings = 6;
+constexpr std::size_t kMostFindings = 5;
 constexpr std::size_t kShortlist = 5;
 constexpr std::size_t kMostAlternatives = 5;
 constexpr int kQuickSteps = 4;
 constexpr double kSettled = 1.1;  // times the noise: nothing left that two could share
-constexpr int kSteps = 25;
+constexpr int kSteps = 12;
 
 /// A hypothesis with values to begin with, and what it promises.
 struct Candidate {
@@ -257,8 +257,6 @@ class Chooser {
     std::rotate(last.chosen.begin() + static_cast<std::ptrdiff_t>(index),
                 last.chosen.begin() + static_cast<std::ptrdiff_t>(index) + 1, last.chosen.end());
     finding.evidence = weigh_last(finding.without, last);
-    finding.holdout_sum_before = finding.without.holdout_sum;
-    finding.holdout_sum_after = whole.holdout_sum;
     return finding;
   }
 
@@ -328,8 +326,7 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
   const auto grow = [&] {
     while (choice.fit.chosen.size() < kMostFindings && chooser.grow(&choice.fit)) {
       tell(choice.fit.chosen.size(), kMostFindings);
-      for (int pass = 0; pass < 2 && chooser.revise(&choice.fit); ++pass) {
-      }
+      chooser.revise(&choice.fit);
       chooser.seek(choice.fit);
     }
   };

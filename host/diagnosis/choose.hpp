@@ -18,8 +18,6 @@ struct Alternative {
 /// What was chosen, why, and what else would have done.
 struct Finding {
   Evidence evidence;
-  double holdout_sum_before = 0;  ///< sums of squares over the noise, without it and with it
-  double holdout_sum_after = 0;
   Fit without;
   std::vector<Alternative> alternatives;
 };

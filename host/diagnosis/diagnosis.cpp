@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+
+#include "diagnosis/parameters.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -11,6 +14,7 @@ namespace {
 constexpr double kSameEvidence = 6;      // of BIC: below "strong" (Kass and Raftery 1995)
 constexpr double kNoiseLike = 1.15;      // times the noise: nothing left to explain
 constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
+constexpr double kMostCancellation = 10;
 constexpr Eigen::Index kFewestSamples = 24;
 constexpr Eigen::Index kLeastFreedom = 8;
 
@@ -62,7 +66,26 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
   diagnosis->reason = reason;
 }
 
+/// How much findings work against each other: the power of their shares one by one over that of
+/// their sum. Effects that are there add up (about 1); a sum of effects that imitates another one
+/// is large parts that cancel.
+double cancellation(const Observations& observations, const Fit& fit) {
+  if (fit.chosen.size() < 2) {
+    return 1;
+  }
+  const Eigen::Index n = observations.train;
+  const Eigen::VectorXd base = observations.stacked(observations.predictions);
+  double parts = 0;
+  for (const Chosen& chosen : fit.chosen) {
+    const Machine alone = machine_with(observations, {chosen});
+    parts +=
+        (observations.stacked(predict(alone, observations.scenes)) - base).head(n).squaredNorm();
+  }
+  return parts / std::max((observations.residual - fit.remainder).head(n).squaredNorm(), 1e-9);
+}
+
 void judge(const Observations& observations, Diagnosis* diagnosis) {
+  diagnosis->cancellation = cancellation(observations, diagnosis->choice.fit);
   const double before = largest_ratio(observations, observations.residual);
   const double after = largest_ratio(observations, diagnosis->choice.fit.remainder);
   const bool is_noise = !observations.noise_is_known || after < kNoiseLike;
@@ -71,6 +94,12 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   if (diagnosis->choice.fit.chosen.empty()) {
     diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
     diagnosis->reason = is_noise ? "" : "no known effect accounts for it";
+  } else if (diagnosis->choice.fit.chosen.size() > 2 &&
+             diagnosis->cancellation > kMostCancellation) {
+    withdraw(observations,
+             "only a sum of large effects that cancel each other comes near, which imitates what "
+             "is not there",
+             diagnosis);
   } else if (is_noise) {
     diagnosis->verdict = "explained";
   } else if (explained < kLeastExplained) {
@@ -122,15 +151,20 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
 std::string statement(const Observations& observations, const Diagnosis& diagnosis,
                       std::size_t finding) {
   const Finding& found = diagnosis.choice.findings[finding];
-  const auto count =
-      static_cast<double>(std::max<Eigen::Index>(observations.size() - observations.train, 1));
-  std::string clause = diagnosis.choice.fit.chosen[finding].hypothesis->statement;
+  const Fit& fit = diagnosis.choice.fit;
+  const Estimate first = estimates(observations, fit, finding).front();
+  std::string clause = fit.chosen[finding].hypothesis->statement;
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
+  const Channel channel = main_channel(observations, found.without, fit);
+  const auto written = [&](const Eigen::VectorXd& values, bool held_out) {
+    return readable(observations.rms(values, channel, held_out),
+                    simulation::kChannelUnits[channel]);
+  };
   return fmt::format(
-      "{}, which the model lacks: held-out error falls from {:.2f} to {:.2f} times "
-      "the noise.",
-      clause, std::sqrt(found.holdout_sum_before / count),
-      std::sqrt(found.holdout_sum_after / count));
+      "{} ({} {}), which the model lacks: held-out error of {} falls from {} to {}, noise {}.",
+      clause, first.name, readable(first.value, first.unit), simulation::kChannels[channel],
+      written(found.without.remainder, true), written(fit.remainder, true),
+      written(Eigen::VectorXd::Ones(observations.size()), false));
 }
 
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {

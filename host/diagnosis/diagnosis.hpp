@@ -22,6 +22,7 @@ struct Diagnosis {
   std::string reason;   ///< why not explained; empty where it is
   std::vector<ClockCheck> clocks;
   Choice choice;
+  double cancellation = 1;     ///< power of the findings' shares over that of their sum
   std::vector<Place> nearest;  ///< what comes nearest to an unexplained mismatch, without proof
   Location location;           ///< of the mismatch
   Location left;               ///< of what is unexplained

@@ -50,24 +50,6 @@ Json location(const Location& location) {
           {"correlates_with", correlates}, {"places_looked_at", location.places}};
 }
 
-/// The channel that a finding betters most, for its held-out errors.
-Channel main_channel(const Observations& observations, const Fit& with, const Finding& finding) {
-  Channel best = channels_of(observations).front();
-  double most = 0;
-  for (const Channel channel : channels_of(observations)) {
-    const double noise =
-        observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
-    const double fall = (observations.rms(finding.without.remainder, channel, true) -
-                         observations.rms(with.remainder, channel, true)) /
-                        noise;
-    if (fall > most) {
-      most = fall;
-      best = channel;
-    }
-  }
-  return best;
-}
-
 Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
   const Choice& choice = diagnosis.choice;
   const Finding& finding = choice.findings[index];
@@ -85,7 +67,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
                             {"joint", joint_or_null(other.joint)},
                             {"delta_bic", other.delta_bic}});
   }
-  const Channel channel = main_channel(observations, choice.fit, finding);
+  const Channel channel = main_channel(observations, finding.without, choice.fit);
   return {{"effect", hypothesis.effect},
           {"joint", joint_or_null(hypothesis.joint)},
           {"parameters", parameters},
@@ -140,6 +122,7 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
     json["clocks"].push_back(
         {{"group", clock.group}, {"delay", clock.delay}, {"std", clock.deviation}});
   }
+  json["cancellation"] = diagnosis.cancellation;
   json["outliers"] = observations.outliers;
   return json;
 }

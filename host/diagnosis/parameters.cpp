@@ -1,5 +1,7 @@
 #include "diagnosis/parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -56,6 +58,47 @@ std::vector<Estimate> estimates(const Observations& observations, const Fit& fit
     all.push_back({"gain", "1", 1 + values[0], deviation_at(covariance, 0)});
   }
   return all;
+}
+
+Channel main_channel(const Observations& observations, const Fit& without, const Fit& with) {
+  Channel best = observations.samples.front().channel;
+  double most = 0;
+  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
+    const auto channel = static_cast<Channel>(i);
+    const double noise =
+        observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
+    const double fall = observations.rms(without.remainder, channel, true) -
+                        observations.rms(with.remainder, channel, true);
+    if (noise > 0 && fall / noise > most) {
+      most = fall / noise;
+      best = channel;
+    }
+  }
+  return best;
+}
+
+std::string readable(double value, const std::string& unit) {
+  if (unit == "1") {
+    return fmt::format("{:.3g}", value);
+  }
+  const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";
+  const double size = std::abs(value);
+  if (has_prefixes && size > 0 && size < 1e-4) {
+    return fmt::format("{:.3g} µ{}", 1e6 * value, unit);
+  }
+  if (has_prefixes && size > 0 && size < 0.1) {
+    return fmt::format("{:.3g} m{}", 1e3 * value, unit);
+  }
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+double shown(Channel channel, double value) {
+  return channel == simulation::joint_torque ? value : 1e6 * value;
+}
+
+std::string shown_unit(Channel channel) {
+  constexpr const char* kUnits[] = {"µm", "N·m", "µrad"};
+  return kUnits[channel];
 }
 
 }  // namespace flexcomp::diagnosis

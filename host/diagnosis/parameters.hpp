@@ -20,4 +20,14 @@ struct Estimate {
 std::vector<Estimate> estimates(const Observations& observations, const Fit& fit,
                                 std::size_t index);
 
+/// The channel in which a finding lowers the held-out error most, over the noise.
+Channel main_channel(const Observations& observations, const Fit& without, const Fit& with);
+
+/// A value with its unit as people write it: 0.21 mrad, 14 µm.
+std::string readable(double value, const std::string& unit);
+
+/// A value of a channel in the unit that people read: µm, N·m, µrad.
+double shown(Channel channel, double value);
+std::string shown_unit(Channel channel);
+
 }  // namespace flexcomp::diagnosis

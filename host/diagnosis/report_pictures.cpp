@@ -51,29 +51,21 @@ std::string place_name(const std::string& effect, int joint) {
   return joint > 0 ? fmt::format("{}, joint {}", effect, joint) : effect;
 }
 
-double shown(Channel channel, double value) {
-  return channel == simulation::joint_torque ? value : 1e6 * value;
-}
-
-std::string shown_unit(Channel channel) {
-  constexpr const char* kUnits[] = {"µm", "N·m", "µrad"};
-  return kUnits[channel];
-}
-
 std::string time_picture(const Observations& observations, const Eigen::VectorXd& after,
                          Channel channel) {
   const Scene& scene = observations.scenes.front();
   const double scale = shown(channel, 1);
   const Eigen::VectorXd first = scale * length_by_row(observations, observations.residual, channel);
   const Eigen::VectorXd second = scale * length_by_row(observations, after, channel);
-  const std::string style = scene.is_static ? "points pt 7 ps 0.7" : "dots";
+  const std::string style = scene.is_static ? "points pt 7 ps 0.7" : "points pt 7 ps 0.15";
   std::string script = block("before", scene.time, first) + block("after", scene.time, second);
   script += fmt::format(
       "set grid lc rgb '#dddddd'\nset key outside above horizontal\nset yrange [0:*]\n"
-      "set xlabel '{}'\nset ylabel 'residual, {}'\n"
+      "set xrange [{:.6g}:{:.6g}]\nset xlabel '{}'\nset ylabel 'residual, {}'\n"
       "plot $before using 1:2 with {} lc rgb '{}' notitle, $after using 1:2 with {} lc rgb '{}' "
       "notitle, NaN with points pt 7 lc rgb '{}' title 'before', "
       "NaN with points pt 7 lc rgb '{}' title 'after'\n",
+      scene.time[0], scene.time[scene.rows() - 1],
       scene.is_static ? "row of the load test" : "time, s", shown_unit(channel), style, kBefore,
       style, kAfter, kBefore, kAfter);
   return report::plot_svg(script, 900, 330);
@@ -129,8 +121,9 @@ std::string ranking_picture(const std::vector<Ranked>& ranking) {
   }
   std::string script = "$bars << EOD\n";
   for (std::size_t i = 0; i < count; ++i) {
-    script += fmt::format("{} {:.6g} \"{}\"\n", count - i, ranking[i].gain,
-                          place_name(ranking[i].effect, ranking[i].joint));
+    std::string name = place_name(ranking[i].effect, ranking[i].joint);
+    std::replace(name.begin(), name.end(), '_', ' ');  // gnuplot would set subscripts
+    script += fmt::format("{} {:.6g} \"{}\"\n", count - i, ranking[i].gain, name);
   }
   script += fmt::format(
       "EOD\nset style fill solid\nset boxwidth 0.7\nset grid x lc rgb '#dddddd'\nunset key\n"

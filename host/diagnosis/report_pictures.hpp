@@ -3,6 +3,7 @@
 #include <string>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/parameters.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -18,9 +19,5 @@ std::string ranking_picture(const std::vector<Ranked>& ranking);
 
 /// "joint_stiffness, joint 2"
 std::string place_name(const std::string& effect, int joint);
-
-/// A value of a channel in the unit that people read: µm, N·m, µrad.
-double shown(Channel channel, double value);
-std::string shown_unit(Channel channel);
 
 }  // namespace flexcomp::diagnosis

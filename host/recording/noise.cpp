@@ -39,17 +39,28 @@ double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride) {
          std::sqrt(20.0);
 }
 
-double encoder_noise(const Eigen::VectorXd& angle) {
-  constexpr Eigen::Index kOrder = 6;
-  if (angle.size() < 2 * kOrder) {
+double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) {
+  constexpr Eigen::Index kSide = 3;
+  if (angle.size() <= 2 * kSide) {
     return 0;
   }
-  Eigen::VectorXd difference = angle;
-  for (Eigen::Index order = 0; order < kOrder; ++order) {
-    const Eigen::Index n = difference.size() - 1;
-    difference = (difference.tail(n) - difference.head(n)).eval();
+  Eigen::VectorXd misses(angle.size() - 2 * kSide);
+  for (Eigen::Index row = kSide; row + kSide < angle.size(); ++row) {
+    double predicted = 0;
+    double squares = 1;
+    for (Eigen::Index i = row - kSide; i <= row + kSide; ++i) {
+      double weight = i == row ? 0 : 1;  // Lagrange's
+      for (Eigen::Index other = row - kSide; other <= row + kSide && i != row; ++other) {
+        if (other != i && other != row) {
+          weight *= (time[row] - time[other]) / (time[i] - time[other]);
+        }
+      }
+      predicted += weight * (angle[i] - angle[row]);
+      squares += weight * weight;
+    }
+    misses[row - kSide] = predicted / std::sqrt(squares);
   }
-  return robust_deviation(difference) / std::sqrt(924.0);
+  return robust_deviation(misses);
 }
 
 bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise) {

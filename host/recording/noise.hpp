@@ -9,9 +9,9 @@ namespace flexcomp::recording {
 /// a stride beyond the memory of coloured noise, that noise counts too.
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride = 1);
 
-/// The same for a signal that is nearly noiseless, an encoder's: by sixth differences, which leave
-/// less of the motion and √924 of white noise.
-double encoder_noise(const Eigen::VectorXd& angle);
+/// The same for a signal that is nearly noiseless, an encoder's: what its values differ from the
+/// polynomial through their six neighbours, at their true times (s).
+double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle);
 
 /// 1.4826 times the median size: the standard deviation of a normal distribution, outliers or not.
 double robust_deviation(const Eigen::VectorXd& values);

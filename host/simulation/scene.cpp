@@ -184,7 +184,7 @@ Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
   scene.stands = Eigen::MatrixXi::Zero(n, 6);
   Eigen::RowVectorXd angle_noise(6);
   for (Eigen::Index joint = 0; joint < 6; ++joint) {
-    angle_noise[joint] = recording::encoder_noise(q.col(joint));
+    angle_noise[joint] = recording::encoder_noise(recording.time, q.col(joint));
   }
   scene.velocity_noise = scene.acceleration_noise = Eigen::RowVectorXd::Zero(6);
   for (Eigen::Index i = 0; i < n && !scene.is_static; ++i) {

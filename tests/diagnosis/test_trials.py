@@ -1,0 +1,76 @@
+"""A few trials of the diagnosis on recordings from the independent generator, and what it gives back.
+
+tools/score-diagnosis runs hundreds. The seeds stand here for their kinds of recording and effects; any
+others would do.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+from generator import case
+from scoring import answer, judge, trial
+
+CIRCLE, TORQUE, STATIC = 15, 16, 41  # transmission_ripple, stribeck_friction, backlash
+CLEAN = (10, 12)
+FOREIGN = 11
+TOOL = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "flexcomp"
+
+
+class Trials(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def diagnose(self, truth, model="robot.yaml", out="out"):
+        words = trial.command(TOOL, self.folder, truth, self.folder / out)
+        words[words.index("--model") + 1] = str(self.folder / model)
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        self.assertEqual(0, done.returncode, done.stderr)
+        return answer.parse((self.folder / out / "diagnosis.json").read_text())
+
+    def result(self, family, seed):
+        truth = case.write(family, seed, self.folder)
+        found = self.diagnose(truth)
+        return truth, found, judge.judge(truth, found, 0)
+
+    def assert_named_and_given_back(self, seed):
+        truth, found, result = self.result("single", seed)
+        self.assertIn(result.first, judge.RIGHT, (truth["effects"], found.named))
+        self.assertEqual(1, result.findings)
+        for channel, ratio in result.holdout_ratio.items():
+            self.assertLess(ratio, 1.15, channel)
+        # With what was learnt the same recordings hold no mismatch any more.
+        self.assertEqual("no_mismatch", self.diagnose(truth, "out/updated_model.yaml", "again").verdict)
+
+    def test_an_effect_on_a_circle(self):
+        self.assert_named_and_given_back(CIRCLE)
+
+    def test_an_effect_on_torques(self):
+        self.assert_named_and_given_back(TORQUE)
+
+    def test_an_effect_in_load_tests(self):
+        self.assert_named_and_given_back(STATIC)
+
+    def test_a_machine_like_its_model_is_left_alone(self):
+        for seed in CLEAN:
+            for left in self.folder.iterdir():
+                if left.is_file():
+                    left.unlink()
+            self.assertFalse(self.result("clean", seed)[2].alarm)
+
+    def test_physics_outside_the_catalogue_is_not_given_a_name(self):
+        truth, found, result = self.result("foreign", FOREIGN)
+        self.assertFalse(result.claims, (truth["foreign"], found.named))
+        said = json.loads((self.folder / "out" / "diagnosis.json").read_text())
+        self.assertEqual("unexplained", found.verdict)
+        self.assertTrue(said["unexplained"]["reason"])
+        self.assertTrue(said["location"]["axes"] or said["location"]["joints"])
+
+
+if __name__ == "__main__":
+    unittest.main()
