@@ -37,6 +37,7 @@ void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypo
   observations->drop_outliers(values, kFar * deviation);
   observations->set_noise(std::max(deviation, 1e-4));
   observations->noise_is_known = true;
+  observations->noise_uncertainty = 1 / std::sqrt(2 * static_cast<double>(full.freedom));
 }
 
 void find_groups(Diagnosis* diagnosis) {
@@ -88,7 +89,8 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   diagnosis->cancellation = cancellation(observations, diagnosis->choice.fit);
   const double before = largest_ratio(observations, observations.residual);
   const double after = largest_ratio(observations, diagnosis->choice.fit.remainder);
-  const bool is_noise = !observations.noise_is_known || after < kNoiseLike;
+  const bool is_noise =
+      !observations.noise_is_known || after < kNoiseLike + 3 * observations.noise_uncertainty;
   const double excess = std::max(before * before - 1, 1e-9);
   const double explained = 1 - (after * after - 1) / excess;
   if (diagnosis->choice.fit.chosen.empty()) {

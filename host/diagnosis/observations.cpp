@@ -59,6 +59,7 @@ simulation::Wanted wanted_of(const Machine& machine, const Scene& scene) {
 
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes) {
   std::vector<Prediction> predictions;
+  predictions.reserve(scenes.size());
   for (const Scene& scene : scenes) {
     predictions.push_back(
         with_terms(machine.terms, scene, simulate(machine, scene, wanted_of(machine, scene))));
@@ -68,6 +69,8 @@ std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>
 
 Observations::Observations(Machine model, std::vector<Scene> all, std::size_t holdouts)
     : machine(std::move(model)), scenes(std::move(all)) {
+  simulations.reserve(scenes.size());
+  predictions.reserve(scenes.size());
   for (const Scene& scene : scenes) {
     simulations.push_back(simulate(machine, scene));
     predictions.push_back(with_terms(machine.terms, scene, simulations.back()));

@@ -32,7 +32,7 @@ class Observations {
  public:
   /// Simulates the scenes; the last `holdouts` of them are to check with. Without any, a quarter of
   /// each recording is held out: whole stretches of its time.
-  Observations(Machine machine, std::vector<Scene> scenes, std::size_t holdouts);
+  Observations(Machine model, std::vector<Scene> all, std::size_t holdouts);
 
   Machine machine;  ///< the model that is doubted
   std::vector<Scene> scenes;
@@ -41,12 +41,13 @@ class Observations {
   /// Measured samples: those to fit to, then those held out; within each part samples of one
   /// component follow in time.
   std::vector<Sample> samples;
-  Eigen::Index train = 0;       ///< how many of the samples are there to fit to
-  Eigen::VectorXd noise;        ///< standard deviation of each sample, SI
-  Eigen::VectorXd residual;     ///< measured less predicted, over the noise
-  Eigen::VectorXd unexplained;  ///< residual that starts are sought in; at first all of it
-  std::size_t outliers = 0;     ///< samples that were left out
-  bool noise_is_known = true;   ///< false in a load test, whose noise only a fit can tell
+  Eigen::Index train = 0;        ///< how many of the samples are there to fit to
+  Eigen::VectorXd noise;         ///< standard deviation of each sample, SI
+  Eigen::VectorXd residual;      ///< measured less predicted, over the noise
+  Eigen::VectorXd unexplained;   ///< residual that starts are sought in; at first all of it
+  std::size_t outliers = 0;      ///< samples that were left out
+  bool noise_is_known = true;    ///< false in a load test, whose noise only a fit can tell
+  double noise_uncertainty = 0;  ///< of a load test's noise: relative standard deviation
   bool is_static = false;
 
   Eigen::Index size() const { return residual.size(); }
@@ -60,9 +61,9 @@ class Observations {
   double range(int joint) const;           ///< rad
 
   /// Predictions as one column over the noise.
-  Eigen::VectorXd stacked(const std::vector<Prediction>& predictions) const;
+  Eigen::VectorXd stacked(const std::vector<Prediction>& values) const;
   /// Residual of other predictions, over the noise.
-  Eigen::VectorXd residual_of(const std::vector<Prediction>& predictions) const;
+  Eigen::VectorXd residual_of(const std::vector<Prediction>& values) const;
   /// Root mean square over a channel of values that are over the noise, SI.
   double rms(const Eigen::VectorXd& values, Channel channel, bool held_out) const;
   /// What is unexplained as an error of a joint's angle (TCP and link encoders), by scene.

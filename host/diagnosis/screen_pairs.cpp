@@ -100,7 +100,8 @@ std::vector<ScreenedPair> screen_pairs(const Observations& observations,
   std::sort(found.begin(), found.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<ScreenedPair> pairs;
-  for (const auto& [criterion, pair] : found) {
+  for (const std::pair<double, ScreenedPair>& ranked : found) {
+    const ScreenedPair& pair = ranked.second;
     const auto place = [&](const Screened& screened) {
       return dictionary.entries[screened.entry].hypothesis;
     };

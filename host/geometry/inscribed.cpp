@@ -25,7 +25,7 @@ std::vector<std::size_t> convex_hull(const Profile& profile) {
     for (auto it = begin; it != end; ++it) {
       while (hull.size() >= base + 2 &&
              turn_of(profile[hull[hull.size() - 1]] - profile[hull[hull.size() - 2]],
-                   profile[*it] - profile[hull[hull.size() - 1]]) <= 0) {
+                     profile[*it] - profile[hull[hull.size() - 1]]) <= 0) {
         hull.pop_back();
       }
       hull.push_back(*it);
