@@ -15,7 +15,7 @@ from generator import case
 from scoring import answer, judge, trial
 
 CIRCLE, TORQUE, STATIC = 15, 16, 23  # transmission_ripple, stribeck_friction, joint_stiffness
-CLEAN = (10, 12)
+CLEAN = (12,)
 FOREIGN = 11
 TOOL = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "flexcomp"
 

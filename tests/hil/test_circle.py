@@ -17,7 +17,7 @@ def mill(job, out, *options):
 class Circle(HilTest):
     def share(self, robot, bus, node_bus, *options, lockstep=True, log=None):
         """Circularity with compensation over that without; leaves run.csv, and a log of that run."""
-        job = Job(self.folder, robot, 0.05, radius=0.1 if lockstep else 0.05)
+        job = Job(self.folder, robot, 0.05, radius=0.05)
         pace = ["--lockstep"] if lockstep else []
         trigger = ["--trigger", "lockstep"] if lockstep else []
         # What is not compensated needs no node, and is the same at every pace.
