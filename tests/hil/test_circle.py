@@ -1,6 +1,7 @@
 """The main job on a bus: real flexcompd, real bus, real plant; four robots, CAN, CAN FD and LCM."""
 
 import contextlib
+import csv
 import json
 import unittest
 
@@ -12,6 +13,12 @@ LARGEST_SHARE = 0.05  # of the circularity without compensation
 def mill(job, out, *options):
     flexcomp("plant", "--model", job.model, "--path", job.path, "--out", out, *options)
     return circularity(out)
+
+
+def positions(recording):
+    """How many rows hold a TCP position."""
+    with open(recording, newline="") as file:
+        return sum(bool(row["x"]) for row in csv.DictReader(file))
 
 
 class Circle(HilTest):
@@ -54,12 +61,17 @@ class Circle(HilTest):
 
     def test_over_lcm_the_log_gives_the_same_circularity(self):
         log = self.folder / "run.lcmlog"
-        # Lock-step does not wait for the logger; what it has not read yet must find room.
+        # LCM goes by UDP, and lock-step does not wait for the logger: it goes first on a processor that
+        # all share, has room for what it has not read yet, and may try again where it missed messages.
         url = f"{LCM}&recv_buf_size={32 << 20}"
-        logger = Listener(["lcm-logger", "--quiet", "--force", "--lcm-url", url, str(log)], "/dev/null")
-        share = self.share("kr270", f"lcm:{LCM}", ("--lcm", LCM), log=logger)
-        self.assertLessEqual(share, LARGEST_SHARE)
-        self.assert_log_gives_the_same(log)
+        command = ["nice", "-n", "-15", "lcm-logger", "--quiet", "--force", "--lcm-url", url, str(log)]
+        for _ in range(3):
+            share = self.share("kr270", f"lcm:{LCM}", ("--lcm", LCM), log=Listener(command, "/dev/null"))
+            self.assertLessEqual(share, LARGEST_SHARE)
+            flexcomp("convert", log, "--out", self.folder / "converted.csv")
+            if positions(self.folder / "converted.csv") == positions(self.folder / "run.csv"):
+                return self.assert_log_gives_the_same(log)
+        self.fail("lcm-logger missed messages in every one of three runs")
 
     def assert_log_gives_the_same(self, log):
         converted = self.folder / "converted.csv"
