@@ -14,7 +14,6 @@ constexpr double kLeastStrength = 1.0 / 3;
 constexpr double kLeastShare = 0.1;  // of what is left: many small steps are a wrong way
 constexpr std::size_t kMostFindings = 5;
 constexpr std::size_t kShortlist = 5;
-constexpr std::size_t kMostAlternatives = 5;
 constexpr int kQuickSteps = 4;
 constexpr double kSettled = 1.1;  // times the noise: nothing left that two could share
 constexpr int kSteps = 12;
@@ -106,7 +105,7 @@ class Chooser {
     observations_->unexplained = fit.remainder;
     std::vector<Hypothesis> found;
     for (Hypothesis& hypothesis : all_hypotheses(*observations_)) {
-      if (hypothesis.is_sought) {
+      if (hypothesis.is_sought && !hypothesis.starts.empty()) {
         found.push_back(std::move(hypothesis));
       }
     }
@@ -139,6 +138,7 @@ class Chooser {
     return bettered;
   }
 
+  /// BIC but for a constant: the smaller the better, fits of any hypotheses beside each other.
   double criterion(const Fit& fit) const {
     const auto samples = static_cast<double>(observations_->train);
     return samples * std::log(std::max(fit.train_sum, 1e-9)) +
@@ -169,22 +169,15 @@ class Chooser {
   /// The best of a shortlist beside a fit, fitted; nothing chosen if the list is empty.
   Fit best_with(const Fit& before, std::size_t most) const {
     Fit best;
-    double best_gain = -std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
     for (const Chosen& candidate : shortlist(before, most)) {
       Fit tried = with(before, candidate, kQuickSteps);
-      const double gain = relative_gain(before, tried);
-      if (gain > best_gain) {
-        best_gain = gain;
+      if (criterion(tried) < least) {
+        least = criterion(tried);
         best = std::move(tried);
       }
     }
     return best.chosen.empty() ? best : fit(*observations_, best.chosen, kSteps, &dictionary_);
-  }
-
-  /// BIC gain in a common count of samples, so that fits beside the same one can be compared.
-  double relative_gain(const Fit& before, const Fit& after) const {
-    return bic_gain(static_cast<double>(observations_->train), before.train_sum, after.train_sum,
-                    after.chosen.back().values.size());
   }
 
   bool holds(const Evidence& evidence) const {
@@ -215,11 +208,7 @@ class Chooser {
         continue;
       }
       const bool better = replaced.train_sum < current->train_sum &&
-                          bic_gain(static_cast<double>(observations_->train), current->train_sum,
-                                   replaced.train_sum, 0) >
-                              kStrong + (static_cast<double>(replaced.parameters()) -
-                                         static_cast<double>(current->parameters())) *
-                                            std::log(static_cast<double>(observations_->train));
+                          criterion(replaced) < criterion(*current) - kStrong;
       if (better && holds(weigh_last(others, replaced))) {
         *current = replaced;
         return true;
@@ -266,8 +255,7 @@ class Chooser {
     const double samples = finding->evidence.effective_samples;
     for (const Chosen& candidate : shortlist(finding->without, kShortlist)) {
       const Hypothesis& other = *candidate.hypothesis;
-      if ((other.effect == own.effect && other.joint == own.joint) ||
-          finding->alternatives.size() >= kMostAlternatives) {
+      if (are_the_same(other, own)) {
         continue;
       }
       const Fit tried = with(finding->without, candidate, kQuickSteps);
@@ -285,8 +273,7 @@ class Chooser {
 
   static bool is_among(const Hypothesis& hypothesis, const Fit& fit) {
     return std::any_of(fit.chosen.begin(), fit.chosen.end(), [&](const Chosen& each) {
-      return each.hypothesis->effect == hypothesis.effect &&
-             each.hypothesis->joint == hypothesis.joint;
+      return are_the_same(*each.hypothesis, hypothesis);
     });
   }
 

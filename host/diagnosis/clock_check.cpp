@@ -11,26 +11,14 @@ Eigen::MatrixXd delay_columns(const Observations& observations,
                               const std::vector<Hypothesis>& hypotheses,
                               std::vector<std::string>* groups) {
   constexpr double kStep = 1e-3;  // s
+  const Changes changes(observations);
   std::vector<Eigen::VectorXd> columns;
   for (const Hypothesis& hypothesis : hypotheses) {
     if (hypothesis.effect != "time_offset") {
       continue;
     }
-    Machine machine;
-    if (hypothesis.sketch) {
-      machine.terms.push_back(hypothesis.sketch({kStep}));
-    } else {
-      hypothesis.apply({kStep}, &machine);
-    }
-    std::vector<Prediction> late;
-    std::vector<Prediction> on_time;
-    for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
-      const Simulation& simulation = observations.simulations[s];
-      late.push_back(with_terms(machine.terms, observations.scenes[s], simulation));
-      on_time.push_back(simulation.prediction);
-    }
     groups->push_back(hypothesis.form);
-    columns.emplace_back((observations.stacked(late) - observations.stacked(on_time)) / kStep);
+    columns.emplace_back(changes.by(hypothesis, {kStep}) / kStep);
   }
   Eigen::MatrixXd all(observations.size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) {

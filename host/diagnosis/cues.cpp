@@ -11,7 +11,6 @@ namespace flexcomp::diagnosis {
 namespace {
 
 constexpr int kClasses = 12;
-constexpr double kStanding = 1e-4;  // rad/s
 
 /// Classes of equal count, so that no class is empty.
 Eigen::VectorXi by_rank(const Eigen::VectorXd& value) {
@@ -29,7 +28,7 @@ Eigen::VectorXi by_rank(const Eigen::VectorXd& value) {
 Eigen::VectorXi by_direction(const Eigen::VectorXd& speed) {
   Eigen::VectorXi kind(speed.size());
   for (Eigen::Index row = 0; row < speed.size(); ++row) {
-    kind[row] = speed[row] > kStanding ? 2 : (speed[row] < -kStanding ? 0 : 1);
+    kind[row] = 1 + simulation::direction_of_motion(speed[row]);
   }
   return kind;
 }
@@ -40,7 +39,7 @@ Eigen::VectorXd since_reversal(const Eigen::VectorXd& time, const Eigen::VectorX
   double turned = time[0];
   double side = 0;
   for (Eigen::Index row = 0; row < time.size(); ++row) {
-    if (std::abs(speed[row]) > kStanding && speed[row] * side <= 0) {
+    if (simulation::direction_of_motion(speed[row]) != 0 && speed[row] * side <= 0) {
       turned = side == 0 ? turned : time[row];
       side = speed[row];
     }

@@ -14,79 +14,68 @@ namespace {
 constexpr double kLeastWhole = 0.4;
 constexpr double kMostWhole = 2.5;
 
-class Columns {
- public:
-  Columns(const Observations& observations, const Hypothesis& hypothesis)
-      : observations_(observations), hypothesis_(hypothesis) {}
-
-  /// Change of the whole prediction over the noise, by the values of the parameters.
-  Eigen::VectorXd change(const Values& values) const {
-    std::vector<Prediction> predictions;
-    if (hypothesis_.alters_model && !hypothesis_.sketch) {
-      Machine machine = observations_.machine;
-      hypothesis_.apply(values, &machine);
-      predictions = predict(machine, observations_.scenes);
-    } else {
-      Machine machine;
-      machine.robot = observations_.machine.robot;
-      if (hypothesis_.sketch) {
-        machine.terms.push_back(hypothesis_.sketch(values));
-      } else {
-        hypothesis_.apply(values, &machine);
-      }
-      for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-        predictions.push_back(
-            with_terms(machine.terms, observations_.scenes[s], observations_.simulations[s]));
-      }
-      return observations_.stacked(predictions) - bare();
-    }
-    return observations_.stacked(predictions) - observations_.stacked(observations_.predictions);
-  }
-
-  /// samples × count, for one start.
-  Eigen::MatrixXd at(const Values& start) const {
-    const std::size_t linear = hypothesis_.linear;
-    if (linear == 0) {
-      return change(start);
-    }
-    Eigen::MatrixXd columns(observations_.size(), static_cast<Eigen::Index>(linear));
-    Values values(linear, 0.0);
-    values.insert(values.end(), start.begin(), start.end());
-    // The first parameter stays while the others are tried: a first moment needs its mass.
-    values[0] = hypothesis_.parameters[0].step;
-    const Eigen::VectorXd first = change(values);
-    columns.col(0) = first / values[0];
-    for (std::size_t k = 1; k < linear; ++k) {
-      values[k] = hypothesis_.parameters[k].step;
-      columns.col(static_cast<Eigen::Index>(k)) = (change(values) - first) / values[k];
-      values[k] = 0;
-    }
-    return columns;
-  }
-
- private:
-  Eigen::VectorXd bare() const {
-    std::vector<Prediction> predictions;
-    for (const Simulation& simulation : observations_.simulations) {
-      predictions.push_back(simulation.prediction);
-    }
-    return observations_.stacked(predictions);
-  }
-
-  const Observations& observations_;
-  const Hypothesis& hypothesis_;
-};
-
 }  // namespace
+
+Changes::Changes(const Observations& observations)
+    : observations_(observations), predicted_(observations.stacked(observations.predictions)) {
+  std::vector<Prediction> predictions;
+  predictions.reserve(observations.simulations.size());
+  for (const Simulation& simulation : observations.simulations) {
+    predictions.push_back(simulation.prediction);
+  }
+  bare_ = observations.stacked(predictions);
+}
+
+Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) const {
+  if (hypothesis.alters_model && !hypothesis.sketch) {
+    Machine machine = observations_.machine;
+    hypothesis.apply(values, &machine);
+    return observations_.stacked(predict(machine, observations_.scenes)) - predicted_;
+  }
+  Machine machine;
+  machine.robot = observations_.machine.robot;
+  if (hypothesis.sketch) {
+    machine.terms.push_back(hypothesis.sketch(values));
+  } else {
+    hypothesis.apply(values, &machine);
+  }
+  std::vector<Prediction> predictions;
+  predictions.reserve(observations_.scenes.size());
+  for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
+    predictions.push_back(
+        with_terms(machine.terms, observations_.scenes[s], observations_.simulations[s]));
+  }
+  return observations_.stacked(predictions) - bare_;
+}
+
+Eigen::MatrixXd Changes::columns(const Hypothesis& hypothesis, const Values& start) const {
+  const std::size_t linear = hypothesis.linear;
+  if (linear == 0) {
+    return by(hypothesis, start);
+  }
+  Eigen::MatrixXd columns(observations_.size(), static_cast<Eigen::Index>(linear));
+  Values values(linear, 0.0);
+  values.insert(values.end(), start.begin(), start.end());
+  // The first parameter stays while the others are tried: a first moment needs its mass.
+  values[0] = hypothesis.parameters[0].step;
+  const Eigen::VectorXd first = by(hypothesis, values);
+  columns.col(0) = first / values[0];
+  for (std::size_t k = 1; k < linear; ++k) {
+    values[k] = hypothesis.parameters[k].step;
+    columns.col(static_cast<Eigen::Index>(k)) = (by(hypothesis, values) - first) / values[k];
+    values[k] = 0;
+  }
+  return columns;
+}
 
 Dictionary::Dictionary(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
                        const std::function<void(std::size_t, std::size_t)>& progress)
     : hypotheses_(&hypotheses) {
+  const Changes changes(observations);
   std::vector<std::vector<Eigen::MatrixXd>> blocks(hypotheses.size());
   in_parallel(hypotheses.size(), progress, [&](std::size_t i) {
-    const Columns columns_of(observations, hypotheses[i]);
     for (const Values& start : hypotheses[i].starts) {
-      blocks[i].push_back(columns_of.at(start));
+      blocks[i].push_back(changes.columns(hypotheses[i], start));
     }
   });
   Eigen::Index count = 0;
@@ -127,6 +116,17 @@ const Entry* Dictionary::find(const Hypothesis& hypothesis) const {
   return nullptr;
 }
 
+LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
+                          const Eigen::VectorXd& length, double damping) {
+  const Eigen::VectorXd scale = length.cwiseMax(1e-300);
+  Eigen::MatrixXd inner =
+      scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
+  inner.diagonal().array() += damping;
+  const Eigen::VectorXd scaled = moment.cwiseQuotient(scale);
+  const Eigen::VectorXd solved = inner.ldlt().solve(scaled);
+  return {solved.cwiseQuotient(scale), 2 * scaled.dot(solved) - solved.dot(inner * solved)};
+}
+
 std::vector<Screened> screen(const Observations& observations,
                              const std::vector<Hypothesis>& hypotheses,
                              const Dictionary& dictionary, const Eigen::VectorXd& remainder,
@@ -149,17 +149,12 @@ std::vector<Screened> screen(const Observations& observations,
     const auto common = shared.middleCols(entry.first, entry.count);
     const Eigen::MatrixXd own =
         dictionary.gram.block(entry.first, entry.first, entry.count, entry.count);
-    Eigen::MatrixXd inner = own - common.transpose() * common;
-    const Eigen::VectorXd scale = own.diagonal().cwiseSqrt().cwiseMax(1e-300);
-    inner = scale.cwiseInverse().asDiagonal() * inner * scale.cwiseInverse().asDiagonal();
-    inner.diagonal().array() += 1e-10;
-    const Eigen::VectorXd moment = product.segment(entry.first, entry.count).cwiseQuotient(scale);
-    const Eigen::VectorXd solved = inner.ldlt().solve(moment);
-    const double gain = 2 * moment.dot(solved) - solved.dot(inner * solved);
-    const Eigen::VectorXd amplitude = solved.cwiseQuotient(scale);
-    if (gain > 0 && amplitude.allFinite() &&
-        within_bounds(hypotheses[entry.hypothesis], amplitude)) {
-      all.push_back({i, std::max(sum - gain, 0.0), amplitude});
+    const LeastSquares solved =
+        solve_scaled(own - common.transpose() * common, product.segment(entry.first, entry.count),
+                     own.diagonal().cwiseSqrt(), 1e-10);
+    if (solved.gain > 0 && solved.amplitude.allFinite() &&
+        within_bounds(hypotheses[entry.hypothesis], solved.amplitude)) {
+      all.push_back({i, std::max(sum - solved.gain, 0.0), solved.amplitude});
     }
   }
   return all;

@@ -8,6 +8,24 @@
 
 namespace flexcomp::diagnosis {
 
+/// How hypotheses change what a model predicts for observations.
+class Changes {
+ public:
+  explicit Changes(const Observations& observations);
+
+  /// The whole change over the noise (samples), by the values of a hypothesis' parameters; to first
+  /// order where it has a sketch.
+  Eigen::VectorXd by(const Hypothesis& hypothesis, const Values& values) const;
+
+  /// A column for each linear parameter, per unit of it, or one for a whole guess.
+  Eigen::MatrixXd columns(const Hypothesis& hypothesis, const Values& start) const;
+
+ private:
+  const Observations& observations_;
+  Eigen::VectorXd predicted_;  ///< by the model with its terms
+  Eigen::VectorXd bare_;       ///< without them
+};
+
 /// A hypothesis with the starting values of what is not linear in it: columns of the dictionary.
 struct Entry {
   std::size_t hypothesis;
@@ -33,6 +51,17 @@ class Dictionary {
  private:
   const std::vector<Hypothesis>* hypotheses_;
 };
+
+/// Amplitudes of columns, and by how much they lower the sum of squares.
+struct LeastSquares {
+  Eigen::VectorXd amplitude;
+  double gain = 0;
+};
+
+/// Least squares by normal equations, in columns over their `length`, slightly damped so that a
+/// column that is a mixture of others gets next to nothing.
+LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
+                          const Eigen::VectorXd& length, double damping);
 
 /// What an entry would explain beside what is fitted already.
 struct Screened {

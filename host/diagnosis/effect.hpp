@@ -37,6 +37,9 @@ struct Hypothesis {
   std::string statement;  ///< one plain clause: what the machine has that the model lacks
 };
 
+/// Are they the same effect at the same place, in whatever form?
+bool are_the_same(const Hypothesis& a, const Hypothesis& b);
+
 /// An entry of the catalogue.
 struct Effect {
   const char* name;  ///< of the contract's vocabulary
@@ -47,7 +50,7 @@ struct Effect {
 /// Every effect that is known; a new one is a file in effects/ and a line in registry.cpp.
 const std::vector<Effect>& registry();
 
-/// All hypotheses of all effects.
+/// All hypotheses of all effects; some may have no start for what was observed.
 std::vector<Hypothesis> all_hypotheses(const Observations& observations);
 
 }  // namespace flexcomp::diagnosis

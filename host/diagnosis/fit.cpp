@@ -143,10 +143,11 @@ Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder) {
 /// Ceres' view: weighted remainder of the samples to fit to, in parameters over their steps.
 class WeightedRemainder : public ceres::CostFunction {
  public:
-  WeightedRemainder(const Observations& observations, Evaluator* evaluator,
-                    const Eigen::VectorXd* weight)
-      : observations_(observations), evaluator_(evaluator), weight_(weight) {
-    set_num_residuals(static_cast<int>(observations.train));
+  /// `measured` over the noise, and `weight`: of the samples to fit to.
+  WeightedRemainder(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight,
+                    Evaluator* evaluator)
+      : measured_(measured), root_(weight.cwiseSqrt()), evaluator_(evaluator) {
+    set_num_residuals(static_cast<int>(measured.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(evaluator->size()));
   }
 
@@ -164,31 +165,28 @@ class WeightedRemainder : public ceres::CostFunction {
     } catch (const InputError&) {
       return false;  // springs so soft that there is no rest
     }
-    const Eigen::Index n = observations_.train;
-    const Eigen::VectorXd base = observations_.stacked(observations_.predictions);
-    const Eigen::VectorXd root = weight_->cwiseSqrt();
-    Eigen::Map<Eigen::VectorXd>(residuals, n) =
-        root.cwiseProduct((observations_.residual + base - predicted).head(n));
+    const Eigen::Index n = measured_.size();
+    Eigen::Map<Eigen::VectorXd>(residuals, n) = root_.cwiseProduct(measured_ - predicted.head(n));
     if (wants) {
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
       const auto columns = static_cast<Eigen::Index>(values.size());
       Eigen::Map<RowMajor> jacobian(jacobians[0], n, columns);
       for (Eigen::Index i = 0; i < columns; ++i) {
         jacobian.col(i) = -evaluator_->parameter(static_cast<std::size_t>(i)).step *
-                          root.cwiseProduct(derivative.col(i).head(n));
+                          root_.cwiseProduct(derivative.col(i).head(n));
       }
     }
     return Eigen::Map<Eigen::VectorXd>(residuals, n).allFinite();
   }
 
  private:
-  const Observations& observations_;
+  const Eigen::VectorXd& measured_;
+  Eigen::VectorXd root_;  ///< of the weights
   Evaluator* evaluator_;
-  const Eigen::VectorXd* weight_;
 };
 
-void solve(const Observations& observations, Evaluator* evaluator, const Eigen::VectorXd& weight,
-           int most_steps) {
+void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int most_steps,
+           Evaluator* evaluator) {
   Values scaled = evaluator->values();
   for (std::size_t i = 0; i < scaled.size(); ++i) {
     const Parameter& bounds = evaluator->parameter(i);
@@ -197,7 +195,7 @@ void solve(const Observations& observations, Evaluator* evaluator, const Eigen::
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);
-  WeightedRemainder cost(observations, evaluator, &weight);
+  WeightedRemainder cost(measured, weight, evaluator);
   problem.AddResidualBlock(&cost, nullptr, scaled.data());
   for (std::size_t i = 0; i < scaled.size(); ++i) {
     const Parameter& bounds = evaluator->parameter(i);
@@ -267,24 +265,20 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
   const Eigen::Index n = observations.train;
   Evaluator evaluator(observations, std::move(start), dictionary);
   const Eigen::VectorXd base = observations.stacked(observations.predictions);
-  Eigen::VectorXd weight = Eigen::VectorXd::Ones(n);
-  if (evaluator.size() > 0) {
-    const Eigen::VectorXd first = evaluator.evaluate(evaluator.values(), nullptr);
-    weight = huber_weights((observations.residual + base - first).head(n));
-    solve(observations, &evaluator, weight, most_steps);
-  }
-  result.chosen = evaluator.chosen();
-  result.machine = machine_with(observations, result.chosen);
+  const Eigen::VectorXd measured = observations.residual + base;
   Eigen::VectorXd predicted = base;
   result.derivative.resize(base.size(), 0);
   if (evaluator.size() > 0) {
+    const Eigen::VectorXd to_fit = measured.head(n);
+    const Eigen::VectorXd first = evaluator.evaluate(evaluator.values(), nullptr);
+    solve(to_fit, huber_weights(to_fit - first.head(n)), most_steps, &evaluator);
     predicted = evaluator.evaluate(evaluator.values(), &result.derivative);
   }
-  result.remainder = observations.residual + base - predicted;
-  weight = huber_weights(result.remainder.head(n));
+  result.chosen = evaluator.chosen();
+  result.machine = machine_with(observations, result.chosen);
+  result.remainder = measured - predicted;
+  const Eigen::VectorXd weight = huber_weights(result.remainder.head(n));
   result.train_sum = weight.dot(result.remainder.head(n).cwiseAbs2());
-  const Eigen::VectorXd rest = result.remainder.tail(result.remainder.size() - n);
-  result.holdout_sum = rest.size() > 0 ? huber_weights(rest).dot(rest.cwiseAbs2()) : 0;
   const double freedom = static_cast<double>(n) - static_cast<double>(evaluator.size());
   if (evaluator.size() > 0) {
     result.covariance = covariance_of(result.derivative.topRows(n), weight,

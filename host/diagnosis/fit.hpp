@@ -21,7 +21,6 @@ struct Fit {
   Eigen::MatrixXd derivative;  ///< samples × parameters, of the prediction over the noise
   Eigen::MatrixXd covariance;  ///< parameters × parameters; zero where nothing depends on one
   double train_sum = 0;        ///< robust sum of squares of the remainder
-  double holdout_sum = 0;
 
   std::size_t parameters() const;
 };

@@ -53,11 +53,12 @@ bool is_known(const std::vector<Hypothesis>& hypotheses, const std::string& effe
                      [&](const Hypothesis& hypothesis) { return hypothesis.effect == effect; });
 }
 
+/// Applies an effect if it is one that alters the model, or one that does not.
 void apply(const model::LearnedEffect& learned, const std::vector<Hypothesis>& hypotheses,
-           const model::Robot& robot, Machine* machine) {
+           bool alters, const model::Robot& robot, Machine* machine) {
   for (const Hypothesis& hypothesis : hypotheses) {
-    if (hypothesis.effect != learned.effect || hypothesis.joint != learned.joint ||
-        hypothesis.form != learned.form) {
+    if (hypothesis.alters_model != alters || hypothesis.effect != learned.effect ||
+        hypothesis.joint != learned.joint || hypothesis.form != learned.form) {
       continue;
     }
     Values values;
@@ -74,7 +75,7 @@ void apply(const model::LearnedEffect& learned, const std::vector<Hypothesis>& h
     return;
   }
   // Of an effect that these recordings cannot show there is no hypothesis, and no trace either.
-  if (is_known(hypotheses, learned.effect) && learned.effect == "thermal_drift") {
+  if (!alters && is_known(hypotheses, learned.effect) && learned.effect == "thermal_drift") {
     throw InputError(
         fmt::format("{}: effects: a thermal_drift by {} cannot be simulated for these "
                     "recordings",
@@ -107,18 +108,12 @@ Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes) 
     return machine;
   }
   const Observations observations(machine, scenes, 0);
-  std::vector<Hypothesis> hypotheses;
-  for (const Effect& effect : registry()) {
-    for (Hypothesis& hypothesis : effect.hypotheses(observations)) {
-      hypotheses.push_back(std::move(hypothesis));
-    }
-  }
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const std::vector<model::LearnedEffect> effects = effects_of(robot, observations);
+  // Terms may hold a copy of the robot: what alters it comes first.
   for (const bool alters : {true, false}) {
-    for (const model::LearnedEffect& learned : effects_of(robot, observations)) {
-      std::vector<Hypothesis> stage;
-      std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(stage),
-                   [&](const Hypothesis& each) { return each.alters_model == alters; });
-      apply(learned, stage, robot, &machine);
+    for (const model::LearnedEffect& learned : effects) {
+      apply(learned, hypotheses, alters, robot, &machine);
     }
   }
   return machine;

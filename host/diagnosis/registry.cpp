@@ -35,13 +35,15 @@ const std::vector<Effect>& registry() {
   return kEffects;
 }
 
+bool are_the_same(const Hypothesis& a, const Hypothesis& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
+
 std::vector<Hypothesis> all_hypotheses(const Observations& observations) {
   std::vector<Hypothesis> all;
   for (const Effect& effect : registry()) {
     for (Hypothesis& hypothesis : effect.hypotheses(observations)) {
-      if (!hypothesis.starts.empty()) {
-        all.push_back(std::move(hypothesis));
-      }
+      all.push_back(std::move(hypothesis));
     }
   }
   return all;

@@ -6,23 +6,18 @@
 
 #include "diagnosis/parameters.hpp"
 #include "diagnosis/report_pictures.hpp"
+#include "report/html.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
+
+using report::escaped;
 
 constexpr const char* kStyle =
     "body{font-family:sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#222}"
     "table{border-collapse:collapse}td,th{padding:.3em .8em;text-align:left;vertical-align:top;"
     "border-bottom:1px solid #ddd}svg{max-width:100%;height:auto}.lead{font-size:1.2em}"
     "h2{margin-top:1.6em}";
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    html += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
-  return html;
-}
 
 std::string channel_rows(const Observations& observations, const Eigen::VectorXd& after) {
   std::string rows;

@@ -1,6 +1,6 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/dictionary.hpp"
 
@@ -35,13 +35,9 @@ class PairSolver {
     inner.bottomLeftCorner(n - m, m) = inner.topRightCorner(m, n - m).transpose();
     Eigen::VectorXd moment(n);
     moment << product_.segment(first.first, m), product_.segment(second.first, n - m);
-    const Eigen::VectorXd scale = inner.diagonal().cwiseSqrt().cwiseMax(1e-300);
-    inner = scale.cwiseInverse().asDiagonal() * inner * scale.cwiseInverse().asDiagonal();
-    inner.diagonal().array() += 1e-9;
-    moment = moment.cwiseQuotient(scale);
-    const Eigen::VectorXd solved = inner.ldlt().solve(moment);
-    const Eigen::VectorXd amplitude = solved.cwiseQuotient(scale);
-    pair->sum = std::max(sum_ - (2 * moment.dot(solved) - solved.dot(inner * solved)), 1e-9);
+    const LeastSquares solved = solve_scaled(inner, moment, inner.diagonal().cwiseSqrt(), 1e-9);
+    const Eigen::VectorXd& amplitude = solved.amplitude;
+    pair->sum = std::max(sum_ - solved.gain, 1e-9);
     pair->first = {a, pair->sum, amplitude.head(m)};
     pair->second = {b, pair->sum, amplitude.tail(n - m)};
     const Hypothesis& one = hypotheses_[first.hypothesis];
@@ -62,10 +58,6 @@ class PairSolver {
   double samples_ = 0;
   Eigen::VectorXd product_;
 };
-
-bool are_the_same(const Hypothesis& a, const Hypothesis& b) {
-  return a.effect == b.effect && a.joint == b.joint;
-}
 
 }  // namespace
 

@@ -5,20 +5,14 @@
 #include <kdl/chainiksolverpos_lma.hpp>
 
 #include "flexcomp/compliance.hpp"
+#include "model/kdl.hpp"
 
 namespace flexcomp::planning {
 namespace {
 
-KDL::Vector to_kdl(const Vector3<double>& v) { return {v.x(), v.y(), v.z()}; }
+using model::to_kdl;
 
-KDL::Frame to_kdl(const Pose<double>& pose) {
-  const Matrix3<double>& r = pose.rotation;
-  return {KDL::Rotation(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
-                        r(2, 2)),
-          to_kdl(pose.position)};
-}
-
-KDL::Chain to_kdl(const RobotModel<double, 6>& model) {
+KDL::Chain kinematic_chain(const RobotModel<double, 6>& model) {
   KDL::Chain chain;
   for (const Joint<double>& joint : model.joints) {
     chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), to_kdl(joint.origin)));
@@ -47,7 +41,9 @@ const Eigen::Matrix<double, 6, 1> kEqualWeights = Eigen::Matrix<double, 6, 1>::O
 class Solver {
  public:
   explicit Solver(const RobotModel<double, 6>& model)
-      : model_(model), chain_(to_kdl(model)), solver_(chain_, kEqualWeights, 1e-10, 500, 1e-15) {}
+      : model_(model),
+        chain_(kinematic_chain(model)),
+        solver_(chain_, kEqualWeights, 1e-10, 500, 1e-15) {}
 
   std::optional<Angles> solve(const Pose<double>& target, const Angles& seed) {
     KDL::JntArray start(6);

@@ -7,35 +7,13 @@
 #include <cmath>
 
 #include "report/gnuplot.hpp"
+#include "report/html.hpp"
 
 namespace flexcomp::report {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr const char* kColors[] = {"#c0392b", "#1f6fb4", "#7f8c8d", "#b9770e", "#6c3483"};
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '&':
-        html += "&amp;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
 
 /// Name for gnuplot: no quotes, no markup.
 std::string plain(const std::string& text) {

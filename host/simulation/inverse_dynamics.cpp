@@ -3,23 +3,18 @@
 #include <kdl/chain.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
 
+#include "model/kdl.hpp"
+
 namespace flexcomp::simulation {
 namespace {
 
-KDL::Vector vector(const Vector3<double>& v) { return {v.x(), v.y(), v.z()}; }
-
-KDL::Frame frame(const Pose<double>& pose) {
-  const Matrix3<double>& r = pose.rotation;
-  return {KDL::Rotation(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
-                        r(2, 2)),
-          vector(pose.position)};
-}
+using model::to_kdl;
 
 KDL::RigidBodyInertia body(double mass, const Vector3<double>& center,
                            const Matrix3<double>& about_center) {
   const KDL::RotationalInertia inertia(about_center(0, 0), about_center(1, 1), about_center(2, 2),
                                        about_center(0, 1), about_center(0, 2), about_center(1, 2));
-  return KDL::RigidBodyInertia(mass, vector(center), inertia);
+  return KDL::RigidBodyInertia(mass, to_kdl(center), inertia);
 }
 
 /// KDL turns about an axis of the frame before the segment; a fixed segment carries the origin.
@@ -28,13 +23,13 @@ KDL::Chain rigid_chain(const model::Robot& robot) {
   KDL::Chain chain;
   for (std::size_t i = 0; i < 6; ++i) {
     const Joint<double>& joint = robot.elastic.joints[i];
-    chain.addSegment(KDL::Segment(Axis(Axis::None), frame(joint.origin)));
-    chain.addSegment(KDL::Segment(Axis(KDL::Vector::Zero(), vector(joint.axis), Axis::RotAxis),
+    chain.addSegment(KDL::Segment(Axis(Axis::None), to_kdl(joint.origin)));
+    chain.addSegment(KDL::Segment(Axis(KDL::Vector::Zero(), to_kdl(joint.axis), Axis::RotAxis),
                                   KDL::Frame::Identity(),
                                   body(joint.mass, joint.center_of_mass, robot.link_inertia[i])));
   }
   chain.addSegment(KDL::Segment(
-      Axis(Axis::None), frame(robot.elastic.tool),
+      Axis(Axis::None), to_kdl(robot.elastic.tool),
       body(robot.elastic.payload_mass, robot.elastic.payload_center, Matrix3<double>::Zero())));
   return chain;
 }
@@ -50,7 +45,7 @@ KDL::JntArray joints(const JointVector<double, 6>& values) {
 struct InverseDynamics::Solver {
   explicit Solver(const model::Robot& robot)
       : chain(rigid_chain(robot)),
-        newton_euler(chain, vector(robot.elastic.gravity)),
+        newton_euler(chain, to_kdl(robot.elastic.gravity)),
         none(chain.getNrOfSegments(), KDL::Wrench::Zero()) {}
 
   KDL::Chain chain;

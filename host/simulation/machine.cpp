@@ -106,13 +106,11 @@ Row drive_torque(const Machine& machine, const Scene& scene, const InverseDynami
 }
 
 Row friction(const Machine& machine, const Simulation& at, Eigen::Index row) {
-  constexpr double kStanding = 1e-4;  // rad/s, slower than any programmed motion
   Row torque;
   for (Eigen::Index joint = 0; joint < 6; ++joint) {
     const model::JointDynamics& dynamics = machine.robot.dynamics[static_cast<std::size_t>(joint)];
     const double speed = at.velocity(row, joint);
-    const double direction = speed > kStanding ? 1 : (speed < -kStanding ? -1 : 0);
-    torque[joint] = dynamics.viscous * speed + dynamics.coulomb * direction +
+    torque[joint] = dynamics.viscous * speed + dynamics.coulomb * direction_of_motion(speed) +
                     dynamics.rotor_inertia * at.acceleration(row, joint);
   }
   return torque;
@@ -174,6 +172,11 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
     drive(machine, scene, wanted, &at);
   }
   return at;
+}
+
+int direction_of_motion(double speed) {
+  constexpr double kStanding = 1e-4;  // rad/s
+  return speed > kStanding ? 1 : (speed < -kStanding ? -1 : 0);
 }
 
 Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,

@@ -66,6 +66,9 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
 Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
                       const Simulation& simulation);
 
+/// 1, −1, or 0 at speeds (rad/s) below any programmed motion, where only noise has a sign.
+int direction_of_motion(double speed);
+
 /// Adds an angle (n, rad) by which a joint stands elsewhere on its link side, to first order.
 /// `dynamic` is what the link encoder sees of it.
 void add_joint_angle(const Simulation& simulation, int joint, const Eigen::VectorXd& angle,

@@ -25,6 +25,11 @@ void add_load_driven(const Simulation& simulation, int joint,
                               prediction);
 }
 
+Eigen::VectorXd ripple(const Simulation& simulation, int joint, const Values& values) {
+  const Eigen::ArrayXd wave = values[2] * simulation.q.col(joint - 1).array();
+  return values[0] * wave.sin() + values[1] * wave.cos();
+}
+
 void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction) {
   if (prediction->channel[simulation::joint_torque].cols() > 0) {
     prediction->channel[simulation::joint_torque].col(joint - 1) += torque;

@@ -48,6 +48,9 @@ void add_load_driven(const Simulation& simulation, int joint,
                      const std::function<Eigen::VectorXd(const Eigen::VectorXd& load)>& series,
                      Prediction* prediction);
 
+/// a sin(order·q) + b cos(order·q) along a joint's angle; values: a, b, order.
+Eigen::VectorXd ripple(const Simulation& simulation, int joint, const Values& values);
+
 /// Adds a torque (n, N·m) of a joint's drive.
 void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction);
 

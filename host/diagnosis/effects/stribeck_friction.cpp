@@ -7,10 +7,10 @@ namespace {
 simulation::Term slow_friction(int joint, double excess, double stribeck_speed) {
   return {simulation::Term::output,
           [=](const Scene&, const Simulation& at, Prediction* prediction) {
-            constexpr double kStanding = 1e-4;  // rad/s
             const Eigen::ArrayXd speed = at.velocity.col(joint - 1).array();
-            const Eigen::ArrayXd direction =
-                (speed.abs() > kStanding).select(speed.sign(), Eigen::ArrayXd::Zero(speed.size()));
+            const Eigen::ArrayXd direction = speed.unaryExpr([](double value) {
+              return static_cast<double>(simulation::direction_of_motion(value));
+            });
             add_torque(joint, excess * (-(speed / stribeck_speed).square()).exp() * direction,
                        prediction);
           }};

@@ -22,13 +22,10 @@ std::vector<Hypothesis> transmission_ripple(const Observations& observations) {
     hypothesis.starts = ripple_orders(observations, joint, observations.angle_residual(joint));
     hypothesis.statement = fmt::format("the gear of joint {} has a periodic error", joint);
     hypothesis.apply = [joint](const Values& values, Machine* machine) {
-      machine->terms.push_back(
-          {simulation::Term::output,
-           [=](const Scene&, const Simulation& at, Prediction* prediction) {
-             const Eigen::ArrayXd wave = values[2] * at.q.col(joint - 1).array();
-             add_joint_angle(at, joint, values[0] * wave.sin() + values[1] * wave.cos(),
-                             prediction);
-           }});
+      machine->terms.push_back({simulation::Term::output,
+                                [=](const Scene&, const Simulation& at, Prediction* prediction) {
+                                  add_joint_angle(at, joint, ripple(at, joint, values), prediction);
+                                }});
     };
     all.push_back(hypothesis);
   }
