@@ -71,6 +71,11 @@ void summarize(const diagnosis::Observations& observations, const diagnosis::Dia
     fmt::print("clock of {}: late by {:.2f} ms, standard deviation {:.2f} ms\n", clock.group,
                1e3 * clock.delay, 1e3 * clock.deviation);
   }
+  for (const diagnosis::Excitation& joint : result.excitation) {
+    if (joint.tells_nothing()) {
+      fmt::print("joint {}: {}\n", joint.joint, diagnosis::verdict(joint));
+    }
+  }
   fmt::print("{}{}\n", result.verdict, result.reason.empty() ? "" : ": " + result.reason);
   for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
     fmt::print("{}\n", diagnosis::statement(observations, result, i));

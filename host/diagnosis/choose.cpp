@@ -11,12 +11,15 @@ namespace {
 constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kConfirmed = 2;
 constexpr double kLeastStrength = 1.0 / 3;
+/// What is weaker than this part of the whole is within the exactness of what is simulated.
+constexpr double kExactness = 0.01;
 constexpr double kLeastShare = 0.1;  // of what is left: many small steps are a wrong way
 constexpr std::size_t kMostFindings = 5;
 constexpr std::size_t kShortlist = 5;
 constexpr int kQuickSteps = 4;
 constexpr double kSettled = 1.1;  // times the noise: nothing left that two could share
 constexpr int kSteps = 12;
+constexpr int kLastSteps = 60;
 
 /// A hypothesis with values to begin with, and what it promises.
 struct Candidate {
@@ -130,7 +133,8 @@ class Chooser {
                             {chosen_of(hypotheses_, dictionary_, pair.first),
                              chosen_of(hypotheses_, dictionary_, pair.second)},
                             kSteps, &dictionary_);
-      if (criterion(tried) < criterion(*current) - kStrong && all_hold(tried)) {
+      if (criterion(tried) < criterion(*current) - kStrong &&
+          cancellation(*observations_, tried) < kMostCancellation && all_hold(tried)) {
         *current = tried;
         bettered = true;
       }
@@ -183,7 +187,7 @@ class Chooser {
   bool holds(const Evidence& evidence) const {
     return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
            evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
-           evidence.share > kLeastShare;
+           evidence.relative_strength > kExactness && evidence.share > kLeastShare;
   }
 
   Evidence weigh_last(const Fit& before, const Fit& after) const {
@@ -324,7 +328,7 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
     chooser.seek(choice.fit);
     grow();
   }
-  choice.fit = fit(*observations, choice.fit.chosen, kSteps);
+  choice.fit = fit(*observations, choice.fit.chosen, kLastSteps);
   chooser.prune(&choice);
   for (std::size_t i = 0; i < choice.findings.size(); ++i) {
     chooser.find_alternatives(choice.fit, i, &choice.findings[i]);

@@ -37,6 +37,9 @@ struct Choice {
   std::vector<Finding> findings;  ///< in the order of `fit.chosen`, the strongest first
 };
 
+/// Above it, effects imitate something else by large parts that cancel.
+constexpr double kMostCancellation = 10;
+
 /// Tells how far it is: done, of how many.
 using Tell = std::function<void(std::size_t, std::size_t)>;
 

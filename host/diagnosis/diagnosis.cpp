@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kSameEvidence = 6;      // of BIC: below "strong" (Kass and Raftery 1995)
 constexpr double kNoiseLike = 1.15;      // times the noise: nothing left to explain
+constexpr double kNearNoise = 1.05;      // times the noise: nothing that a rival could better
+constexpr double kFarMoreEvidence = 20;  // of BIC
 constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
-constexpr double kMostCancellation = 10;
 constexpr Eigen::Index kFewestSamples = 24;
 constexpr Eigen::Index kLeastFreedom = 8;
 
@@ -67,22 +68,14 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
   diagnosis->reason = reason;
 }
 
-/// How much findings work against each other: the power of their shares one by one over that of
-/// their sum. Effects that are there add up (about 1); a sum of effects that imitates another one
-/// is large parts that cancel.
-double cancellation(const Observations& observations, const Fit& fit) {
-  if (fit.chosen.size() < 2) {
-    return 1;
+/// Does a form without physics, of no more parameters, account for more than findings do? Then what
+/// they have in common with the mismatch is no proof of them.
+bool is_outdone(const Observations& observations, const Fit& findings, const Proposal& rival) {
+  if (rival.terms.empty() || rival.fit.parameters() > findings.parameters()) {
+    return false;
   }
-  const Eigen::Index n = observations.train;
-  const Eigen::VectorXd base = observations.stacked(observations.predictions);
-  double parts = 0;
-  for (const Chosen& chosen : fit.chosen) {
-    const Machine alone = machine_with(observations, {chosen});
-    parts +=
-        (observations.stacked(predict(alone, observations.scenes)) - base).head(n).squaredNorm();
-  }
-  return parts / std::max((observations.residual - fit.remainder).head(n).squaredNorm(), 1e-9);
+  const double samples = independent_samples(observations, rival.fit.remainder);
+  return bic_gain(samples, findings.train_sum, rival.fit.train_sum, 0) > kFarMoreEvidence;
 }
 
 void judge(const Observations& observations, Diagnosis* diagnosis) {
@@ -91,6 +84,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   const double after = largest_ratio(observations, diagnosis->choice.fit.remainder);
   const bool is_noise =
       !observations.noise_is_known || after < kNoiseLike + 3 * observations.noise_uncertainty;
+  const bool is_settled = is_noise && after < kNearNoise;
   const double excess = std::max(before * before - 1, 1e-9);
   const double explained = 1 - (after * after - 1) / excess;
   if (diagnosis->choice.fit.chosen.empty()) {
@@ -102,6 +96,10 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
              "only a sum of large effects that cancel each other comes near, which imitates what "
              "is not there",
              diagnosis);
+  } else if (diagnosis->choice.fit.chosen.size() > 1 && !is_settled &&
+             is_outdone(observations, diagnosis->choice.fit,
+                        propose(observations, fit(observations, {}, 0)))) {
+    withdraw(observations, "a form that no known effect has accounts for more of it", diagnosis);
   } else if (is_noise) {
     diagnosis->verdict = "explained";
   } else if (explained < kLeastExplained) {
@@ -132,6 +130,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     dictionary = Dictionary(*observations, hypotheses, settings.simulating);
   }
   diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary);
+  diagnosis.excitation = excitation(*observations, hypotheses, dictionary);
   diagnosis.location = locate(*observations, observations->residual);
   diagnosis.choice =
       choose(observations, hypotheses, dictionary, settings.false_discovery, settings.choosing);
@@ -139,6 +138,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   judge(*observations, &diagnosis);
   if (diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained") {
     diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
+    diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
   }
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;
@@ -173,9 +173,14 @@ std::string headline(const Observations& observations, const Diagnosis& diagnosi
   if (!diagnosis.choice.findings.empty()) {
     return statement(observations, diagnosis, 0);
   }
-  return diagnosis.verdict == "no_mismatch"
-             ? "Model and recording agree within the noise."
-             : "Model and recording differ: " + diagnosis.reason + ".";
+  if (diagnosis.verdict == "no_mismatch") {
+    return "Model and recording agree within the noise.";
+  }
+  const std::string form =
+      diagnosis.proposal.empty()
+          ? ""
+          : fmt::format(" A form proposed for it: {}.", diagnosis.proposal.front().text);
+  return "Model and recording differ: " + diagnosis.reason + "." + form;
 }
 
 }  // namespace flexcomp::diagnosis

@@ -6,7 +6,9 @@
 
 #include "diagnosis/choose.hpp"
 #include "diagnosis/clock_check.hpp"
+#include "diagnosis/excitation.hpp"
 #include "diagnosis/locate.hpp"
+#include "diagnosis/proposal.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -21,11 +23,13 @@ struct Diagnosis {
   std::string verdict;  ///< no_mismatch, explained, partly_explained or unexplained
   std::string reason;   ///< why not explained; empty where it is
   std::vector<ClockCheck> clocks;
+  std::vector<Excitation> excitation;  ///< of each joint
   Choice choice;
   double cancellation = 1;     ///< power of the findings' shares over that of their sum
   std::vector<Place> nearest;  ///< what comes nearest to an unexplained mismatch, without proof
   Location location;           ///< of the mismatch
   Location left;               ///< of what is unexplained
+  std::vector<ProposedTerm> proposal;  ///< a form of what is unexplained; empty where none is found
   std::vector<std::vector<Place>> indistinguishable;
   std::string suggested_experiment;  ///< empty where none is needed
 };

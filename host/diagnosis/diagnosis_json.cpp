@@ -11,6 +11,8 @@ using simulation::kChannels;
 
 Json joint_or_null(int joint) { return joint > 0 ? Json(joint) : Json(nullptr); }
 
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
 std::vector<Channel> channels_of(const Observations& observations) {
   std::vector<Channel> channels;
   for (std::size_t i = 0; i < kChannels.size(); ++i) {
@@ -56,10 +58,9 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
   const Hypothesis& hypothesis = *choice.fit.chosen[index].hypothesis;
   Json parameters = Json::object();
   for (const Estimate& estimate : estimates(observations, choice.fit, index)) {
-    parameters[estimate.name] = {
-        {"value", estimate.value},
-        {"std", std::isfinite(estimate.deviation) ? Json(estimate.deviation) : Json(nullptr)},
-        {"unit", estimate.unit}};
+    parameters[estimate.name] = {{"value", estimate.value},
+                                 {"std", finite_or_null(estimate.deviation)},
+                                 {"unit", estimate.unit}};
   }
   Json alternatives = Json::array();
   for (const Alternative& other : finding.alternatives) {
@@ -89,6 +90,31 @@ Json places(const std::vector<Place>& all) {
   return json;
 }
 
+Json excitation_json(const Excitation& of) {
+  return {{"joint", of.joint},
+          {"range", of.range},
+          {"largest_speed", of.largest_speed},
+          {"largest_load", of.largest_load},
+          {"reversals", of.reversals},
+          {"relative_stiffness_resolution", finite_or_null(of.stiffness)},
+          {"zero_resolution", finite_or_null(of.zero)},
+          {"friction_resolution", finite_or_null(of.friction)},
+          {"verdict", verdict(of)}};
+}
+
+/// A form, not a finding: what the residual goes with, whatever causes it.
+Json proposal(const std::vector<ProposedTerm>& terms) {
+  Json json = Json::array();
+  for (const ProposedTerm& term : terms) {
+    json.push_back({{"form", term.text},
+                    {"coefficient", term.coefficient},
+                    {"std", term.deviation},
+                    {"unit", term.unit},
+                    {"share_of_power", term.share}});
+  }
+  return json;
+}
+
 }  // namespace
 
 Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
@@ -109,7 +135,8 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
   if (!diagnosis.reason.empty()) {
     json["unexplained"] = {{"reason", diagnosis.reason},
                            {"location", location(diagnosis.left)},
-                           {"nearest", places(diagnosis.nearest)}};
+                           {"nearest", places(diagnosis.nearest)},
+                           {"proposal", proposal(diagnosis.proposal)}};
   }
   json["indistinguishable"] = Json::array();
   for (const std::vector<Place>& group : diagnosis.indistinguishable) {
@@ -121,6 +148,10 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
   for (const ClockCheck& clock : diagnosis.clocks) {
     json["clocks"].push_back(
         {{"group", clock.group}, {"delay", clock.delay}, {"std", clock.deviation}});
+  }
+  json["excitation"] = Json::array();
+  for (const Excitation& each : diagnosis.excitation) {
+    json["excitation"].push_back(excitation_json(each));
   }
   json["cancellation"] = diagnosis.cancellation;
   json["outliers"] = observations.outliers;

@@ -98,6 +98,8 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
   evidence.share = beyond > 0 ? (without.train_sum - with.train_sum) / beyond : 1;
   evidence.confirmation = confirmation_of(observations, without.remainder, with.remainder);
   evidence.strength = strength_of(observations, without.remainder - with.remainder);
+  const double whole = strength_of(observations, observations.residual - with.remainder);
+  evidence.relative_strength = whole > 0 ? evidence.strength / whole : 0;
   return evidence;
 }
 

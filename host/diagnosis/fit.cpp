@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/parallel.hpp"
 #include "error.hpp"
@@ -218,6 +219,45 @@ void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int m
   evaluator->set(values);
 }
 
+/// Parameters that act in steps, like the drag that holds a flank, have no derivative: values
+/// around are tried instead, and the middle of the best ones is taken. True if any was changed.
+bool scan_steps(const Eigen::VectorXd& measured, Evaluator* evaluator) {
+  constexpr int kReach = 20;
+  constexpr double kFactor = 1.05;
+  constexpr double kSame = 1e-9;
+  const Eigen::Index n = measured.size();
+  Eigen::MatrixXd derivative;
+  evaluator->evaluate(evaluator->values(), &derivative);
+  bool changed = false;
+  for (std::size_t i = 0; i < evaluator->size(); ++i) {
+    if (derivative.col(static_cast<Eigen::Index>(i)).head(n).norm() > 0) {
+      continue;
+    }
+    const Values here = evaluator->values();
+    const Parameter& bounds = evaluator->parameter(i);
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<double> best;
+    for (int k = -kReach; k <= kReach; ++k) {
+      Values tried = here;
+      tried[i] = std::clamp(here[i] * std::pow(kFactor, k), bounds.lower, bounds.upper);
+      const Eigen::VectorXd left = measured - evaluator->evaluate(tried, nullptr).head(n);
+      const double sum = huber_weights(left).dot(left.cwiseAbs2());
+      if (sum < least * (1 - kSame)) {
+        least = sum;
+        best.clear();
+      }
+      if (sum <= least * (1 + kSame)) {
+        best.push_back(tried[i]);
+      }
+    }
+    Values moved = here;
+    moved[i] = best.empty() ? here[i] : best[best.size() / 2];
+    changed = changed || moved[i] != here[i];
+    evaluator->set(moved);
+  }
+  return changed;
+}
+
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
                               double variance) {
   const Eigen::MatrixXd weighted = weight.asDiagonal() * derivative;
@@ -271,7 +311,11 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
   if (evaluator.size() > 0) {
     const Eigen::VectorXd to_fit = measured.head(n);
     const Eigen::VectorXd first = evaluator.evaluate(evaluator.values(), nullptr);
-    solve(to_fit, huber_weights(to_fit - first.head(n)), most_steps, &evaluator);
+    const Eigen::VectorXd weight = huber_weights(to_fit - first.head(n));
+    solve(to_fit, weight, most_steps, &evaluator);
+    if (dictionary == nullptr && most_steps > 0 && scan_steps(to_fit, &evaluator)) {
+      solve(to_fit, weight, most_steps, &evaluator);
+    }
     predicted = evaluator.evaluate(evaluator.values(), &result.derivative);
   }
   result.chosen = evaluator.chosen();
@@ -285,6 +329,21 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
                                       result.train_sum / std::max(freedom, 1.0));
   }
   return result;
+}
+
+double cancellation(const Observations& observations, const Fit& fit) {
+  if (fit.chosen.size() < 2) {
+    return 1;
+  }
+  const Eigen::Index n = observations.train;
+  const Eigen::VectorXd base = observations.stacked(observations.predictions);
+  double parts = 0;
+  for (const Chosen& chosen : fit.chosen) {
+    const Machine alone = machine_with(observations, {chosen});
+    parts +=
+        (observations.stacked(predict(alone, observations.scenes)) - base).head(n).squaredNorm();
+  }
+  return parts / std::max((observations.residual - fit.remainder).head(n).squaredNorm(), 1e-9);
 }
 
 }  // namespace flexcomp::diagnosis

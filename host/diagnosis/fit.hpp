@@ -37,4 +37,9 @@ Machine machine_with(const Observations& observations, const std::vector<Chosen>
 Fit fit(const Observations& observations, std::vector<Chosen> start, int most_steps,
         const Dictionary* dictionary = nullptr);
 
+/// How much findings work against each other: the power of their shares one by one over that of
+/// their sum. Effects that are there add up (about 1); a sum of effects that imitates another one
+/// is large parts that cancel.
+double cancellation(const Observations& observations, const Fit& fit);
+
 }  // namespace flexcomp::diagnosis

@@ -81,7 +81,22 @@ Observations::Observations(Machine model, std::vector<Scene> all, std::size_t ho
   renew_residual();
 }
 
-std::array<Eigen::RowVectorXd, 3> Observations::prediction_noise(std::size_t s) const {
+std::array<Eigen::MatrixXd, 3> Observations::change_with(const Scene& other, std::size_t s) const {
+  simulation::Wanted wanted;
+  wanted.levers = false;
+  wanted.channel[tcp_position] = false;
+  const Simulation with = simulate(machine, other, wanted);
+  std::array<Eigen::MatrixXd, 3> change;
+  for (const Channel channel : {joint_torque, joint_deflection}) {
+    if (scenes[s].has(channel) && !scenes[s].is_static) {
+      change[channel] =
+          with.prediction.channel[channel] - simulations[s].prediction.channel[channel];
+    }
+  }
+  return change;
+}
+
+PredictionNoise Observations::prediction_noise(std::size_t s) const {
   Scene noisy = scenes[s];
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, 1);
@@ -91,37 +106,30 @@ std::array<Eigen::RowVectorXd, 3> Observations::prediction_noise(std::size_t s) 
       noisy.acceleration(row, joint) += noisy.acceleration_noise[joint] * normal(random);
     }
   }
-  simulation::Wanted wanted;
-  wanted.levers = false;
-  wanted.channel[tcp_position] = false;
-  const Simulation with = simulate(machine, noisy, wanted);
-  std::array<Eigen::RowVectorXd, 3> deviation;
+  PredictionNoise noises;
+  const std::array<Eigen::MatrixXd, 3> change = change_with(noisy, s);
   for (const Channel channel : {joint_torque, joint_deflection}) {
-    if (scenes[s].has(channel) && !scenes[s].is_static) {
-      deviation[channel] =
-          ((with.prediction.channel[channel] - simulations[s].prediction.channel[channel])
-               .array()
-               .square()
-               .colwise()
-               .mean())
-              .sqrt();
+    if (change[channel].size() > 0) {
+      noises.deviation[channel] = change[channel].array().square().colwise().mean().sqrt();
     }
   }
-  return deviation;
+  Scene doubtful = scenes[s];
+  doubtful.acceleration += doubtful.acceleration_doubt;
+  noises.doubt = change_with(doubtful, s);
+  return noises;
 }
 
 void Observations::collect(std::size_t holdouts) {
   std::array<std::vector<Sample>, 2> parts;
   std::array<std::vector<double>, 2> noises;
-  std::vector<std::array<Eigen::RowVectorXd, 3>> of_prediction;
+  std::vector<PredictionNoise> of_prediction;
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     of_prediction.push_back(prediction_noise(s));
   }
   for (const Channel channel : kAllChannels) {
     for (std::size_t s = 0; s < scenes.size(); ++s) {
       for (Eigen::Index c = 0; c < scenes[s].measured[channel].cols(); ++c) {
-        const Eigen::RowVectorXd& own = of_prediction[s][channel];
-        add_component(s, channel, c, own.size() > 0 ? own[c] : 0.0, holdouts == 0,
+        add_component({s, 0, channel, c}, of_prediction[s], holdouts == 0,
                       s + holdouts >= scenes.size(), &parts, &noises);
       }
     }
@@ -134,11 +142,14 @@ void Observations::collect(std::size_t holdouts) {
       Eigen::Map<Eigen::VectorXd>(noises[1].data(), noise.size() - train);
 }
 
-void Observations::add_component(std::size_t s, Channel channel, Eigen::Index component,
-                                 double prediction_noise, bool splits, bool is_holdout,
-                                 std::array<std::vector<Sample>, 2>* parts,
+void Observations::add_component(const Sample& first, const PredictionNoise& predicted, bool splits,
+                                 bool is_holdout, std::array<std::vector<Sample>, 2>* parts,
                                  std::array<std::vector<double>, 2>* noises) {
+  const auto [s, top, channel, component] = first;
   const Scene& scene = scenes[s];
+  const bool is_predicted_noisily = predicted.deviation[channel].size() > 0;
+  const double prediction_noise =
+      is_predicted_noisily ? predicted.deviation[channel][component] : 0.0;
   const Eigen::VectorXd difference =
       scene.measured[channel].col(component) - predictions[s].channel[channel].col(component);
   // In a load test neighbours say nothing of the noise: one unit for all until a fit tells.
@@ -146,7 +157,7 @@ void Observations::add_component(std::size_t s, Channel channel, Eigen::Index co
                                ? 1e-5
                                : std::max(noise_of(difference, prediction_noise, memory_of(scene)),
                                           kLeastNoise[channel]);
-  for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+  for (Eigen::Index row = top; row < scene.rows(); ++row) {
     if (!std::isfinite(difference[row]) ||
         (channel == joint_torque && !scene.is_static && scene.stands(row, component) != 0)) {
       continue;
@@ -157,7 +168,8 @@ void Observations::add_component(std::size_t s, Channel channel, Eigen::Index co
     }
     const std::size_t part = splits ? is_held_out(row, scene.rows()) : is_holdout;
     (*parts)[part].push_back({s, row, channel, component});
-    (*noises)[part].push_back(deviation);
+    const double doubt = is_predicted_noisily ? predicted.doubt[channel](row, component) : 0.0;
+    (*noises)[part].push_back(std::hypot(deviation, doubt));
   }
 }
 

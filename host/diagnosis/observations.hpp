@@ -21,6 +21,12 @@ struct Sample {
   Eigen::Index component;
 };
 
+/// What the motion's differentiation brings into predictions, by channel; empty where nothing.
+struct PredictionNoise {
+  std::array<Eigen::RowVectorXd, 3> deviation;  ///< by the encoders' noise, of each component
+  std::array<Eigen::MatrixXd, 3> doubt;         ///< rows × components, by too abrupt motion
+};
+
 /// A component of a channel in a scene, in its own space: a joint's angle or torque.
 struct JointResidual {
   Eigen::VectorXd product;  ///< n, lever · residual over variance, the measured minus the predicted
@@ -77,12 +83,12 @@ class Observations {
   void set_noise(double factor);
 
  private:
-  /// Noise that the encoders bring into the predictions of a scene, by channel and component.
-  std::array<Eigen::RowVectorXd, 3> prediction_noise(std::size_t scene) const;
+  /// What is predicted otherwise for another course of a scene's motion, by channel.
+  std::array<Eigen::MatrixXd, 3> change_with(const Scene& other, std::size_t scene) const;
+  PredictionNoise prediction_noise(std::size_t scene) const;
   void collect(std::size_t holdouts);
-  void add_component(std::size_t scene, Channel channel, Eigen::Index component,
-                     double prediction_noise, bool splits, bool is_holdout,
-                     std::array<std::vector<Sample>, 2>* parts,
+  void add_component(const Sample& first, const PredictionNoise& predicted, bool splits,
+                     bool is_holdout, std::array<std::vector<Sample>, 2>* parts,
                      std::array<std::vector<double>, 2>* noises);
   void renew_residual();
 };

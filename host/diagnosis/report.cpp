@@ -125,13 +125,13 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
   }
   html +=
       "<table><tr><th>joint</th><th>moves over, rad</th><th>up to, rad/s</th>"
-      "<th>load up to, N·m</th></tr>\n";
-  for (int joint = 1; joint <= 6; ++joint) {
-    html += fmt::format("<tr><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></tr>\n",
-                        joint, observations.range(joint), observations.largest_speed(joint),
-                        observations.largest_load(joint));
+      "<th>load up to, N·m</th><th>what can be told of it</th></tr>\n";
+  for (const Excitation& each : diagnosis.excitation) {
+    html += fmt::format(
+        "<tr><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
+        each.joint, each.range, each.largest_speed, each.largest_load, verdict(each));
   }
-  return html + "</table>\n";
+  return html + "</table>\n<p>What can be told: ± 95 %, were it the only change.</p>\n";
 }
 
 std::string groups(const Diagnosis& diagnosis) {
@@ -141,6 +141,22 @@ std::string groups(const Diagnosis& diagnosis) {
             "</p>\n";
   }
   return html.empty() ? "<p>Nothing that matters.</p>\n" : html;
+}
+
+std::string proposal(const std::vector<ProposedTerm>& terms) {
+  if (terms.empty()) {
+    return "";
+  }
+  std::string rows;
+  for (const ProposedTerm& term : terms) {
+    rows += fmt::format("<tr><td>{}</td><td>{:.4g} ± {:.1g} {}</td><td>{:.0f} %</td></tr>\n",
+                        escaped(term.text), term.coefficient, 1.96 * term.deviation,
+                        escaped(term.unit), 100 * term.share);
+  }
+  return "<p>A form is proposed for it, not a finding: it says what the error goes with, not what "
+         "causes it.</p>\n<table><tr><th>proposed term</th><th>coefficient, ± 95 %</th>"
+         "<th>of what was left</th></tr>\n" +
+         rows + "</table>\n";
 }
 
 }  // namespace
@@ -176,6 +192,7 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
                    [](const Place& place) { return place_name(place.effect, place.joint); }) +
             ".</p>\n";
   }
+  html += proposal(diagnosis.proposal);
   html += "<h2>Hypotheses</h2>\n" + ranking_picture(diagnosis.choice.ranking);
   html += "<h2>What cannot be told apart</h2>\n" + groups(diagnosis);
   html += "<h2>What to record next</h2>\n<p>" +

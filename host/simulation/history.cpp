@@ -105,7 +105,9 @@ Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& valu
   const Eigen::Index last = time.size() - 1;
   Eigen::Index before = 0;
   for (Eigen::Index row = 0; row <= last; ++row) {
-    const double wanted = std::clamp(time[row] - delay, time[0], time[last]);
+    const double end = std::clamp(time[row] - delay, time[0], time[last]);
+    const double wanted = std::clamp(2 * end - (time[row] - delay), time[0], time[last]);
+    const bool is_beyond = wanted != time[row] - delay;
     while (before > 0 && time[before] > wanted) {
       --before;
     }
@@ -116,6 +118,10 @@ Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& valu
     const double length = time[after] - time[before];
     const double share = length > 0 ? (wanted - time[before]) / length : 0;
     result.row(row) = (1 - share) * values.row(before) + share * values.row(after);
+    if (is_beyond) {
+      const Eigen::Index edge = end > time[0] ? last : 0;
+      result.row(row) = 2 * values.row(edge) - result.row(row);
+    }
   }
   return result;
 }

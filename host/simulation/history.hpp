@@ -32,8 +32,8 @@ Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input, 
 /// for an input that is straight between the times (s).
 Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double constant);
 
-/// `values` (n×m) as they were `delay` (s) before: straight between the times (s), held at the
-/// ends.
+/// `values` (n×m) as they were `delay` (s) before: straight between the times (s), continued beyond
+/// their ends as they came there, turned about the last one.
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay);
 
 }  // namespace flexcomp::simulation

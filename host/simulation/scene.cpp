@@ -31,6 +31,7 @@ bool is_load_test(const Eigen::VectorXd& time) {
 struct LocalMotion {
   Eigen::Matrix<double, 2, 6> values;  ///< velocity, acceleration
   Eigen::Vector2d gain;                ///< 1/s, 1/s²
+  Eigen::Matrix<double, 1, 6> doubt;   ///< of the acceleration, rad/s²
   Eigen::Matrix<int, 1, 6> stands;
 };
 
@@ -48,8 +49,68 @@ void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
     motion->stands[joint] = standing > 0 ? 1 : 0;
     if (standing == last - first) {
       motion->values.col(joint).setZero();
+      motion->doubt[joint] = 0;
     }
   }
+}
+
+struct Window {
+  Eigen::Index first, row, last;
+};
+
+/// Polynomials about a row; what one order more would change of the acceleration, beyond noise, is
+/// how far it may be wrong where the motion is too abrupt for the samples.
+LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
+                          const Eigen::RowVectorXd& angle_noise, const Window& window) {
+  constexpr double kBeyondNoise = 4;
+  constexpr int kCount = kOrder + 1;
+  const Eigen::Index row = window.row;
+  const double span = std::max(time[window.last] - time[row], time[row] - time[window.first]);
+  Eigen::Matrix<double, kCount + 1, kCount + 1> gram;
+  Eigen::Matrix<double, kCount + 1, 6> moment;
+  gram.setZero();
+  moment.setZero();
+  Eigen::Index used = 0;
+  for (Eigen::Index i = window.first; i <= window.last; ++i) {
+    if (q.row(i).allFinite()) {
+      Eigen::Matrix<double, kCount + 1, 1> powers;
+      const double s = (time[i] - time[row]) / span;
+      powers[0] = 1;
+      for (int k = 1; k <= kCount; ++k) {
+        powers[k] = powers[k - 1] * s;
+      }
+      gram += powers * powers.transpose();
+      moment += powers * (q.row(i) - q.row(row));
+      ++used;
+    }
+  }
+  LocalMotion motion;
+  motion.values.setZero();
+  motion.gain.setZero();
+  motion.doubt.setZero();
+  if (used < kCount) {
+    return motion;
+  }
+  using Square = Eigen::Matrix<double, kCount, kCount>;
+  const auto factors = gram.topLeftCorner<kCount, kCount>().ldlt();
+  const Eigen::Matrix<double, kCount, 6> fit = factors.solve(moment.topRows<kCount>());
+  motion.values.row(0) = fit.row(1) / span;
+  motion.values.row(1) = 2 * fit.row(2) / (span * span);
+  const Square covariance = factors.solve(Square::Identity());
+  motion.gain << std::sqrt(covariance(1, 1)) / span,
+      2 * std::sqrt(covariance(2, 2)) / (span * span);
+  if (used > kCount) {
+    const auto higher = gram.ldlt();
+    const Eigen::Matrix<double, 1, 6> change = higher.solve(moment).row(2) - fit.row(2);
+    // Nested least squares: the variance of the change is the difference of the variances.
+    const double gained =
+        higher.solve(Eigen::Matrix<double, kCount + 1, kCount + 1>::Identity())(2, 2) -
+        covariance(2, 2);
+    const Eigen::Array<double, 1, 6> limit =
+        kBeyondNoise * std::sqrt(std::max(gained, 0.0)) * angle_noise.array();
+    motion.doubt = (change.array().abs() > limit).select(2 * change / (span * span), 0.0);
+  }
+  return motion;
 }
 
 LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
@@ -70,38 +131,7 @@ LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& 
     first -= first > 0 && last == end ? 1 : 0;
     last += last < end ? 1 : 0;
   }
-  const double span = std::max(time[last] - time[row], time[row] - time[first]);
-  Eigen::Matrix<double, kOrder + 1, kOrder + 1> gram;
-  Eigen::Matrix<double, kOrder + 1, 6> moment;
-  gram.setZero();
-  moment.setZero();
-  Eigen::Index used = 0;
-  for (Eigen::Index i = first; i <= last; ++i) {
-    if (q.row(i).allFinite()) {
-      Eigen::Matrix<double, kOrder + 1, 1> powers;
-      const double s = (time[i] - time[row]) / span;
-      powers[0] = 1;
-      for (int k = 1; k <= kOrder; ++k) {
-        powers[k] = powers[k - 1] * s;
-      }
-      gram += powers * powers.transpose();
-      moment += powers * (q.row(i) - q.row(row));
-      ++used;
-    }
-  }
-  LocalMotion motion;
-  motion.values.setZero();
-  motion.gain.setZero();
-  if (used > kOrder) {
-    const auto factors = gram.ldlt();
-    const Eigen::Matrix<double, kOrder + 1, 6> fit = factors.solve(moment);
-    motion.values.row(0) = fit.row(1) / span;
-    motion.values.row(1) = 2 * fit.row(2) / (span * span);
-    const Eigen::Matrix<double, kOrder + 1, kOrder + 1> covariance =
-        factors.solve(Eigen::Matrix<double, kOrder + 1, kOrder + 1>::Identity());
-    motion.gain << std::sqrt(covariance(1, 1)) / span,
-        2 * std::sqrt(covariance(2, 2)) / (span * span);
-  }
+  LocalMotion motion = differentiate(time, q, angle_noise, {first, row, last});
   find_standing(time, q, angle_noise, first, last, &motion);
   return motion;
 }
@@ -186,12 +216,14 @@ Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
   for (Eigen::Index joint = 0; joint < 6; ++joint) {
     angle_noise[joint] = recording::encoder_noise(recording.time, q.col(joint));
   }
+  scene.acceleration_doubt = Eigen::MatrixXd::Zero(n, 6);
   scene.velocity_noise = scene.acceleration_noise = Eigen::RowVectorXd::Zero(6);
   for (Eigen::Index i = 0; i < n && !scene.is_static; ++i) {
     const LocalMotion motion =
         local_motion(recording.time, q, angle_noise, rows[static_cast<std::size_t>(i)]);
     scene.velocity.row(i) = motion.values.row(0);
     scene.acceleration.row(i) = motion.values.row(1);
+    scene.acceleration_doubt.row(i) = motion.doubt;
     scene.stands.row(i) = motion.stands;
     if (i == n / 2) {
       scene.velocity_noise = motion.gain[0] * angle_noise;

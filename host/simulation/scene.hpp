@@ -31,6 +31,9 @@ struct Scene {
   /// Standard deviations that the encoders' noise leaves in velocity (rad/s) and acceleration
   /// (rad/s²) of each joint.
   Eigen::RowVectorXd velocity_noise, acceleration_noise;
+  /// n×6, rad/s²: by how much the acceleration may be wrong where the motion is too abrupt for the
+  /// samples; zero elsewhere.
+  Eigen::MatrixXd acceleration_doubt;
   Eigen::VectorXd temperature;  ///< n, °C; empty where not recorded
   /// What was measured, by channel (n×3, n×6, n×6): no columns where not recorded, NaN where a
   /// sample is missing. Joint deflection is q_link − q_meas.

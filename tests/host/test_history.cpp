@@ -114,14 +114,14 @@ void a_lag_without_a_constant_is_the_input() {
   TEST_ASSERT_TRUE(history::lag(times(401, 0.01), input, 0) == input);
 }
 
-void what_is_delayed_is_what_was_before_and_is_held_at_the_ends() {
+void what_is_delayed_is_what_was_before_and_goes_on_at_the_ends() {
   const VectorXd time = times(100, 0.01);
   const Eigen::MatrixXd late = history::delayed(time, 5 * time, 0.025);
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (0.5 - 0.025), late(50, 0));
-  TEST_ASSERT_EQUAL_DOUBLE(0, late(1, 0));
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (0.01 - 0.025), late(1, 0));
   const Eigen::MatrixXd early = history::delayed(time, 5 * time, -0.025);
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (0.5 + 0.025), early(50, 0));
-  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * 0.99, early(99, 0));
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (0.99 + 0.025), early(99, 0));
 }
 
 }  // namespace
@@ -137,6 +137,6 @@ int main() {
   RUN_TEST(a_mode_does_not_depend_on_even_steps);
   RUN_TEST(a_lag_stays_behind_a_ramp_by_its_time_constant);
   RUN_TEST(a_lag_without_a_constant_is_the_input);
-  RUN_TEST(what_is_delayed_is_what_was_before_and_is_held_at_the_ends);
+  RUN_TEST(what_is_delayed_is_what_was_before_and_goes_on_at_the_ends);
   return UNITY_END();
 }

@@ -1,0 +1,306 @@
+#include "diagnosis/proposal.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/effects/effects.hpp"
+#include "diagnosis/parallel.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr std::size_t kMostTerms = 3;
+constexpr double kLeastTermGain = 10;  // of BIC
+constexpr double kTermConfirmed = 2;   // deviations
+constexpr double kLeastTermShare = 0.1;
+constexpr int kTermSteps = 4;
+
+/// A quantity along a recording that an error may follow.
+struct Feature {
+  enum Kind { angle, speed, load, time, temperature } kind;
+  enum Shape { plain, size, square } shape;
+  int joint;
+};
+
+Eigen::VectorXd plain_values(const Feature& feature, double reference, const Scene& scene,
+                             const Simulation& simulation) {
+  const Eigen::Index column = feature.joint - 1;
+  const Prediction& prediction = simulation.prediction;
+  switch (feature.kind) {
+    case Feature::angle:
+      return simulation.q.col(column).array() - reference;
+    case Feature::speed:
+      return simulation.velocity.col(column);
+    case Feature::load:
+      return prediction.dynamic_load.cols() > 0 && !scene.has(simulation::tcp_position)
+                 ? prediction.dynamic_load.col(column)
+                 : prediction.load.col(column);
+    case Feature::time:
+      return scene.time.array() - reference;
+    case Feature::temperature:
+      break;
+  }
+  return scene.temperature.array() - reference;
+}
+
+Eigen::VectorXd values_along(const Feature& feature, double reference, const Scene& scene,
+                             const Simulation& simulation) {
+  const Eigen::VectorXd plain = plain_values(feature, reference, scene, simulation);
+  if (feature.shape == Feature::plain) {
+    return plain;
+  }
+  if (feature.shape == Feature::size) {
+    return plain.cwiseAbs();
+  }
+  return plain.cwiseAbs2();
+}
+
+double reference_of(const Feature& feature, const Observations& observations) {
+  const Scene& scene = observations.scenes.front();
+  switch (feature.kind) {
+    case Feature::angle:
+      return observations.simulations.front().q.col(feature.joint - 1).mean();
+    case Feature::time:
+      return scene.time.mean();
+    case Feature::temperature:
+      return scene.temperature.mean();
+    default:
+      return 0;
+  }
+}
+
+std::string text_of(const Feature& feature) {
+  constexpr const char* kNames[] = {"angle of joint", "speed of joint", "load on joint", "time",
+                                    "temperature"};
+  const std::string name = feature.joint > 0
+                               ? fmt::format("{} {}", kNames[feature.kind], feature.joint)
+                               : kNames[feature.kind];
+  if (feature.shape == Feature::plain) {
+    return name;
+  }
+  return feature.shape == Feature::size ? "|" + name + "|" : "(" + name + ")²";
+}
+
+std::string unit_of(const Feature& feature, const std::string& output) {
+  constexpr const char* kUnits[] = {"rad", "(rad/s)", "(N·m)", "s", "K"};
+  return output + "/" + kUnits[feature.kind] + (feature.shape == Feature::square ? "²" : "");
+}
+
+std::vector<Feature> features(const Observations& observations) {
+  std::vector<Feature> all;
+  for (int joint = 1; joint <= 6; ++joint) {
+    for (const Feature::Shape shape : {Feature::plain, Feature::size, Feature::square}) {
+      if (shape != Feature::size) {  // an angle's size depends on where its zero is
+        all.push_back({Feature::angle, shape, joint});
+      }
+      all.push_back({Feature::load, shape, joint});
+      if (!observations.is_static) {
+        all.push_back({Feature::speed, shape, joint});
+      }
+    }
+  }
+  const Scene& scene = observations.scenes.front();
+  if (!observations.is_static) {
+    all.push_back({Feature::time, Feature::plain, 0});
+  }
+  if (scene.temperature.size() > 0 && scene.temperature.allFinite()) {
+    all.push_back({Feature::temperature, Feature::plain, 0});
+  }
+  return all;
+}
+
+/// Springs follow the load on their own joint; friction, speed.
+bool is_known(const Feature& feature, int joint, bool is_torque) {
+  return feature.joint == joint && feature.shape == Feature::plain &&
+         feature.kind == (is_torque ? Feature::speed : Feature::load);
+}
+
+Hypothesis term_of(const Observations& observations, const Feature& feature, int joint,
+                   bool is_torque) {
+  const double reference = reference_of(feature, observations);
+  double largest = 0;
+  for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
+    largest = std::max(largest, values_along(feature, reference, observations.scenes[s],
+                                             observations.simulations[s])
+                                    .cwiseAbs()
+                                    .maxCoeff());
+  }
+  const double step = is_torque ? std::max(0.02 * observations.largest_torque(joint), 0.01) : 1e-4;
+  const double far = 1e4 * step;
+  const double unit = std::max(largest, 1e-9);
+  const std::string output = is_torque ? "N·m" : "rad";
+  Hypothesis term;
+  term.effect = fmt::format("{} of joint {} in error by {}", is_torque ? "torque" : "angle", joint,
+                            text_of(feature));
+  term.parameters = {
+      {"coefficient", unit_of(feature, output), -far / unit, far / unit, step / unit},
+      {"constant", output, -far, far, step}};
+  term.linear = 2;
+  term.apply = [=](const Values& values, Machine* machine) {
+    machine->terms.push_back(
+        {simulation::Term::output,
+         [=](const Scene& scene, const Simulation& simulation, Prediction* prediction) {
+           const Eigen::VectorXd error =
+               values[1] + values[0] * values_along(feature, reference, scene, simulation).array();
+           if (is_torque) {
+             add_torque(joint, error, prediction);
+           } else {
+             add_joint_angle(simulation, joint, error, prediction);
+           }
+         }});
+  };
+  return term;
+}
+
+std::vector<Hypothesis> library_of(const Observations& observations) {
+  std::vector<Hypothesis> all;
+  const std::vector<Feature> inputs = features(observations);
+  for (const bool is_torque : {false, true}) {
+    const bool is_seen =
+        is_torque ? observations.has(simulation::joint_torque) : sees_angles(observations);
+    for (int joint = 1; joint <= 6 && is_seen; ++joint) {
+      for (const Feature& feature : inputs) {
+        if (!is_known(feature, joint, is_torque)) {
+          all.push_back(term_of(observations, feature, joint, is_torque));
+        }
+      }
+    }
+  }
+  return all;
+}
+
+/// Orthonormal columns that span those of a matrix.
+Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) {
+    return columns;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(columns);
+  return factors.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), factors.rank());
+}
+
+/// The term that lowers the squares of what is left most, beside what is fitted.
+const Hypothesis* best_beside(const Observations& observations, const Fit& fit,
+                              const Changes& changes, const std::vector<Hypothesis>& library) {
+  constexpr double kIndependent = 1e-3;
+  constexpr double kFar = 6;
+  const Eigen::Index n = observations.train;
+  const Eigen::VectorXd left = fit.remainder.head(n).cwiseMax(-kFar).cwiseMin(kFar);
+  const Eigen::MatrixXd base = basis_of(fit.derivative.topRows(n));
+  std::vector<double> gains(library.size(), 0);
+  in_parallel(
+      library.size(), [](std::size_t, std::size_t) {},
+      [&](std::size_t i) {
+        Eigen::MatrixXd columns = changes.columns(library[i], {}).topRows(n);
+        if (!columns.allFinite()) {
+          return;
+        }
+        const Eigen::RowVectorXd length = columns.colwise().norm().cwiseMax(1e-300);
+        columns.array().rowwise() /= length.array();
+        columns -= base * (base.transpose() * columns).eval();
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rest(columns.rows(), columns.cols());
+        rest.setThreshold(kIndependent);
+        rest.compute(columns);
+        gains[i] = (rest.householderQ().transpose() * left).head(rest.rank()).squaredNorm();
+      });
+  const auto best = std::max_element(gains.begin(), gains.end());
+  return best == gains.end() || !(*best > 0)
+             ? nullptr
+             : &library[static_cast<std::size_t>(best - gains.begin())];
+}
+
+class Proposer {
+ public:
+  Proposer(const Observations& observations, const Fit& known)
+      : observations_(observations),
+        library_(std::make_shared<const std::vector<Hypothesis>>(library_of(observations))),
+        known_(known.chosen.size()),
+        fit_(known) {}
+
+  Proposal run() {
+    const Changes changes(observations_);
+    const Hypothesis* best = nullptr;
+    do {
+      best = terms() < kMostTerms ? best_beside(observations_, fit_, changes, *library_) : nullptr;
+    } while (best != nullptr && add(*best));
+    for (std::size_t i = 0; i < terms();) {
+      i = drop_if_superfluous(i) ? 0 : i + 1;
+    }
+    return result();
+  }
+
+ private:
+  std::size_t terms() const { return fit_.chosen.size() - known_; }
+
+  Fit with(std::vector<Chosen> chosen) const {
+    return fit(observations_, std::move(chosen), kTermSteps);
+  }
+
+  Evidence weighed(const Fit& before, const Fit& after) const {
+    return weigh(observations_, before, after, static_cast<double>(library_->size()));
+  }
+
+  static bool holds(const Evidence& evidence) {
+    return evidence.delta_bic > kLeastTermGain && evidence.confirmation > kTermConfirmed &&
+           evidence.share > kLeastTermShare;
+  }
+
+  bool add(const Hypothesis& term) {
+    std::vector<Chosen> chosen = fit_.chosen;
+    chosen.push_back({&term, Values(term.parameters.size(), 0.0)});
+    Fit grown = with(std::move(chosen));
+    const bool is_kept = holds(weighed(fit_, grown));
+    if (is_kept) {
+      fit_ = std::move(grown);
+    }
+    return is_kept;
+  }
+
+  std::vector<Chosen> others(std::size_t term) const {
+    std::vector<Chosen> chosen = fit_.chosen;
+    chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(known_ + term));
+    return chosen;
+  }
+
+  /// A term that led the way to better ones may do nothing beside them.
+  bool drop_if_superfluous(std::size_t term) {
+    Fit fewer = with(others(term));
+    const bool is_superfluous = !holds(weighed(fewer, fit_));
+    if (is_superfluous) {
+      fit_ = std::move(fewer);
+    }
+    return is_superfluous;
+  }
+
+  Proposal result() const {
+    Proposal proposal{library_, fit_, {}};
+    Eigen::Index index = 0;
+    for (std::size_t i = 0; i < fit_.chosen.size(); ++i) {
+      const Chosen& chosen = fit_.chosen[i];
+      if (i >= known_) {
+        const Evidence evidence = weighed(with(others(i - known_)), fit_);
+        proposal.terms.push_back({chosen.hypothesis->effect,
+                                  chosen.hypothesis->parameters.front().unit, chosen.values.front(),
+                                  std::sqrt(fit_.covariance(index, index)),
+                                  std::min(evidence.share, 1.0)});
+      }
+      index += static_cast<Eigen::Index>(chosen.values.size());
+    }
+    return proposal;
+  }
+
+  const Observations& observations_;
+  std::shared_ptr<const std::vector<Hypothesis>> library_;
+  std::size_t known_;
+  Fit fit_;
+};
+
+}  // namespace
+
+Proposal propose(const Observations& observations, const Fit& known) {
+  return Proposer(observations, known).run();
+}
+
+}  // namespace flexcomp::diagnosis
