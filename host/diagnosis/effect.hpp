@@ -45,6 +45,7 @@ struct Effect {
   const char* name;  ///< of the contract's vocabulary
   /// What it offers for what was observed; none where it could not show.
   std::vector<Hypothesis> (*hypotheses)(const Observations&);
+  std::vector<std::string> forms;  ///< that its hypotheses may have; none where it has but one
 };
 
 /// Every effect that is known; a new one is a file in effects/ and a line in registry.cpp.

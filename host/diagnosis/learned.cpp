@@ -83,6 +83,19 @@ void apply(const model::LearnedEffect& learned, const std::vector<Hypothesis>& h
   }
 }
 
+void refuse_unknown_form(const model::Robot& robot, const model::LearnedEffect& learned) {
+  const auto effect = std::find_if(registry().begin(), registry().end(),
+                                   [&](const Effect& each) { return each.name == learned.effect; });
+  const std::vector<std::string>& forms = effect->forms;
+  if (forms.empty() ? learned.form.empty()
+                    : std::find(forms.begin(), forms.end(), learned.form) != forms.end()) {
+    return;
+  }
+  throw InputError(fmt::format(
+      "{}: effects: {} has no form '{}'; expected {}", robot.yaml.string(), learned.effect,
+      learned.form, forms.empty() ? "none" : fmt::format("one of: {}", fmt::join(forms, ", "))));
+}
+
 void refuse_unknown(const model::Robot& robot) {
   std::vector<std::string> known;
   for (const Effect& effect : registry()) {
@@ -93,6 +106,7 @@ void refuse_unknown(const model::Robot& robot) {
       throw InputError(fmt::format("{}: effects: '{}' is unknown; expected one of: {}",
                                    robot.yaml.string(), learned.effect, fmt::join(known, ", ")));
     }
+    refuse_unknown_form(robot, learned);
   }
 }
 

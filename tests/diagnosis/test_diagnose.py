@@ -127,6 +127,8 @@ class Diagnose(unittest.TestCase):
     def test_effects_of_a_model_that_are_unknown_or_incomplete_are_refused(self):
         good = measured(self.folder, ROBOT, seed=6, poses=30)
         for effect, saying in (("{effect: backslash, joint: 2}", "'backslash' is unknown"),
+                               ("{effect: backlash, joint: 2, form: slack, gap: 1}", "has no form 'slack'"),
+                               ("{effect: joint_offset, joint: 2, form: load, offset: 0}", "expected none"),
                                ("{effect: joint_offset, joint: 2}", "needs the parameter 'offset'"),
                                ("{effect: joint_offset, joint: 7, offset: 0}", "expected a joint")):
             model = self.folder / "wrong.yaml"
