@@ -13,6 +13,8 @@ constexpr double kConfirmed = 2;
 constexpr double kLeastStrength = 1.0 / 3;
 /// What is weaker than this part of the whole is within the exactness of what is simulated.
 constexpr double kExactness = 0.01;
+/// Noise of the encoders is in what is predicted: a filter explains it, but it is no mismatch.
+constexpr double kLeastBeyondNoise = 0.5;
 constexpr double kLeastShare = 0.1;  // of what is left: many small steps are a wrong way
 constexpr std::size_t kMostFindings = 5;
 constexpr std::size_t kShortlist = 5;
@@ -187,7 +189,8 @@ class Chooser {
   bool holds(const Evidence& evidence) const {
     return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
            evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
-           evidence.relative_strength > kExactness && evidence.share > kLeastShare;
+           evidence.relative_strength > kExactness && evidence.beyond_noise > kLeastBeyondNoise &&
+           evidence.share > kLeastShare;
   }
 
   Evidence weigh_last(const Fit& before, const Fit& after) const {

@@ -54,6 +54,32 @@ double strength_of(const Observations& observations, const Eigen::VectorXd& chan
   return most;
 }
 
+/// Part of the fall of the squares in the component where it is largest that was beyond the noise.
+double beyond_noise(const Observations& observations, const Eigen::VectorXd& before,
+                    const Eigen::VectorXd& after) {
+  struct Sums {
+    double before = 0, after = 0, count = 0;
+  };
+  std::map<std::tuple<std::size_t, int, Eigen::Index>, Sums> sums;
+  for (Eigen::Index i = 0; i < observations.train; ++i) {
+    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
+    Sums& own = sums[{at.scene, at.channel, at.component}];
+    own.before += before[i] * before[i];
+    own.after += after[i] * after[i];
+    own.count += 1;
+  }
+  double most = 0;
+  double part = 0;
+  for (const auto& [component, sum] : sums) {
+    const double fall = (sum.before - sum.after) / sum.count;
+    if (fall > most) {
+      most = fall;
+      part = (sum.before / sum.count - 1) / fall;
+    }
+  }
+  return part;
+}
+
 }  // namespace
 
 double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder) {
@@ -99,6 +125,7 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
   evidence.confirmation = confirmation_of(observations, without.remainder, with.remainder);
   evidence.strength = strength_of(observations, without.remainder - with.remainder);
   const double whole = strength_of(observations, observations.residual - with.remainder);
+  evidence.beyond_noise = beyond_noise(observations, without.remainder, with.remainder);
   evidence.relative_strength = whole > 0 ? evidence.strength / whole : 0;
   return evidence;
 }

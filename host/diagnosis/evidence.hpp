@@ -13,6 +13,7 @@ struct Evidence {
   double confirmation = 0;  ///< deviations by which the held-out sum of squares falls
   double strength = 0;      ///< root mean square of its share in the component that shows it most,
                             ///< over the noise
+  double beyond_noise = 0;  ///< part of its fall of the squares that was beyond the noise
   double relative_strength = 0;  ///< to that of the whole fit
   double share = 0;              ///< of what was left beyond the noise without it
   double effective_samples = 0;

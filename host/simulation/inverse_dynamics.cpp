@@ -1,70 +1,90 @@
 #include "simulation/inverse_dynamics.hpp"
 
-#include <kdl/chain.hpp>
-#include <kdl/chainidsolver_recursive_newton_euler.hpp>
-
-#include "model/kdl.hpp"
+#include "flexcomp/chain.hpp"
 
 namespace flexcomp::simulation {
 namespace {
 
-using model::to_kdl;
+using Vector = Vector3<double>;
+using Matrix = Matrix3<double>;
 
-KDL::RigidBodyInertia body(double mass, const Vector3<double>& center,
-                           const Matrix3<double>& about_center) {
-  const KDL::RotationalInertia inertia(about_center(0, 0), about_center(1, 1), about_center(2, 2),
-                                       about_center(0, 1), about_center(0, 2), about_center(1, 2));
-  return KDL::RigidBodyInertia(mass, to_kdl(center), inertia);
-}
+/// A link on its way; all in the base frame.
+struct Motion {
+  Matrix rotation = Matrix::Identity();
+  Vector origin = Vector::Zero();
+  Vector spin = Vector::Zero();                  ///< rad/s
+  Vector angular_acceleration = Vector::Zero();  ///< rad/s²
+  Vector acceleration = Vector::Zero();          ///< of the origin, less gravity, m/s²
 
-/// KDL turns about an axis of the frame before the segment; a fixed segment carries the origin.
-KDL::Chain rigid_chain(const model::Robot& robot) {
-  using Axis = KDL::Joint;
-  KDL::Chain chain;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Joint<double>& joint = robot.elastic.joints[i];
-    chain.addSegment(KDL::Segment(Axis(Axis::None), to_kdl(joint.origin)));
-    chain.addSegment(KDL::Segment(Axis(KDL::Vector::Zero(), to_kdl(joint.axis), Axis::RotAxis),
-                                  KDL::Frame::Identity(),
-                                  body(joint.mass, joint.center_of_mass, robot.link_inertia[i])));
+  /// Of a point that is fixed to the link, `arm` away from its origin.
+  Vector acceleration_at(const Vector& arm) const {
+    return acceleration + angular_acceleration.cross(arm) + spin.cross(spin.cross(arm));
   }
-  chain.addSegment(KDL::Segment(
-      Axis(Axis::None), to_kdl(robot.elastic.tool),
-      body(robot.elastic.payload_mass, robot.elastic.payload_center, Matrix3<double>::Zero())));
-  return chain;
-}
+};
 
-KDL::JntArray joints(const JointVector<double, 6>& values) {
-  KDL::JntArray array(6);
-  array.data = values;
-  return array;
+/// What moves a link, about its origin.
+struct Effort {
+  Vector axis;
+  Vector origin;
+  Vector force = Vector::Zero();
+  Vector moment = Vector::Zero();
+
+  void add(const Vector& arm, const Vector& more) {
+    force += more;
+    moment += arm.cross(more);
+  }
+};
+
+Motion next(const Motion& before, const Joint<double>& joint, double q, double velocity,
+            double acceleration, Vector* axis) {
+  Motion motion;
+  const Vector arm = before.rotation * joint.origin.position;
+  const Matrix rotation = before.rotation * joint.origin.rotation;
+  *axis = rotation * joint.axis;
+  motion.rotation = rotation * axis_rotation<double>(joint.axis, q);
+  motion.origin = before.origin + arm;
+  motion.spin = before.spin + velocity * *axis;
+  motion.angular_acceleration =
+      before.angular_acceleration + acceleration * *axis + before.spin.cross(velocity * *axis);
+  motion.acceleration = before.acceleration_at(arm);
+  return motion;
 }
 
 }  // namespace
 
-struct InverseDynamics::Solver {
-  explicit Solver(const model::Robot& robot)
-      : chain(rigid_chain(robot)),
-        newton_euler(chain, to_kdl(robot.elastic.gravity)),
-        none(chain.getNrOfSegments(), KDL::Wrench::Zero()) {}
-
-  KDL::Chain chain;
-  KDL::ChainIdSolver_RNE newton_euler;
-  KDL::Wrenches none;
-};
-
-InverseDynamics::InverseDynamics(const model::Robot& robot)
-    : solver_(std::make_unique<Solver>(robot)) {}
-
-InverseDynamics::~InverseDynamics() = default;
-
-JointVector<double, 6> InverseDynamics::torque(const JointVector<double, 6>& q,
-                                               const JointVector<double, 6>& velocity,
-                                               const JointVector<double, 6>& acceleration) const {
-  KDL::JntArray result(6);
-  solver_->newton_euler.CartToJnt(joints(q), joints(velocity), joints(acceleration), solver_->none,
-                                  result);
-  return result.data;
+JointVector<double, 6> inverse_dynamics(const model::Robot& robot, const JointVector<double, 6>& q,
+                                        const JointVector<double, 6>& velocity,
+                                        const JointVector<double, 6>& acceleration) {
+  const RobotModel<double, 6>& elastic = robot.elastic;
+  std::array<Effort, 6> efforts;
+  Motion motion;
+  motion.acceleration = -elastic.gravity;
+  for (std::size_t i = 0; i < efforts.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const Joint<double>& joint = elastic.joints[i];
+    Effort& effort = efforts[i];
+    motion = next(motion, joint, q[at], velocity[at], acceleration[at], &effort.axis);
+    effort.origin = motion.origin;
+    const Vector arm = motion.rotation * joint.center_of_mass;
+    effort.add(arm, joint.mass * motion.acceleration_at(arm));
+    const auto turned = [&](const Vector& vector) -> Vector {
+      return motion.rotation * (robot.link_inertia[i] * (motion.rotation.transpose() * vector));
+    };
+    effort.moment += turned(motion.angular_acceleration) + motion.spin.cross(turned(motion.spin));
+  }
+  const Vector payload =
+      motion.rotation * (elastic.tool.position + elastic.tool.rotation * elastic.payload_center);
+  efforts.back().add(payload, elastic.payload_mass * motion.acceleration_at(payload));
+  JointVector<double, 6> torque;
+  for (std::size_t i = efforts.size(); i-- > 0;) {
+    const Effort& effort = efforts[i];
+    torque[static_cast<Eigen::Index>(i)] = effort.axis.dot(effort.moment);
+    if (i > 0) {
+      efforts[i - 1].moment += effort.moment;
+      efforts[i - 1].add(effort.origin - efforts[i - 1].origin, effort.force);
+    }
+  }
+  return torque;
 }
 
 }  // namespace flexcomp::simulation

@@ -93,10 +93,11 @@ void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index 
 }
 
 /// Torque of inertia, weight, wrench and balancers that the drives must hold, at link angles `q`.
-Row drive_torque(const Machine& machine, const Scene& scene, const InverseDynamics& dynamics,
-                 const Simulation& at, const Row& q, Eigen::Index row) {
-  Row rigid = dynamics.torque(q, row_of(at.velocity, row), row_of(at.acceleration, row)) -
-              balance(machine, q);
+Row drive_torque(const Machine& machine, const Scene& scene, const Simulation& at, const Row& q,
+                 Eigen::Index row) {
+  const Row rigid =
+      inverse_dynamics(machine.robot, q, row_of(at.velocity, row), row_of(at.acceleration, row)) -
+      balance(machine, q);
   if (!scene.has_wrench) {
     return rigid;
   }
@@ -117,20 +118,19 @@ Row friction(const Machine& machine, const Simulation& at, Eigen::Index row) {
 }
 
 void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Simulation* at) {
-  const InverseDynamics dynamics(machine.robot);
   Prediction& prediction = at->prediction;
   const bool torque = scene.has(joint_torque) && wanted.channel[joint_torque];
   const bool deflection = scene.has(joint_deflection) && wanted.channel[joint_deflection];
   for (Eigen::Index row = 0; row < scene.rows(); ++row) {
     const Row q = row_of(at->q, row);
-    const Row straight = drive_torque(machine, scene, dynamics, *at, q, row);
+    const Row straight = drive_torque(machine, scene, *at, q, row);
     if (torque) {
       prediction.channel[joint_torque].row(row) =
           (straight + friction(machine, *at, row)).transpose();
     }
     if (deflection) {
       const Row first = joint_windup<double, 6>(machine.robot.elastic, -straight);
-      const Row load = -drive_torque(machine, scene, dynamics, *at, q + first, row);
+      const Row load = -drive_torque(machine, scene, *at, q + first, row);
       prediction.dynamic_load.row(row) = load.transpose();
       prediction.channel[joint_deflection].row(row) =
           (q + joint_windup<double, 6>(machine.robot.elastic, load)).transpose() - scene.q.row(row);

@@ -58,7 +58,7 @@ struct Wanted {
 
 /// Simulates a scene without the machine's terms. TCP position: forward kinematics and the elastic
 /// deflection under wrench and weight (Klimchik et al. 2017). Torque: rigid-body inverse dynamics
-/// (recursive Newton–Euler, Orocos KDL), friction and rotor inertia, less Jᵀ·wrench. Joint
+/// (recursive Newton–Euler), friction and rotor inertia, less Jᵀ·wrench. Joint
 /// deflection: wind-up under the torque at the link, inertia included.
 Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wanted = {});
 
