@@ -62,10 +62,11 @@ Row balance(const Machine& machine, const Row& q) {
 /// A torque in parallel to a linear spring winds it up like a motor that stands elsewhere.
 Equilibrium settle_balanced(const Machine& machine, const Row& q, const Wrench<double>& wrench,
                             const Row& compliance) {
-  Equilibrium equilibrium = settle(machine.robot.elastic, q, wrench);
+  constexpr double kTolerance = 1e-10;  // rad, m: far below what any sensor sees
+  Equilibrium equilibrium = settle(machine.robot.elastic, q, wrench, kTolerance);
   for (int round = 0; round < 2 && !machine.balancers.empty(); ++round) {
     const Row shift = compliance.cwiseProduct(balance(machine, equilibrium.q_link));
-    equilibrium = settle(machine.robot.elastic, q + shift, wrench);
+    equilibrium = settle(machine.robot.elastic, q + shift, wrench, kTolerance);
   }
   return equilibrium;
 }

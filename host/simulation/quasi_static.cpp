@@ -102,9 +102,8 @@ Springs load_springs(const RobotModel<double, 6>& model, const BentChain& chain,
 }  // namespace
 
 Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
-                   const Wrench<double>& wrench) {
+                   const Wrench<double>& wrench, double tolerance) {
   constexpr int kMaxRounds = 200;
-  constexpr double kTolerance = 1e-13;
   Springs springs;
   for (int round = 0; round < kMaxRounds; ++round) {
     const BentChain chain = bend(model, q_motor, springs);
@@ -116,8 +115,8 @@ Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double,
       change = std::fmax(change, (next.link[i] - springs.link[i]).cwiseAbs().maxCoeff());
     }
     springs = next;
-    if (change <= kTolerance) {
-      return {bend(model, q_motor, springs).tcp, q_motor + springs.windup};
+    if (change <= tolerance) {
+      return {chain.tcp, q_motor + springs.windup};
     }
     if (!std::isfinite(change) || change > 10) {
       break;

@@ -14,10 +14,11 @@ struct Equilibrium {
 /// TCP (base frame) and, with gravity in the model, its weights.
 ///
 /// All springs give as in the model, with every lever taken in the bent posture: the equilibrium
-/// itself, not its linearisation, found by repeated substitution to 1e-13. Throws InputError if the
-/// springs are so soft that there is no equilibrium nearby.
+/// itself, not its linearisation, found by repeated substitution until no spring gives by more than
+/// `tolerance` (rad, m) more. Throws InputError if the springs are so soft that there is no
+/// equilibrium nearby.
 Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
-                   const Wrench<double>& wrench);
+                   const Wrench<double>& wrench, double tolerance = 1e-13);
 
 /// The model with all of its springs `factor` times as soft.
 RobotModel<double, 6> with_scaled_compliance(RobotModel<double, 6> model, double factor);
