@@ -32,6 +32,32 @@ Eigen::Index components(const recording::Recording& recording) {
          (recording.q_link && recording.q_meas ? 6 : 0);
 }
 
+/// Recordings that are diagnosed together show the same things in the same way.
+void refuse_unlike(const recording::Recording& first, const recording::Recording& other,
+                   const simulation::Scene& first_scene, const simulation::Scene& other_scene) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: {}; diagnose them one by one", other.file, why));
+  };
+  if (first_scene.is_static != other_scene.is_static) {
+    refuse(fmt::format("is {}, unlike {}",
+                       other_scene.is_static ? "a load test (t = 0, 1, 2, …)" : "no load test",
+                       first.file));
+  }
+  const std::pair<const char*, std::pair<bool, bool>> groups[] = {
+      {"q_meas_1..6", {first.q_meas.has_value(), other.q_meas.has_value()}},
+      {"q_link_1..6", {first.q_link.has_value(), other.q_link.has_value()}},
+      {"tau_1..6", {first.tau.has_value(), other.tau.has_value()}},
+      {"fx..mz", {first.wrench.has_value(), other.wrench.has_value()}},
+      {"x,y,z", {first.position.has_value(), other.position.has_value()}},
+      {"temp_c", {first.temperature.has_value(), other.temperature.has_value()}}};
+  for (const auto& [columns, there] : groups) {
+    if (there.first != there.second) {
+      refuse(fmt::format("{} the columns {}, unlike {}", there.second ? "has" : "lacks", columns,
+                         first.file));
+    }
+  }
+}
+
 std::vector<simulation::Scene> read_scenes(const Options& options,
                                            std::vector<diagnosis::Quality>* qualities) {
   std::vector<recording::Recording> recordings;
@@ -48,6 +74,7 @@ std::vector<simulation::Scene> read_scenes(const Options& options,
     qualities->push_back({each.file, {}});
     scenes.push_back(
         simulation::prepare(each, std::max<Eigen::Index>(most, 1), &qualities->back().preparation));
+    refuse_unlike(recordings.front(), each, scenes.front(), scenes.back());
   }
   return scenes;
 }

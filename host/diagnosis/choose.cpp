@@ -12,12 +12,15 @@ constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kConfirmed = 2;
 constexpr double kLeastStrength = 1.0 / 3;
 /// What is weaker than this part of the whole is within the exactness of what is simulated.
-constexpr double kExactness = 0.01;
+constexpr double kExactness = 0.02;
 /// Noise of the encoders is in what is predicted: a filter explains it, but it is no mismatch.
 constexpr double kLeastBeyondNoise = 0.5;
-constexpr double kLeastShare = 0.1;  // of what is left: many small steps are a wrong way
-constexpr std::size_t kMostFindings = 5;
+constexpr double kLeastShare = 0.1;      // of what is left: many small steps are a wrong way
+constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
+constexpr std::size_t kMostFindings = 20;
 constexpr std::size_t kShortlist = 5;
+constexpr std::size_t kMany = 4;  // findings, from which on fits are slow and little is ambiguous
+constexpr std::size_t kShortShortlist = 2;
 constexpr int kQuickSteps = 4;
 constexpr double kSettled = 1.1;  // times the noise: nothing left that two could share
 constexpr int kSteps = 12;
@@ -186,10 +189,15 @@ class Chooser {
     return best.chosen.empty() ? best : fit(*observations_, best.chosen, kSteps, &dictionary_);
   }
 
+  static std::size_t shortlist_beside(const Fit& fit) {
+    return fit.chosen.size() < kMany ? kShortlist : kShortShortlist;
+  }
+
   bool holds(const Evidence& evidence) const {
     return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
            evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
-           evidence.relative_strength > kExactness && evidence.beyond_noise > kLeastBeyondNoise &&
+           evidence.relative_strength > kExactness &&
+           (observations_->is_static || evidence.beyond_noise > kLeastBeyondNoise) &&
            evidence.share > kLeastShare;
   }
 
@@ -198,7 +206,7 @@ class Chooser {
   }
 
   bool grow(Fit* current) const {
-    Fit grown = best_with(*current, kShortlist);
+    Fit grown = best_with(*current, shortlist_beside(*current));
     if (grown.chosen.empty() || !holds(weigh_last(*current, grown))) {
       return false;
     }
@@ -206,9 +214,32 @@ class Chooser {
     return true;
   }
 
+  /// Do the last choice and another one show in the same samples? Else neither can stand in for the
+  /// other: friction of one joint and friction of another.
+  bool meets_last(const Fit& whole, std::size_t index) const {
+    constexpr double kMeeting = 0.03;  // cosine
+    const auto width = [](const Chosen& each) {
+      return static_cast<Eigen::Index>(each.values.size());
+    };
+    Eigen::Index first = 0;
+    for (std::size_t i = 0; i < index; ++i) {
+      first += width(whole.chosen[i]);
+    }
+    const Eigen::MatrixXd own = whole.derivative.middleCols(first, width(whole.chosen[index]))
+                                    .topRows(observations_->train);
+    const Eigen::MatrixXd last =
+        whole.derivative.rightCols(width(whole.chosen.back())).topRows(observations_->train);
+    const Eigen::MatrixXd cosine =
+        own.colwise().normalized().transpose() * last.colwise().normalized();
+    return cosine.cwiseAbs().maxCoeff() > kMeeting;
+  }
+
   /// Replaces or drops one choice, the earliest that can be bettered; false if all stand.
   bool revise(Fit* current) const {
     for (std::size_t i = 0; i + 1 < current->chosen.size(); ++i) {
+      if (!meets_last(*current, i)) {
+        continue;
+      }
       const Fit others = without(*current, i);
       const Fit replaced = best_with(others, kShortlist / 2);
       if (replaced.chosen.empty()) {
@@ -246,6 +277,21 @@ class Chooser {
     choice->findings.clear();
   }
 
+  /// Withdraws what leaves most of the mismatch standing where it shows: that proves nothing.
+  void withdraw_unproved(Choice* choice) const {
+    std::vector<Chosen> kept;
+    for (std::size_t i = 0; i < choice->findings.size(); ++i) {
+      const double explained = choice->findings[i].evidence.explained;
+      const bool stands = explained >= kLeastExplained;
+      (stands ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
+      choice->explained = stands ? choice->explained : std::min(choice->explained, explained);
+    }
+    if (kept.size() < choice->findings.size()) {
+      choice->fit = fit(*observations_, std::move(kept), kLastSteps);
+      prune(choice);
+    }
+  }
+
   Finding judge(const Fit& whole, std::size_t index) const {
     Finding finding;
     finding.without = without(whole, index);
@@ -260,7 +306,7 @@ class Chooser {
   void find_alternatives(const Fit& whole, std::size_t index, Finding* finding) const {
     const Hypothesis& own = *whole.chosen[index].hypothesis;
     const double samples = finding->evidence.effective_samples;
-    for (const Chosen& candidate : shortlist(finding->without, kShortlist)) {
+    for (const Chosen& candidate : shortlist(finding->without, shortlist_beside(whole))) {
       const Hypothesis& other = *candidate.hypothesis;
       if (are_the_same(other, own)) {
         continue;
@@ -333,6 +379,7 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
   }
   choice.fit = fit(*observations, choice.fit.chosen, kLastSteps);
   chooser.prune(&choice);
+  chooser.withdraw_unproved(&choice);
   for (std::size_t i = 0; i < choice.findings.size(); ++i) {
     chooser.find_alternatives(choice.fit, i, &choice.findings[i]);
   }

@@ -35,6 +35,9 @@ struct Choice {
   std::vector<std::shared_ptr<const std::vector<Hypothesis>>> sought;
   Fit fit;
   std::vector<Finding> findings;  ///< in the order of `fit.chosen`, the strongest first
+  /// What held beside the others, but with all of them left most of the mismatch there standing.
+  std::vector<Chosen> withdrawn;
+  double explained = 1;  ///< most of the power there that was accounted for
 };
 
 /// Above it, effects imitate something else by large parts that cancel.
@@ -46,9 +49,11 @@ using Tell = std::function<void(std::size_t, std::size_t)>;
 /// Chooses what explains the residual: one hypothesis at a time, the one with the largest gain in
 /// BIC after a fit of all that are chosen; then each choice is tried against all others anew, and
 /// dropped if it no longer holds. A hypothesis holds if its gain is strong, its chance (times the
-/// hypotheses looked at) is below `false_discovery`, what was held out confirms it, it moves some
-/// component by more than a third of its noise, and accounts for a tenth of what was left beyond
-/// the noise.
+/// hypotheses looked at) is below `false_discovery`, what was held out confirms it, and it moves
+/// some component by more than a third of its noise; and if, where it shows most, it accounts for a
+/// tenth of what was left beyond the noise, for a fiftieth of the whole fit, and takes away what
+/// is beyond the noise rather than noise. In the end nine tenths of the mismatch there must be
+/// accounted for by all of them together, or it is withdrawn.
 ///
 /// The starts of hypotheses that are sought in the residual are sought anew after every step (the
 /// observations' `unexplained` is used for that). In the end the best pairs of hypotheses are tried

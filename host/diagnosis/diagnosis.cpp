@@ -15,7 +15,6 @@ constexpr double kSameEvidence = 6;      // of BIC: below "strong" (Kass and Raf
 constexpr double kNoiseLike = 1.15;      // times the noise: nothing left to explain
 constexpr double kNearNoise = 1.05;      // times the noise: nothing that a rival could better
 constexpr double kFarMoreEvidence = 20;  // of BIC
-constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
 constexpr Eigen::Index kFewestSamples = 24;
 constexpr Eigen::Index kLeastFreedom = 8;
 
@@ -56,12 +55,16 @@ void find_groups(Diagnosis* diagnosis) {
   }
 }
 
-/// Findings that leave most of a mismatch standing are not proof of anything.
-void withdraw(const Observations& observations, const std::string& reason, Diagnosis* diagnosis) {
-  for (const Chosen& chosen : diagnosis->choice.fit.chosen) {
-    diagnosis->nearest.push_back({chosen.hypothesis->effect, chosen.hypothesis->joint});
+void add_nearest(const std::vector<Chosen>& chosen, Diagnosis* diagnosis) {
+  for (const Chosen& each : chosen) {
+    diagnosis->nearest.push_back({each.hypothesis->effect, each.hypothesis->joint});
   }
-  diagnosis->choice = {};
+}
+
+/// Takes all findings back.
+void withdraw(const Observations& observations, const std::string& reason, Diagnosis* diagnosis) {
+  add_nearest(diagnosis->choice.fit.chosen, diagnosis);
+  diagnosis->choice.findings.clear();
   diagnosis->choice.fit = fit(observations, {}, 0);
   diagnosis->indistinguishable.clear();
   diagnosis->verdict = "unexplained";
@@ -70,7 +73,8 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
 
 /// Does a form without physics, of no more parameters, account for more than findings do? Then what
 /// they have in common with the mismatch is no proof of them.
-bool is_outdone(const Observations& observations, const Fit& findings, const Proposal& rival) {
+bool is_outdone(const Observations& observations, const Fit& findings) {
+  const Proposal rival = propose(observations, fit(observations, {}, 0));
   if (rival.terms.empty() || rival.fit.parameters() > findings.parameters()) {
     return false;
   }
@@ -78,34 +82,31 @@ bool is_outdone(const Observations& observations, const Fit& findings, const Pro
   return bic_gain(samples, findings.train_sum, rival.fit.train_sum, 0) > kFarMoreEvidence;
 }
 
+std::string reason_of_nothing(const Choice& choice) {
+  return choice.withdrawn.empty() ? "no known effect accounts for it"
+                                  : fmt::format("known effects account for {:.0f} % of it at most",
+                                                100 * std::max(choice.explained, 0.0));
+}
+
 void judge(const Observations& observations, Diagnosis* diagnosis) {
-  diagnosis->cancellation = cancellation(observations, diagnosis->choice.fit);
-  const double before = largest_ratio(observations, observations.residual);
-  const double after = largest_ratio(observations, diagnosis->choice.fit.remainder);
+  const Fit& found = diagnosis->choice.fit;
+  diagnosis->cancellation = cancellation(observations, found);
+  add_nearest(diagnosis->choice.withdrawn, diagnosis);
+  const double after = largest_ratio(observations, found.remainder);
   const bool is_noise =
       !observations.noise_is_known || after < kNoiseLike + 3 * observations.noise_uncertainty;
-  const bool is_settled = is_noise && after < kNearNoise;
-  const double excess = std::max(before * before - 1, 1e-9);
-  const double explained = 1 - (after * after - 1) / excess;
-  if (diagnosis->choice.fit.chosen.empty()) {
+  if (found.chosen.empty()) {
     diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
-    diagnosis->reason = is_noise ? "" : "no known effect accounts for it";
-  } else if (diagnosis->choice.fit.chosen.size() > 2 &&
-             diagnosis->cancellation > kMostCancellation) {
+    diagnosis->reason = is_noise ? "" : reason_of_nothing(diagnosis->choice);
+  } else if (found.chosen.size() > 2 && diagnosis->cancellation > kMostCancellation) {
     withdraw(observations,
              "only a sum of large effects that cancel each other comes near, which imitates what "
              "is not there",
              diagnosis);
-  } else if (diagnosis->choice.fit.chosen.size() > 1 && !is_settled &&
-             is_outdone(observations, diagnosis->choice.fit,
-                        propose(observations, fit(observations, {}, 0)))) {
+  } else if (found.chosen.size() > 1 && after > kNearNoise && is_outdone(observations, found)) {
     withdraw(observations, "a form that no known effect has accounts for more of it", diagnosis);
   } else if (is_noise) {
     diagnosis->verdict = "explained";
-  } else if (explained < kLeastExplained) {
-    withdraw(observations,
-             fmt::format("known effects account for {:.0f} % of it at most", 100 * explained),
-             diagnosis);
   } else {
     diagnosis->verdict = "partly_explained";
     diagnosis->reason = fmt::format("{:.1f} times the noise is left", after);

@@ -39,45 +39,44 @@ double confirmation_of(const Observations& observations, const Eigen::VectorXd& 
   return variance > 0 ? fall / std::sqrt(variance) : 0;
 }
 
-double strength_of(const Observations& observations, const Eigen::VectorXd& change) {
-  std::map<std::tuple<std::size_t, int, Eigen::Index>, std::pair<double, double>> sums;
-  for (Eigen::Index i = 0; i < observations.train; ++i) {
-    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
-    auto& [sum, count] = sums[{at.scene, at.channel, at.component}];
-    sum += change[i] * change[i];
-    count += 1;
-  }
-  double most = 0;
-  for (const auto& [component, sum] : sums) {
-    most = std::max(most, std::sqrt(sum.first / sum.second));
-  }
-  return most;
-}
+/// Sums of squares over samples, weighted so that single samples that are far off after the fit do
+/// not decide.
+struct Squares {
+  double first = 0;              ///< of the mismatch
+  double before = 0, after = 0;  ///< of the remainder, without and with the hypothesis
+  double change = 0, whole = 0;  ///< of what the hypothesis, and of what the whole fit changes
+  double count = 0;
+};
 
-/// Part of the fall of the squares in the component where it is largest that was beyond the noise.
-double beyond_noise(const Observations& observations, const Eigen::VectorXd& before,
-                    const Eigen::VectorXd& after) {
-  struct Sums {
-    double before = 0, after = 0, count = 0;
-  };
-  std::map<std::tuple<std::size_t, int, Eigen::Index>, Sums> sums;
+/// Of each component of a channel in a scene, or of each group (the TCP's position, a joint's
+/// torque, a joint's deflection) in all of them.
+std::vector<Squares> squares_of(const Observations& observations, const Fit& without,
+                                const Fit& with, bool by_group) {
+  constexpr double kFar = 6;
+  const auto n = static_cast<double>(std::max<Eigen::Index>(observations.train, 1));
+  const double spread = std::max(1.0, std::sqrt(with.train_sum / n));
+  std::map<std::tuple<std::size_t, int, Eigen::Index>, Squares> all;
   for (Eigen::Index i = 0; i < observations.train; ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
-    Sums& own = sums[{at.scene, at.channel, at.component}];
-    own.before += before[i] * before[i];
-    own.after += after[i] * after[i];
-    own.count += 1;
+    const bool is_whole = by_group && at.channel == simulation::tcp_position;
+    Squares& own = all[{by_group ? 0 : at.scene, at.channel, is_whole ? 0 : at.component}];
+    const double first = observations.residual[i];
+    const double before = without.remainder[i];
+    const double after = with.remainder[i];
+    const double weight = std::min(1.0, kFar * spread / std::max(std::abs(after), 1e-12));
+    own.first += weight * first * first;
+    own.before += weight * before * before;
+    own.after += weight * after * after;
+    own.change += weight * (before - after) * (before - after);
+    own.whole += weight * (first - after) * (first - after);
+    own.count += weight;
   }
-  double most = 0;
-  double part = 0;
-  for (const auto& [component, sum] : sums) {
-    const double fall = (sum.before - sum.after) / sum.count;
-    if (fall > most) {
-      most = fall;
-      part = (sum.before / sum.count - 1) / fall;
-    }
+  std::vector<Squares> list;
+  list.reserve(all.size());
+  for (const auto& [place, squares] : all) {
+    list.push_back(squares);
   }
-  return part;
+  return list;
 }
 
 }  // namespace
@@ -120,13 +119,22 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
     evidence.p_value =
         std::min(1.0, places * boost::math::cdf(boost::math::complement(chance, ratio)));
   }
-  const double beyond = without.train_sum - static_cast<double>(observations.train);
-  evidence.share = beyond > 0 ? (without.train_sum - with.train_sum) / beyond : 1;
   evidence.confirmation = confirmation_of(observations, without.remainder, with.remainder);
-  evidence.strength = strength_of(observations, without.remainder - with.remainder);
-  const double whole = strength_of(observations, observations.residual - with.remainder);
-  evidence.beyond_noise = beyond_noise(observations, without.remainder, with.remainder);
-  evidence.relative_strength = whole > 0 ? evidence.strength / whole : 0;
+  constexpr double kTiny = 1e-9;
+  for (const Squares& each : squares_of(observations, without, with, false)) {
+    evidence.strength = std::max(evidence.strength, std::sqrt(each.change / each.count));
+  }
+  double most = 0;
+  for (const Squares& each : squares_of(observations, without, with, true)) {
+    if (each.change / each.count > most) {
+      most = each.change / each.count;
+      const double fall = each.before - each.after;
+      evidence.relative_strength = std::sqrt(each.change / std::max(each.whole, kTiny));
+      evidence.share = fall / std::max(each.before - each.count, kTiny);
+      evidence.beyond_noise = (each.before - each.count) / std::max(fall, kTiny);
+      evidence.explained = 1 - (each.after - each.count) / std::max(each.first - each.count, kTiny);
+    }
+  }
   return evidence;
 }
 

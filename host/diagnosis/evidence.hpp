@@ -13,9 +13,11 @@ struct Evidence {
   double confirmation = 0;  ///< deviations by which the held-out sum of squares falls
   double strength = 0;      ///< root mean square of its share in the component that shows it most,
                             ///< over the noise
-  double beyond_noise = 0;  ///< part of its fall of the squares that was beyond the noise
+  // In the group that shows it most: the TCP's position, or the torque or deflection of a joint.
   double relative_strength = 0;  ///< to that of the whole fit
-  double share = 0;              ///< of what was left beyond the noise without it
+  double share = 0;              ///< of the power that is left beyond the noise without it
+  double beyond_noise = 0;       ///< what was beyond the noise over what it takes away
+  double explained = 0;          ///< part of the mismatch's power that the whole fit accounts for
   double effective_samples = 0;
 };
 

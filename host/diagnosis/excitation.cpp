@@ -11,9 +11,10 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kWidth = 1.96;    // 95 % of a normal distribution
-constexpr double kUseless = 0.5;   // of a joint's compliance: not even a guess
-constexpr double kBlurred = 2e-3;  // rad, beyond any error of an encoder's zero
+constexpr double kWidth = 1.96;     // 95 % of a normal distribution
+constexpr double kUseless = 0.5;    // of a joint's compliance: not even a guess
+constexpr double kBlurred = 2e-3;   // rad, beyond any error of an encoder's zero
+constexpr double kBeyondNoise = 4;  // deviations
 constexpr double kUnknownSize = std::numeric_limits<double>::infinity();
 
 int reversals_of(const Observations& observations, int joint) {
@@ -21,7 +22,9 @@ int reversals_of(const Observations& observations, int joint) {
   for (const Scene& scene : observations.scenes) {
     int direction = 0;
     for (Eigen::Index row = 0; row < scene.rows() && !scene.is_static; ++row) {
-      const int now = simulation::direction_of_motion(scene.velocity(row, joint - 1));
+      const double speed = scene.velocity(row, joint - 1);
+      const bool is_noise = std::abs(speed) < kBeyondNoise * scene.velocity_noise[joint - 1];
+      const int now = is_noise ? 0 : simulation::direction_of_motion(speed);
       count += now * direction < 0 ? 1 : 0;
       direction = now != 0 ? now : direction;
     }
@@ -44,7 +47,7 @@ double resolution(const std::vector<Hypothesis>& hypotheses, const Dictionary& d
 }  // namespace
 
 bool Excitation::tells_nothing() const {
-  return !(stiffness < kUseless) && !(zero < kBlurred) && !std::isfinite(friction);
+  return !(stiffness < kUseless) && !(zero < kBlurred) && !(friction < largest_load);
 }
 
 std::vector<Excitation> excitation(const Observations& observations,
@@ -53,7 +56,8 @@ std::vector<Excitation> excitation(const Observations& observations,
   std::vector<Excitation> all;
   for (int joint = 1; joint <= 6; ++joint) {
     const auto of = [&](const char* effect) {
-      return resolution(hypotheses, dictionary, effect, joint);
+      return observations.noise_is_known ? resolution(hypotheses, dictionary, effect, joint)
+                                         : kUnknownSize;
     };
     const double compliance =
         observations.machine.robot.elastic.joints[static_cast<std::size_t>(joint - 1)].compliance;
@@ -67,8 +71,10 @@ std::vector<Excitation> excitation(const Observations& observations,
 
 std::string verdict(const Excitation& excitation) {
   if (excitation.tells_nothing()) {
-    return excitation.largest_speed > 0 ? "nothing: what it does is lost in the noise"
-                                        : "nothing: it bears too little load and does not move";
+    const bool shows = std::isfinite(excitation.stiffness) || std::isfinite(excitation.zero) ||
+                       std::isfinite(excitation.friction);
+    return shows ? "nothing: what it does is lost in the noise"
+                 : "nothing: none of its errors would show in what was measured";
   }
   std::string clause;
   const auto add = [&](const std::string& what) { clause += (clause.empty() ? "" : ", ") + what; };
@@ -78,7 +84,7 @@ std::string verdict(const Excitation& excitation) {
   if (excitation.zero < kBlurred) {
     add("zero to " + readable(excitation.zero, "rad"));
   }
-  if (std::isfinite(excitation.friction)) {
+  if (excitation.friction < excitation.largest_load) {
     add("friction to " + readable(excitation.friction, "N·m"));
   }
   if (excitation.largest_speed > 0) {

@@ -234,12 +234,18 @@ bool scan_steps(const Eigen::VectorXd& measured, Evaluator* evaluator) {
       continue;
     }
     const Values here = evaluator->values();
+    if (here[i] == 0) {
+      continue;
+    }
     const Parameter& bounds = evaluator->parameter(i);
     double least = std::numeric_limits<double>::infinity();
     std::vector<double> best;
     for (int k = -kReach; k <= kReach; ++k) {
       Values tried = here;
-      tried[i] = std::clamp(here[i] * std::pow(kFactor, k), bounds.lower, bounds.upper);
+      tried[i] = here[i] * std::pow(kFactor, k);
+      if (tried[i] < bounds.lower || tried[i] > bounds.upper) {
+        continue;
+      }
       const Eigen::VectorXd left = measured - evaluator->evaluate(tried, nullptr).head(n);
       const double sum = huber_weights(left).dot(left.cwiseAbs2());
       if (sum < least * (1 - kSame)) {

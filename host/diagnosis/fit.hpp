@@ -32,8 +32,10 @@ Machine machine_with(const Observations& observations, const std::vector<Chosen>
 /// weights by Huber's function (3 deviations) so that single samples do not decide. Predictions are
 /// simulated anew for every step, not linearised.
 ///
-/// With a dictionary the derivatives by parameters that alter the model are those that it holds, of
-/// the model as it was: quicker, and close enough to find the same minimum.
+/// Parameters without a derivative, which act in steps, are scanned in the end, by five per cent up
+/// to a factor of 2.7 either way. With a dictionary they are not, and the derivatives by parameters
+/// that alter the model are those that it holds, of the model as it was: quicker, and close enough
+/// to find the same minimum.
 Fit fit(const Observations& observations, std::vector<Chosen> start, int most_steps,
         const Dictionary* dictionary = nullptr);
 

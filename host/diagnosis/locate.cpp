@@ -57,8 +57,10 @@ class Locator {
   Location run() {
     if (total_ > 0) {
       find_correlates();
-      find_axes();
-      find_time();
+      if (observations_.noise_is_known) {
+        find_axes();
+        find_time();
+      }
       find_frequencies();
     }
     return location_;
@@ -149,6 +151,10 @@ class Locator {
     }
   }
 
+  static Eigen::Index first_row_of(Eigen::Index stretch, Eigen::Index rows) {
+    return (stretch * rows + kStretches - 1) / kStretches;
+  }
+
   void find_time() {
     const Scene& scene = observations_.scenes.front();
     std::vector<double> sums(kStretches, 0);
@@ -170,8 +176,8 @@ class Locator {
                               exceeds_noise(sums[at], counts[at], independent_share_, whole,
                                             static_cast<double>(location_.places));
       if (stands_out) {
-        const double from = scene.time[i * scene.rows() / kStretches];
-        const double to = scene.time[(i + 1) * scene.rows() / kStretches - 1];
+        const double from = scene.time[first_row_of(i, scene.rows())];
+        const double to = scene.time[first_row_of(i + 1, scene.rows()) - 1];
         if (follows) {
           location_.time.back().second = to;
         } else {

@@ -16,6 +16,8 @@ constexpr std::size_t kMostTerms = 3;
 constexpr double kLeastTermGain = 10;  // of BIC
 constexpr double kTermConfirmed = 2;   // deviations
 constexpr double kLeastTermShare = 0.1;
+constexpr double kTermChance = 0.01;   // times the terms that are looked at
+constexpr double kTermDeviations = 4;  // of a coefficient from zero: its constant alone is no term
 constexpr int kTermSteps = 4;
 
 /// A quantity along a recording that an error may follow.
@@ -39,7 +41,7 @@ Eigen::VectorXd plain_values(const Feature& feature, double reference, const Sce
                  ? prediction.dynamic_load.col(column)
                  : prediction.load.col(column);
     case Feature::time:
-      return scene.time.array() - reference;
+      return scene.time.array() - scene.time[0];
     case Feature::temperature:
       break;
   }
@@ -63,8 +65,6 @@ double reference_of(const Feature& feature, const Observations& observations) {
   switch (feature.kind) {
     case Feature::angle:
       return observations.simulations.front().q.col(feature.joint - 1).mean();
-    case Feature::time:
-      return scene.time.mean();
     case Feature::temperature:
       return scene.temperature.mean();
     default:
@@ -72,7 +72,7 @@ double reference_of(const Feature& feature, const Observations& observations) {
   }
 }
 
-std::string text_of(const Feature& feature) {
+std::string text_of(const Feature& feature, double reference) {
   constexpr const char* kNames[] = {"angle of joint", "speed of joint", "load on joint", "time",
                                     "temperature"};
   const std::string name = feature.joint > 0
@@ -81,7 +81,11 @@ std::string text_of(const Feature& feature) {
   if (feature.shape == Feature::plain) {
     return name;
   }
-  return feature.shape == Feature::size ? "|" + name + "|" : "(" + name + ")²";
+  if (feature.shape == Feature::size) {
+    return "|" + name + "|";
+  }
+  return feature.kind == Feature::angle ? fmt::format("({} − {:.3g} rad)²", name, reference)
+                                        : "(" + name + ")²";
 }
 
 std::string unit_of(const Feature& feature, const std::string& output) {
@@ -106,16 +110,19 @@ std::vector<Feature> features(const Observations& observations) {
   if (!observations.is_static) {
     all.push_back({Feature::time, Feature::plain, 0});
   }
-  if (scene.temperature.size() > 0 && scene.temperature.allFinite()) {
+  if (scene.temperature.size() > 0) {
     all.push_back({Feature::temperature, Feature::plain, 0});
   }
   return all;
 }
 
-/// Springs follow the load on their own joint; friction, speed.
-bool is_known(const Feature& feature, int joint, bool is_torque) {
-  return feature.joint == joint && feature.shape == Feature::plain &&
-         feature.kind == (is_torque ? Feature::speed : Feature::load);
+/// Springs follow the load on their own joint; friction, and a servo behind its command, speed.
+bool is_known(const Feature& feature, int joint, bool is_torque, bool follows_command) {
+  if (feature.joint != joint || feature.shape != Feature::plain) {
+    return false;
+  }
+  return feature.kind == (is_torque ? Feature::speed : Feature::load) ||
+         (follows_command && feature.kind == Feature::speed);
 }
 
 Hypothesis term_of(const Observations& observations, const Feature& feature, int joint,
@@ -134,7 +141,7 @@ Hypothesis term_of(const Observations& observations, const Feature& feature, int
   const std::string output = is_torque ? "N·m" : "rad";
   Hypothesis term;
   term.effect = fmt::format("{} of joint {} in error by {}", is_torque ? "torque" : "angle", joint,
-                            text_of(feature));
+                            text_of(feature, reference));
   term.parameters = {
       {"coefficient", unit_of(feature, output), -far / unit, far / unit, step / unit},
       {"constant", output, -far, far, step}};
@@ -163,7 +170,7 @@ std::vector<Hypothesis> library_of(const Observations& observations) {
         is_torque ? observations.has(simulation::joint_torque) : sees_angles(observations);
     for (int joint = 1; joint <= 6 && is_seen; ++joint) {
       for (const Feature& feature : inputs) {
-        if (!is_known(feature, joint, is_torque)) {
+        if (!is_known(feature, joint, is_torque, observations.follows_command())) {
           all.push_back(term_of(observations, feature, joint, is_torque));
         }
       }
@@ -187,7 +194,9 @@ const Hypothesis* best_beside(const Observations& observations, const Fit& fit,
   constexpr double kIndependent = 1e-3;
   constexpr double kFar = 6;
   const Eigen::Index n = observations.train;
-  const Eigen::VectorXd left = fit.remainder.head(n).cwiseMax(-kFar).cwiseMin(kFar);
+  const Eigen::VectorXd all = fit.remainder.head(n);
+  const double limit = kFar * std::max(1.0, all.norm() / std::sqrt(static_cast<double>(n)));
+  const Eigen::VectorXd left = all.cwiseMax(-limit).cwiseMin(limit);
   const Eigen::MatrixXd base = basis_of(fit.derivative.topRows(n));
   std::vector<double> gains(library.size(), 0);
   in_parallel(
@@ -201,9 +210,11 @@ const Hypothesis* best_beside(const Observations& observations, const Fit& fit,
         columns.array().rowwise() /= length.array();
         columns -= base * (base.transpose() * columns).eval();
         Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rest(columns.rows(), columns.cols());
-        rest.setThreshold(kIndependent);
         rest.compute(columns);
-        gains[i] = (rest.householderQ().transpose() * left).head(rest.rank()).squaredNorm();
+        // Columns had unit length: what is left of one may be rounding.
+        const auto independent =
+            (rest.matrixQR().diagonal().cwiseAbs().array() > kIndependent).count();
+        gains[i] = (rest.householderQ().transpose() * left).head(independent).squaredNorm();
       });
   const auto best = std::max_element(gains.begin(), gains.end());
   return best == gains.end() || !(*best > 0)
@@ -244,14 +255,17 @@ class Proposer {
 
   static bool holds(const Evidence& evidence) {
     return evidence.delta_bic > kLeastTermGain && evidence.confirmation > kTermConfirmed &&
-           evidence.share > kLeastTermShare;
+           evidence.share > kLeastTermShare && evidence.p_value < kTermChance;
   }
 
   bool add(const Hypothesis& term) {
     std::vector<Chosen> chosen = fit_.chosen;
     chosen.push_back({&term, Values(term.parameters.size(), 0.0)});
     Fit grown = with(std::move(chosen));
-    const bool is_kept = holds(weighed(fit_, grown));
+    const auto coefficient = static_cast<Eigen::Index>(grown.parameters() - term.parameters.size());
+    const double deviation = std::sqrt(std::max(grown.covariance(coefficient, coefficient), 0.0));
+    const bool is_kept = holds(weighed(fit_, grown)) &&
+                         std::abs(grown.chosen.back().values.front()) > kTermDeviations * deviation;
     if (is_kept) {
       fit_ = std::move(grown);
     }
@@ -283,7 +297,7 @@ class Proposer {
         const Evidence evidence = weighed(with(others(i - known_)), fit_);
         proposal.terms.push_back({chosen.hypothesis->effect,
                                   chosen.hypothesis->parameters.front().unit, chosen.values.front(),
-                                  std::sqrt(fit_.covariance(index, index)),
+                                  std::sqrt(std::max(fit_.covariance(index, index), 0.0)),
                                   std::min(evidence.share, 1.0)});
       }
       index += static_cast<Eigen::Index>(chosen.values.size());

@@ -145,6 +145,28 @@ Eigen::MatrixXd picked(const Group& group, const std::vector<Eigen::Index>& rows
   return values;
 }
 
+/// Missing values between those that are there, held at the ends: warmth changes slowly. Empty if
+/// there is none at all.
+Eigen::VectorXd filled(Eigen::VectorXd values) {
+  Eigen::Index known = -1;
+  for (Eigen::Index row = 0; row < values.size(); ++row) {
+    if (!std::isfinite(values[row])) {
+      continue;
+    }
+    for (Eigen::Index gap = known + 1; gap < row; ++gap) {
+      const double share =
+          known < 0 ? 1 : static_cast<double>(gap - known) / static_cast<double>(row - known);
+      values[gap] = known < 0 ? values[row] : (1 - share) * values[known] + share * values[row];
+    }
+    known = row;
+  }
+  if (known < 0) {
+    return {};
+  }
+  values.tail(values.size() - known).setConstant(values[known]);
+  return values;
+}
+
 void refuse_unusable(const recording::Recording& recording) {
   if (!recording.q_meas && !recording.q_cmd) {
     throw InputError(
@@ -232,7 +254,7 @@ Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
   }
   scene.wrench = scene.has_wrench ? picked(*recording.wrench, rows) : Eigen::MatrixXd::Zero(n, 6);
   if (recording.temperature) {
-    scene.temperature = picked(*recording.temperature, rows);
+    scene.temperature = filled(picked(*recording.temperature, rows));
   }
   if (recording.position) {
     scene.measured[tcp_position] = picked(*recording.position, rows);

@@ -34,7 +34,7 @@ struct Scene {
   /// n×6, rad/s²: by how much the acceleration may be wrong where the motion is too abrupt for the
   /// samples; zero elsewhere.
   Eigen::MatrixXd acceleration_doubt;
-  Eigen::VectorXd temperature;  ///< n, °C; empty where not recorded
+  Eigen::VectorXd temperature;  ///< n, °C, gaps filled; empty where not recorded
   /// What was measured, by channel (n×3, n×6, n×6): no columns where not recorded, NaN where a
   /// sample is missing. Joint deflection is q_link − q_meas.
   std::array<Eigen::MatrixXd, 3> measured;

@@ -124,6 +124,17 @@ class Diagnose(unittest.TestCase):
         self.assert_refused(good, "--false-discovery", "--false-discovery", "2")
         self.assert_refused(good, "missing.csv", "--holdout", self.folder / "missing.csv")
 
+    def test_recordings_that_do_not_show_the_same_things_are_refused_together(self):
+        first = measured(self.folder, ROBOT, seed=8, poses=30)
+        other = self.folder / "other.csv"
+        lines = first.read_text().split()
+        other.write_text("\n".join([lines[0] + ",temp_c"] + [line + ",20" for line in lines[1:]]) + "\n")
+        self.assert_refused(first, "has the columns temp_c", "--recording", other)
+        moving = [line.split(",") for line in lines]
+        other.write_text("\n".join([lines[0]] + [",".join([str(0.01 * i), *cells[1:]])
+                                                 for i, cells in enumerate(moving[1:])]) + "\n")
+        self.assert_refused(first, "no load test", "--holdout", other)
+
     def test_effects_of_a_model_that_are_unknown_or_incomplete_are_refused(self):
         good = measured(self.folder, ROBOT, seed=6, poses=30)
         for effect, saying in (("{effect: backslash, joint: 2}", "'backslash' is unknown"),

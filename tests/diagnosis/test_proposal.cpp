@@ -79,7 +79,7 @@ void a_zero_is_known_as_well_as_its_lever_and_the_noise_allow() {
 
 void of_a_joint_that_stands_under_the_tcp_nothing_can_be_told() {
   const std::vector<Excitation> all = excitation_of(SwingingRobot(4).observed());
-  TEST_ASSERT_EQUAL_STRING("nothing: it bears too little load and does not move",
+  TEST_ASSERT_EQUAL_STRING("nothing: none of its errors would show in what was measured",
                            verdict(all[5]).c_str());
   TEST_ASSERT_EQUAL_STRING_LEN("zero to ", verdict(all[1]).c_str(), 8);
 }

@@ -15,7 +15,7 @@ std::vector<Hypothesis> hysteresis(const Observations& observations) {
     hypothesis.effect = "hysteresis";
     hypothesis.joint = joint;
     const double load = observations.largest_load(joint);
-    if (load < 1) {
+    if (load < 0.01) {
       continue;
     }
     hypothesis.parameters = {{"amplitude", "rad", 0, 0.05, 1e-4},

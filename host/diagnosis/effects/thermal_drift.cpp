@@ -24,7 +24,7 @@ std::vector<Hypothesis> thermal_drift(const Observations& observations) {
     return {};
   }
   const Scene& first = observations.scenes.front();
-  const bool by_temperature = first.temperature.size() > 0 && first.temperature.allFinite();
+  const bool by_temperature = first.temperature.size() > 0;
   const char* unit = by_temperature ? "m/K" : "m";
   const double step = by_temperature ? 1e-5 : 1e-4;
   Hypothesis hypothesis;

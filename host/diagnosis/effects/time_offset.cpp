@@ -39,6 +39,11 @@ std::vector<Hypothesis> time_offset(const Observations& observations) {
   if (observations.is_static) {
     return all;
   }
+  std::vector<Values> guesses;
+  for (double delay = 1e-3; delay < 0.1; delay *= 1.35) {
+    guesses.push_back({delay});
+    guesses.push_back({-delay});
+  }
   Hypothesis hypothesis;
   hypothesis.effect = "time_offset";
   hypothesis.parameters = {{"delay", "s", -0.5, 0.5, 1e-3}};
@@ -49,6 +54,10 @@ std::vector<Hypothesis> time_offset(const Observations& observations) {
       hypothesis.statement = fmt::format(
           "the clock of the {} disagrees with that of the joint angles", clock_name(channel));
       hypothesis.form = simulation::kChannels[channel];
+      // Friction turns with the motion: a late torque is far from proportion to its delay.
+      const bool jumps = channel == simulation::joint_torque;
+      hypothesis.linear = jumps ? 0 : 1;
+      hypothesis.starts = jumps ? guesses : std::vector<Values>{{}};
       hypothesis.apply = [channel](const Values& values, Machine* machine) {
         machine->terms.push_back(late_channel(channel, values[0]));
       };
@@ -59,11 +68,7 @@ std::vector<Hypothesis> time_offset(const Observations& observations) {
     hypothesis.statement = "the clock of the force sensor disagrees with that of the joint angles";
     hypothesis.form = "wrench";
     hypothesis.linear = 0;
-    hypothesis.starts.clear();
-    for (double delay = 1e-3; delay < 0.1; delay *= 1.35) {
-      hypothesis.starts.push_back({delay});
-      hypothesis.starts.push_back({-delay});
-    }
+    hypothesis.starts = guesses;
     hypothesis.alters_model = true;
     hypothesis.apply = [](const Values& values, Machine* machine) {
       machine->wrench_delay += values[0];

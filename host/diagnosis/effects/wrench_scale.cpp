@@ -11,6 +11,7 @@ std::vector<Hypothesis> wrench_scale(const Observations& observations) {
   hypothesis.effect = "wrench_scale";
   hypothesis.parameters = {{"gain_error", "1", -0.9, 5, 0.05}};
   hypothesis.linear = 1;
+  hypothesis.is_curved = true;
   hypothesis.statement = "the force sensor has another gain";
   set_sensor([](const Values& values,
                 const Wrench<double>& read) { return Wrench<double>(read / (1 + values[0])); },
