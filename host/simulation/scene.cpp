@@ -13,7 +13,7 @@
 namespace flexcomp::simulation {
 namespace {
 
-constexpr double kHalfWindow = 0.016;  // s
+constexpr double kHalfWindow = 0.0161;  // s; a little more than 16 ms, for times that are rounded
 constexpr Eigen::Index kFewestNeighbours = 3;
 constexpr int kOrder = 5;
 
