@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 
 namespace flexcomp::diagnosis {
@@ -14,10 +15,11 @@ constexpr double kLeastStrength = 1.0 / 3;
 /// What is weaker than this part of the whole is within the exactness of what is simulated.
 constexpr double kExactness = 0.02;
 /// Noise of the encoders is in what is predicted: a filter explains it, but it is no mismatch.
-constexpr double kLeastBeyondNoise = 0.5;
+constexpr double kLeastBeyondNoise = 0.75;
 constexpr double kLeastShare = 0.1;      // of what is left: many small steps are a wrong way
 constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
 constexpr std::size_t kMostFindings = 20;
+constexpr int kMostInGroup = 5;  // more would be a sum that fits anything
 constexpr std::size_t kShortlist = 5;
 constexpr std::size_t kMany = 4;  // findings, from which on fits are slow and little is ambiguous
 constexpr std::size_t kShortShortlist = 2;
@@ -205,9 +207,13 @@ class Chooser {
     return weigh(*observations_, before, after, static_cast<double>(dictionary_.entries.size()));
   }
 
-  bool grow(Fit* current) const {
+  bool grow(Fit* current) {
     Fit grown = best_with(*current, shortlist_beside(*current));
-    if (grown.chosen.empty() || !holds(weigh_last(*current, grown))) {
+    if (grown.chosen.empty()) {
+      return false;
+    }
+    const Evidence evidence = weigh_last(*current, grown);
+    if (!holds(evidence) || ++found_in_[evidence.group] > kMostInGroup) {
       return false;
     }
     *current = std::move(grown);
@@ -335,6 +341,7 @@ class Chooser {
   const std::vector<Hypothesis>& hypotheses_;
   const Dictionary& dictionary_;
   double false_discovery_;
+  std::map<Group, int> found_in_;
   std::vector<std::shared_ptr<const std::vector<Hypothesis>>> sought_;
   std::unique_ptr<Dictionary> sought_dictionary_;
 };

@@ -46,6 +46,7 @@ struct Squares {
   double before = 0, after = 0;  ///< of the remainder, without and with the hypothesis
   double change = 0, whole = 0;  ///< of what the hypothesis, and of what the whole fit changes
   double count = 0;
+  Group group;
 };
 
 /// Of each component of a channel in a scene, or of each group (the TCP's position, a joint's
@@ -70,6 +71,7 @@ std::vector<Squares> squares_of(const Observations& observations, const Fit& wit
     own.change += weight * (before - after) * (before - after);
     own.whole += weight * (first - after) * (first - after);
     own.count += weight;
+    own.group = {at.channel, is_whole ? 0 : at.component};
   }
   std::vector<Squares> list;
   list.reserve(all.size());
@@ -129,6 +131,7 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
     if (each.change / each.count > most) {
       most = each.change / each.count;
       const double fall = each.before - each.after;
+      evidence.group = each.group;
       evidence.relative_strength = std::sqrt(each.change / std::max(each.whole, kTiny));
       evidence.share = fall / std::max(each.before - each.count, kTiny);
       evidence.beyond_noise = (each.before - each.count) / std::max(fall, kTiny);

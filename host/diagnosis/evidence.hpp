@@ -1,10 +1,14 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "diagnosis/fit.hpp"
 
 namespace flexcomp::diagnosis {
+
+/// Channel, and joint less one: the TCP's position (0), or the torque or deflection of one joint.
+using Group = std::pair<Channel, Eigen::Index>;
 
 /// What speaks for a hypothesis, the others of a fit being there.
 struct Evidence {
@@ -13,7 +17,7 @@ struct Evidence {
   double confirmation = 0;  ///< deviations by which the held-out sum of squares falls
   double strength = 0;      ///< root mean square of its share in the component that shows it most,
                             ///< over the noise
-  // In the group that shows it most: the TCP's position, or the torque or deflection of a joint.
+  Group group;              ///< that shows it most; what follows is of that group
   double relative_strength = 0;  ///< to that of the whole fit
   double share = 0;              ///< of the power that is left beyond the noise without it
   double beyond_noise = 0;       ///< what was beyond the noise over what it takes away

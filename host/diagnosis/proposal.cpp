@@ -50,7 +50,7 @@ Eigen::VectorXd plain_values(const Feature& feature, double reference, const Sce
 
 Eigen::VectorXd values_along(const Feature& feature, double reference, const Scene& scene,
                              const Simulation& simulation) {
-  const Eigen::VectorXd plain = plain_values(feature, reference, scene, simulation);
+  Eigen::VectorXd plain = plain_values(feature, reference, scene, simulation);
   if (feature.shape == Feature::plain) {
     return plain;
   }
@@ -75,9 +75,8 @@ double reference_of(const Feature& feature, const Observations& observations) {
 std::string text_of(const Feature& feature, double reference) {
   constexpr const char* kNames[] = {"angle of joint", "speed of joint", "load on joint", "time",
                                     "temperature"};
-  const std::string name = feature.joint > 0
-                               ? fmt::format("{} {}", kNames[feature.kind], feature.joint)
-                               : kNames[feature.kind];
+  std::string name = feature.joint > 0 ? fmt::format("{} {}", kNames[feature.kind], feature.joint)
+                                       : kNames[feature.kind];
   if (feature.shape == Feature::plain) {
     return name;
   }

@@ -96,7 +96,7 @@ void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index 
 /// Torque of inertia, weight, wrench and balancers that the drives must hold, at link angles `q`.
 Row drive_torque(const Machine& machine, const Scene& scene, const Simulation& at, const Row& q,
                  Eigen::Index row) {
-  const Row rigid =
+  Row rigid =
       inverse_dynamics(machine.robot, q, row_of(at.velocity, row), row_of(at.acceleration, row)) -
       balance(machine, q);
   if (!scene.has_wrench) {
