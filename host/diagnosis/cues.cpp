@@ -71,10 +71,7 @@ Eigen::VectorXd path_angle(const Simulation& simulation) {
 std::vector<Cue> cues_of(const Scene& scene, const Prediction& prediction,
                          const Simulation& simulation) {
   std::vector<Cue> cues;
-  const Eigen::MatrixXd& load =
-      prediction.dynamic_load.cols() > 0 && !scene.has(simulation::tcp_position)
-          ? prediction.dynamic_load
-          : prediction.load;
+  const Eigen::MatrixXd& load = shown_load(scene, prediction);
   for (int joint = 1; joint <= 6; ++joint) {
     const Eigen::Index column = joint - 1;
     const auto add = [&](const char* what, Eigen::VectorXi kind, int classes) {

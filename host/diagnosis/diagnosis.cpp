@@ -73,8 +73,7 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
 
 /// Does a form without physics, of no more parameters, account for more than findings do? Then what
 /// they have in common with the mismatch is no proof of them.
-bool is_outdone(const Observations& observations, const Fit& findings) {
-  const Proposal rival = propose(observations, fit(observations, {}, 0));
+bool is_outdone(const Observations& observations, const Fit& findings, const Proposal& rival) {
   if (rival.terms.empty() || rival.fit.parameters() > findings.parameters()) {
     return false;
   }
@@ -103,13 +102,17 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
              "only a sum of large effects that cancel each other comes near, which imitates what "
              "is not there",
              diagnosis);
-  } else if (found.chosen.size() > 1 && after > kNearNoise && is_outdone(observations, found)) {
-    withdraw(observations, "a form that no known effect has accounts for more of it", diagnosis);
-  } else if (is_noise) {
-    diagnosis->verdict = "explained";
   } else {
-    diagnosis->verdict = "partly_explained";
-    diagnosis->reason = fmt::format("{:.1f} times the noise is left", after);
+    diagnosis->verdict = is_noise ? "explained" : "partly_explained";
+    diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
+    if (found.chosen.size() > 1 && after > kNearNoise) {
+      Proposal rival = propose(observations, fit(observations, {}, 0));
+      if (is_outdone(observations, found, rival)) {
+        withdraw(observations, "a form that no known effect has accounts for more of it",
+                 diagnosis);
+        diagnosis->proposal = std::move(rival.terms);
+      }
+    }
   }
 }
 
@@ -139,7 +142,9 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   judge(*observations, &diagnosis);
   if (diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained") {
     diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
-    diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
+    if (diagnosis.proposal.empty()) {
+      diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
+    }
   }
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;

@@ -57,6 +57,11 @@ simulation::Wanted wanted_of(const Machine& machine, const Scene& scene) {
   return wanted;
 }
 
+const Eigen::MatrixXd& shown_load(const Scene& scene, const Prediction& prediction) {
+  return prediction.dynamic_load.cols() > 0 && !scene.has(tcp_position) ? prediction.dynamic_load
+                                                                        : prediction.load;
+}
+
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes) {
   std::vector<Prediction> predictions;
   predictions.reserve(scenes.size());

@@ -97,6 +97,10 @@ class Observations {
 /// wrench.
 simulation::Wanted wanted_of(const Machine& machine, const Scene& scene);
 
+/// Torques (n×6, N·m) on the joints' springs as what was measured shows them: with inertia where
+/// only link encoders do, else at rest.
+const Eigen::MatrixXd& shown_load(const Scene& scene, const Prediction& prediction);
+
 /// Predictions of a machine for all scenes.
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes);
 

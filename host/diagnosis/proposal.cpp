@@ -30,16 +30,13 @@ struct Feature {
 Eigen::VectorXd plain_values(const Feature& feature, double reference, const Scene& scene,
                              const Simulation& simulation) {
   const Eigen::Index column = feature.joint - 1;
-  const Prediction& prediction = simulation.prediction;
   switch (feature.kind) {
     case Feature::angle:
       return simulation.q.col(column).array() - reference;
     case Feature::speed:
       return simulation.velocity.col(column);
     case Feature::load:
-      return prediction.dynamic_load.cols() > 0 && !scene.has(simulation::tcp_position)
-                 ? prediction.dynamic_load.col(column)
-                 : prediction.load.col(column);
+      return shown_load(scene, simulation.prediction).col(column);
     case Feature::time:
       return scene.time.array() - scene.time[0];
     case Feature::temperature:
