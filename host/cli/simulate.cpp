@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "diagnosis/learned.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "recording/recording.hpp"
@@ -15,11 +17,60 @@ namespace {
 struct Options {
   std::string model;
   std::string path;
+  std::string recording;
   std::string out;
   double compliance_scale = 1;
 };
 
-int run(const Options& options) {
+/// Rows of samples, all missing until they are set.
+recording::Samples missing(Eigen::Index rows, Eigen::Index columns) {
+  return recording::Samples::Constant(rows, columns, std::numeric_limits<double>::quiet_NaN());
+}
+
+/// What the recording would show if the model were right, effects learnt by a diagnosis included.
+recording::Recording expected(const model::Robot& robot, const recording::Recording& recording) {
+  simulation::Preparation preparation;
+  const simulation::Scene scene = simulation::prepare(recording, recording.size(), &preparation);
+  const simulation::Prediction prediction =
+      diagnosis::predict(diagnosis::machine_of(robot, {scene}), {scene}).front();
+  recording::Recording shown;
+  shown.time = recording.time;
+  std::array<recording::Samples, 3> values;
+  for (std::size_t channel = 0; channel < values.size(); ++channel) {
+    values[channel] = missing(recording.size(), scene.measured[channel].cols());
+  }
+  Eigen::Index at = 0;
+  for (Eigen::Index row = 0; row < recording.size() && at < scene.rows(); ++row) {
+    if (recording.time[row] == scene.time[at]) {
+      for (std::size_t channel = 0; channel < values.size(); ++channel) {
+        values[channel].row(row) = prediction.channel[channel].row(at);
+      }
+      ++at;
+    }
+  }
+  if (scene.has(simulation::tcp_position)) {
+    shown.position = values[simulation::tcp_position];
+  }
+  if (scene.has(simulation::joint_torque)) {
+    shown.tau = values[simulation::joint_torque];
+  }
+  if (scene.has(simulation::joint_deflection)) {
+    shown.q_link = values[simulation::joint_deflection] + *recording.q_meas;
+  }
+  return shown;
+}
+
+int run_recording(const Options& options) {
+  if (options.compliance_scale != 1) {
+    throw InputError("--compliance-scale goes with --path, not with --recording");
+  }
+  const model::Robot robot = model::load_robot(options.model);
+  recording::write_recording(options.out,
+                             expected(robot, recording::read_recording(options.recording)));
+  return kDone;
+}
+
+int run_path(const Options& options) {
   if (!(options.compliance_scale > 0)) {
     throw InputError("--compliance-scale: expected a number above zero");
   }
@@ -44,21 +95,33 @@ int run(const Options& options) {
   return kDone;
 }
 
+int run(const Options& options) {
+  if (options.path.empty() == options.recording.empty()) {
+    throw InputError("expected either --path or --recording");
+  }
+  return options.path.empty() ? run_recording(options) : run_path(options);
+}
+
 }  // namespace
 
 void add_simulate(CLI::App* app, Action* action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "simulate",
-      "Where the robot really goes: its springs bent by the wrench and, with gravity in the model, "
-      "by\n"
-      "its weight, at rest at every row (quasi-static). Writes the rows with q_meas (the motors "
-      "follow\n"
-      "the command) and x, y, z of the TCP; free of noise.\n"
+      "With --path, where the robot really goes: its springs bent by the wrench and, with gravity "
+      "in\n"
+      "the model, by its weight, at rest at every row (quasi-static). Writes the rows with q_meas "
+      "(the\n"
+      "motors follow the command) and x, y, z of the TCP; free of noise.\n"
+      "With --recording, what it would show if the model were right, as flexcomp diagnose compares "
+      "it:\n"
+      "t and, as far as the recording has them, x, y, z, tau and q_link; cells are empty where a "
+      "row\n"
+      "lacks joint angles or part of the wrench.\n"
       "Example: flexcomp simulate --model robot.yaml --path path.csv --out recording.csv");
   command->add_option("--model", options->model, "robot.yaml")->required();
-  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")
-      ->required();
+  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench");
+  command->add_option("--recording", options->recording, "recording to simulate once more");
   command->add_option("--out", options->out, "recording to write")->required();
   command->add_option("--compliance-scale", options->compliance_scale,
                       "all springs this many times as soft: a robot that is not as its model says");

@@ -298,6 +298,8 @@ class BadInput(Command):
             (("plan", "circle", "--model", KR270, "--center", "1,2,3", "--plane", "xx", "--out", "x"), "xx"),
             (("simulate", "--model", KR270, "--path", path, "--out", "x", "--compliance-scale", "0"),
              "--compliance-scale"),
+            (("simulate", "--model", KR270, "--out", "x"), "--recording"),
+            (("simulate", "--model", KR270, "--path", path, "--recording", path, "--out", "x"), "either"),
             (("report", "--model", KR270, "--recording", "nameless", "--out", "x"), "NAME=FILE"),
         ]
         for arguments, saying in cases:

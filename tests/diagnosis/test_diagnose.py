@@ -1,5 +1,6 @@
 """`flexcomp diagnose` as a user sees it: what it names, what it leaves alone, what it refuses."""
 
+import csv
 import json
 import math
 import os
@@ -54,6 +55,11 @@ def measured(folder, model, seed, poses=60):
     return recording
 
 
+def rows(file):
+    with open(file, newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
 class Diagnose(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -89,6 +95,32 @@ class Diagnose(unittest.TestCase):
                     self.folder / "recording.csv", "--out", self.folder / "again")
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(json.loads((self.folder / "again/diagnosis.json").read_text())["verdict"], "no_mismatch")
+
+    def test_the_simulated_recording_leaves_the_residual_that_the_diagnosis_states(self):
+        true = self.changed_model("joint_a2: {compliance: 0.29e-6}", "joint_a2: {compliance: 0.40e-6}")
+        recording = measured(self.folder, true, seed=1)
+        found = self.diagnosis(recording)
+        simulated = self.folder / "simulated.csv"
+        for model, rms in ((ROBOT, found["baseline"]), (self.out / "updated_model.yaml", found["final"])):
+            made = run("simulate", "--model", model, "--recording", recording, "--out", simulated)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            squares = [(float(a[c]) - float(b[c])) ** 2 for a, b in zip(rows(recording), rows(simulated))
+                       for c in "xyz"]
+            channel = rms["tcp_position"]  # three quarters of the rows to fit to, the rest to check
+            stated = 0.75 * channel["train_rms"] ** 2 + 0.25 * channel["holdout_rms"] ** 2
+            self.assertAlmostEqual(sum(squares) / len(squares) / stated, 1, delta=0.02)
+
+    def test_a_row_without_a_force_is_not_simulated(self):
+        recording = measured(self.folder, ROBOT, seed=1)
+        header, first, *rest = recording.read_text().splitlines()
+        cells = first.split(",")
+        cells[header.split(",").index("fx")] = ""
+        recording.write_text("\n".join([header, ",".join(cells), *rest]) + "\n")
+        simulated = self.folder / "simulated.csv"
+        made = run("simulate", "--model", ROBOT, "--recording", recording, "--out", simulated)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        filled = [row["x"] != "" for row in rows(simulated)]
+        self.assertEqual(filled, [False] + [True] * (len(filled) - 1))
 
     def test_a_robot_like_its_model_is_left_alone(self):
         found = self.diagnosis(measured(self.folder, ROBOT, seed=2))
