@@ -12,7 +12,8 @@ namespace {
 constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kConfirmed = 2;
 constexpr double kLeastStrength = 1.0 / 3;
-/// What is weaker than this part of the whole is within the exactness of what is simulated.
+/// What is weaker than this part of the whole is within the exactness of what is simulated of a
+/// motion.
 constexpr double kExactness = 0.02;
 /// Noise of the encoders is in what is predicted: a filter explains it, but it is no mismatch.
 constexpr double kLeastBeyondNoise = 0.75;
@@ -20,6 +21,8 @@ constexpr double kLeastShare = 0.1;      // of what is left: many small steps ar
 constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
 constexpr std::size_t kMostFindings = 20;
 constexpr int kMostInGroup = 5;  // more would be a sum that fits anything
+/// A load test's poses lie all over: its many small errors of geometry tell themselves apart.
+constexpr int kMostInLoadTest = 16;
 constexpr std::size_t kShortlist = 5;
 constexpr std::size_t kMany = 4;  // findings, from which on fits are slow and little is ambiguous
 constexpr std::size_t kShortShortlist = 2;
@@ -198,7 +201,7 @@ class Chooser {
   bool holds(const Evidence& evidence) const {
     return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
            evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
-           evidence.relative_strength > kExactness &&
+           (observations_->is_static || evidence.relative_strength > kExactness) &&
            (observations_->is_static || evidence.beyond_noise > kLeastBeyondNoise) &&
            evidence.share > kLeastShare;
   }
@@ -213,7 +216,8 @@ class Chooser {
       return false;
     }
     const Evidence evidence = weigh_last(*current, grown);
-    if (!holds(evidence) || ++found_in_[evidence.group] > kMostInGroup) {
+    if (!holds(evidence) ||
+        ++found_in_[evidence.group] > (observations_->is_static ? kMostInLoadTest : kMostInGroup)) {
       return false;
     }
     *current = std::move(grown);
@@ -290,7 +294,7 @@ class Chooser {
       const double explained = choice->findings[i].evidence.explained;
       const bool stands = explained >= kLeastExplained;
       (stands ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
-      choice->explained = stands ? choice->explained : std::min(choice->explained, explained);
+      choice->explained = stands ? choice->explained : std::max(choice->explained, explained);
     }
     if (kept.size() < choice->findings.size()) {
       choice->fit = fit(*observations_, std::move(kept), kLastSteps);

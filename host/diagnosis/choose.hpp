@@ -37,7 +37,7 @@ struct Choice {
   std::vector<Finding> findings;  ///< in the order of `fit.chosen`, the strongest first
   /// What held beside the others, but with all of them left most of the mismatch there standing.
   std::vector<Chosen> withdrawn;
-  double explained = 1;  ///< most of the power there that was accounted for
+  double explained = 0;  ///< most of the power there that was accounted for
 };
 
 /// Above it, effects imitate something else by large parts that cancel.

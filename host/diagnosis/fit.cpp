@@ -67,19 +67,37 @@ class Evaluator {
 
   const std::vector<Chosen>& chosen() const { return chosen_; }
 
-  std::vector<Simulation> simulate_scenes(const Machine& machine) const {
-    const bool alters = std::any_of(chosen_.begin(), chosen_.end(), [](const Chosen& each) {
-      return each.hypothesis->alters_model;
-    });
-    if (!alters) {
+  std::vector<Simulation> simulate_scenes(const Machine& machine,
+                                          const std::vector<simulation::RigidTorque>& rigid) const {
+    if (!alters_any()) {
       return observations_.simulations;
     }
     std::vector<Simulation> simulations;
-    for (const Scene& scene : observations_.scenes) {
-      const simulation::Wanted wanted = wanted_of(machine, scene);
+    for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
+      const Scene& scene = observations_.scenes[s];
+      simulation::Wanted wanted = wanted_of(machine, scene);
+      wanted.rigid = rigid.empty() ? nullptr : &rigid[s];
       simulations.push_back(simulate(machine, scene, wanted));
     }
     return simulations;
+  }
+
+  bool alters_any() const {
+    return std::any_of(chosen_.begin(), chosen_.end(),
+                       [](const Chosen& each) { return each.hypothesis->alters_model; });
+  }
+
+  /// Of a machine near which derivatives are wanted; most parameters leave them as they are.
+  std::vector<simulation::RigidTorque> rigid_torques(const Machine& machine) const {
+    const std::vector<simulation::RigidTorque>& known = observations_.rigid;
+    if (known.empty() || !alters_any() || known.front().holds_for(machine)) {
+      return known;
+    }
+    std::vector<simulation::RigidTorque> rigid;
+    for (const Scene& scene : observations_.scenes) {
+      rigid.emplace_back(machine, scene);
+    }
+    return rigid;
   }
 
   std::vector<Prediction> add_terms(const Machine& machine,
@@ -95,7 +113,8 @@ class Evaluator {
   Eigen::VectorXd evaluate(const Values& values, Eigen::MatrixXd* derivative) {
     set(values);
     const Machine machine = machine_with(observations_, chosen_);
-    const std::vector<Simulation> simulations = simulate_scenes(machine);
+    const std::vector<simulation::RigidTorque> rigid = rigid_torques(machine);
+    const std::vector<Simulation> simulations = simulate_scenes(machine, rigid);
     Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
     if (derivative != nullptr) {
       derivative->resize(base.size(), static_cast<Eigen::Index>(size()));
@@ -118,7 +137,7 @@ class Evaluator {
             moved.set(other);
             const Machine changed = machine_with(observations_, moved.chosen_);
             const std::vector<Prediction> predictions =
-                alters_[i] ? add_terms(changed, moved.simulate_scenes(changed))
+                alters_[i] ? add_terms(changed, moved.simulate_scenes(changed, rigid))
                            : add_terms(changed, simulations);
             derivative->col(static_cast<Eigen::Index>(i)) =
                 (observations_.stacked(predictions) - base) / step;

@@ -15,9 +15,10 @@ bool has_key(const Hypothesis& hypothesis) {
   constexpr const char* kEffects[] = {
       "joint_stiffness", "nonlinear_stiffness", "base_compliance",  "tool_compliance",
       "payload",         "coulomb_friction",    "viscous_friction", "rotor_inertia"};
-  return std::find(std::begin(kEffects), std::end(kEffects), hypothesis.effect) !=
-             std::end(kEffects) ||
-         (hypothesis.effect == "link_flexibility" && hypothesis.form == "springs");
+  const bool is_plain =
+      hypothesis.form.empty() &&
+      std::find(std::begin(kEffects), std::end(kEffects), hypothesis.effect) != std::end(kEffects);
+  return is_plain || (hypothesis.effect == "link_flexibility" && hypothesis.form == "springs");
 }
 
 /// Play by the key `backlash`: driven by the load where the joint carries one, with a drag of a

@@ -77,6 +77,9 @@ Observations::Observations(Machine model, std::vector<Scene> all, std::size_t ho
   simulations.reserve(scenes.size());
   predictions.reserve(scenes.size());
   for (const Scene& scene : scenes) {
+    if (has(joint_torque) || has(joint_deflection)) {
+      rigid.emplace_back(machine, scene);
+    }
     simulations.push_back(simulate(machine, scene));
     predictions.push_back(with_terms(machine.terms, scene, simulations.back()));
   }
@@ -207,7 +210,15 @@ double Observations::largest_load(int joint) const {
 }
 
 double Observations::largest_torque(int joint) const {
+  constexpr double kPeak = 3;  // times the root mean square, which single outliers hardly raise
   std::vector<Eigen::VectorXd> torques;
+  for (const Scene& scene : scenes) {
+    if (scene.has(joint_torque)) {
+      const Eigen::ArrayXd measured = scene.measured[joint_torque].col(joint - 1).array();
+      const Eigen::ArrayXd known = measured.isFinite().select(measured, 0.0);
+      torques.emplace_back(Eigen::VectorXd::Constant(1, kPeak * std::sqrt(known.square().mean())));
+    }
+  }
   for (const Prediction& prediction : predictions) {
     torques.emplace_back(prediction.channel[joint_torque].cols() > 0
                              ? prediction.channel[joint_torque].col(joint - 1)

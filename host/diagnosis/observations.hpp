@@ -42,8 +42,9 @@ class Observations {
 
   Machine machine;  ///< the model that is doubted
   std::vector<Scene> scenes;
-  std::vector<Simulation> simulations;  ///< of that model
-  std::vector<Prediction> predictions;  ///< with its terms
+  std::vector<simulation::RigidTorque> rigid;  ///< of that model; empty where no torque shows
+  std::vector<Simulation> simulations;         ///< of that model
+  std::vector<Prediction> predictions;         ///< with its terms
   /// Measured samples: those to fit to, then those held out; within each part samples of one
   /// component follow in time.
   std::vector<Sample> samples;
@@ -62,7 +63,7 @@ class Observations {
   bool has_wrench() const;
   bool follows_command() const;
   double largest_load(int joint) const;    ///< N·m
-  double largest_torque(int joint) const;  ///< N·m, predicted
+  double largest_torque(int joint) const;  ///< N·m, predicted or, about, measured
   double largest_speed(int joint) const;   ///< rad/s
   double range(int joint) const;           ///< rad
 

@@ -126,4 +126,35 @@ Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& valu
   return result;
 }
 
+Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
+                             const Eigen::MatrixXd& velocity, double delay) {
+  Eigen::MatrixXd result(position.rows(), position.cols());
+  const Eigen::Index last = time.size() - 1;
+  Eigen::Index before = 0;
+  for (Eigen::Index row = 0; row <= last; ++row) {
+    const double wanted = time[row] - delay;
+    while (before > 0 && time[before] > wanted) {
+      --before;
+    }
+    while (before + 1 < last && time[before + 1] <= wanted) {
+      ++before;
+    }
+    const bool is_within = last > 0 && wanted >= time[0] && wanted <= time[last];
+    if (!is_within) {
+      const Eigen::Index edge = wanted < time[0] ? 0 : last;
+      result.row(row) =
+          position.row(edge) + (wanted - time[edge]) * velocity.row(edge) - position.row(row);
+      continue;
+    }
+    const double length = time[before + 1] - time[before];
+    const double s = (wanted - time[before]) / length;
+    const double to_end = s * s * (3 - 2 * s);
+    result.row(row) =
+        (1 - to_end) * position.row(before) + to_end * position.row(before + 1) +
+        length * s * (1 - s) * ((1 - s) * velocity.row(before) - s * velocity.row(before + 1)) -
+        position.row(row);
+  }
+  return result;
+}
+
 }  // namespace flexcomp::simulation

@@ -36,4 +36,9 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
 /// their ends as they came there, turned about the last one.
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay);
 
+/// By how much a motion (n×m, with its velocity) stood elsewhere `delay` (s) before: cubic between
+/// the times (s) (Hermite), straight on beyond their ends.
+Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
+                             const Eigen::MatrixXd& velocity, double delay);
+
 }  // namespace flexcomp::simulation

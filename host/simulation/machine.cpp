@@ -93,18 +93,21 @@ void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index 
   }
 }
 
-/// Torque of inertia, weight, wrench and balancers that the drives must hold, at link angles `q`.
-Row drive_torque(const Machine& machine, const Scene& scene, const Simulation& at, const Row& q,
-                 Eigen::Index row) {
-  Row rigid =
-      inverse_dynamics(machine.robot, q, row_of(at.velocity, row), row_of(at.acceleration, row)) -
-      balance(machine, q);
+Row rigid_torque(const Machine& machine, const Simulation& at, const Row& q, Eigen::Index row) {
+  return inverse_dynamics(machine.robot, q, row_of(at.velocity, row), row_of(at.acceleration, row));
+}
+
+/// Torque that the drives must hold, of wrench and balancers beside the `rigid` one of inertia and
+/// weight, at link angles `q`.
+Row drive_torque(const Machine& machine, const Scene& scene, const Simulation& at, const Row& rigid,
+                 const Row& q, Eigen::Index row) {
+  const Row held = rigid - balance(machine, q);
   if (!scene.has_wrench) {
-    return rigid;
+    return held;
   }
   const Kinematics<double, 6> straight = forward_kinematics<double, 6>(machine.robot.elastic, q);
   const Wrench<double> wrench = at.wrench.row(row).transpose();
-  return rigid - wrench_torque<double, 6>(geometric_jacobian<double, 6>(straight), wrench);
+  return held - wrench_torque<double, 6>(geometric_jacobian<double, 6>(straight), wrench);
 }
 
 Row friction(const Machine& machine, const Simulation& at, Eigen::Index row) {
@@ -122,16 +125,20 @@ void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Sim
   Prediction& prediction = at->prediction;
   const bool torque = scene.has(joint_torque) && wanted.channel[joint_torque];
   const bool deflection = scene.has(joint_deflection) && wanted.channel[joint_deflection];
+  const bool is_known = wanted.rigid != nullptr && wanted.rigid->holds_for(machine);
   for (Eigen::Index row = 0; row < scene.rows(); ++row) {
     const Row q = row_of(at->q, row);
-    const Row straight = drive_torque(machine, scene, *at, q, row);
+    const Row rigid = is_known ? wanted.rigid->at(row) : rigid_torque(machine, *at, q, row);
+    const Row straight = drive_torque(machine, scene, *at, rigid, q, row);
     if (torque) {
       prediction.channel[joint_torque].row(row) =
           (straight + friction(machine, *at, row)).transpose();
     }
     if (deflection) {
       const Row first = joint_windup<double, 6>(machine.robot.elastic, -straight);
-      const Row load = -drive_torque(machine, scene, *at, q + first, row);
+      const Row bent = q + first;
+      const Row load =
+          -drive_torque(machine, scene, *at, rigid_torque(machine, *at, bent, row), bent, row);
       prediction.dynamic_load.row(row) = load.transpose();
       prediction.channel[joint_deflection].row(row) =
           (q + joint_windup<double, 6>(machine.robot.elastic, load)).transpose() - scene.q.row(row);
@@ -142,6 +149,38 @@ void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Sim
 }
 
 }  // namespace
+
+RigidTorque::RigidTorque(const Machine& machine, const Scene& scene)
+    : robot_(machine.robot),
+      encoder_offset_(machine.encoder_offset),
+      lag_(machine.lag),
+      torque_(Eigen::MatrixXd::Zero(scene.rows(), 6)) {
+  Simulation at;
+  move(machine, scene, &at);
+  for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+    torque_.row(row) = rigid_torque(machine, at, row_of(at.q, row), row).transpose();
+  }
+}
+
+bool RigidTorque::holds_for(const Machine& machine) const {
+  const RobotModel<double, 6>& own = robot_.elastic;
+  const RobotModel<double, 6>& other = machine.robot.elastic;
+  const auto is_same = [](const Pose<double>& a, const Pose<double>& b) {
+    return a.position == b.position && a.rotation == b.rotation;
+  };
+  for (std::size_t i = 0; i < own.joints.size(); ++i) {
+    const Joint<double>& a = own.joints[i];
+    const Joint<double>& b = other.joints[i];
+    if (!is_same(a.origin, b.origin) || a.axis != b.axis || a.mass != b.mass ||
+        a.center_of_mass != b.center_of_mass ||
+        robot_.link_inertia[i] != machine.robot.link_inertia[i]) {
+      return false;
+    }
+  }
+  return is_same(own.tool, other.tool) && own.gravity == other.gravity &&
+         own.payload_mass == other.payload_mass && own.payload_center == other.payload_center &&
+         encoder_offset_ == machine.encoder_offset && lag_ == machine.lag;
+}
 
 Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wanted) {
   Simulation at;

@@ -50,10 +50,27 @@ struct Machine {
   std::vector<Term> terms;
 };
 
+/// Torques (n×6, N·m) of inertia and weight in a scene, with straight springs: what of a simulation
+/// costs most, and stays while geometry, masses and motion do.
+class RigidTorque {
+ public:
+  RigidTorque(const Machine& machine, const Scene& scene);
+
+  bool holds_for(const Machine& machine) const;
+  JointVector<double, 6> at(Eigen::Index row) const { return torque_.row(row).transpose(); }
+
+ private:
+  model::Robot robot_;
+  JointVector<double, 6> encoder_offset_;
+  JointVector<double, 6> lag_;
+  Eigen::MatrixXd torque_;
+};
+
 /// Which channels to simulate; levers and springs are kept only with `levers`.
 struct Wanted {
   std::array<bool, 3> channel = {true, true, true};
   bool levers = true;
+  const RigidTorque* rigid = nullptr;  ///< of the same scene; used where it holds for the machine
 };
 
 /// Simulates a scene without the machine's terms. TCP position: forward kinematics and the elastic

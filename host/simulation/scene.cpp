@@ -54,6 +54,17 @@ void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
   }
 }
 
+/// At creeping speed friction depends on what went before, not on the speed: contacts wind up and
+/// break away (Armstrong-Helouvry, Dupont and Canudas de Wit 1994, presliding).
+void mark_creeping(Scene* scene) {
+  constexpr double kCreeping = 0.02;  // of the largest speed
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    const auto speed = scene->velocity.col(joint).array().abs();
+    const double limit = kCreeping * speed.maxCoeff();
+    scene->stands.col(joint) = (speed < limit).select(1, scene->stands.col(joint).array());
+  }
+}
+
 struct Window {
   Eigen::Index first, row, last;
 };
@@ -252,6 +263,7 @@ Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
       scene.acceleration_noise = motion.gain[1] * angle_noise;
     }
   }
+  mark_creeping(&scene);
   scene.wrench = scene.has_wrench ? picked(*recording.wrench, rows) : Eigen::MatrixXd::Zero(n, 6);
   if (recording.temperature) {
     scene.temperature = filled(picked(*recording.temperature, rows));

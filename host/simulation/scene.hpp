@@ -25,8 +25,8 @@ struct Scene {
   Eigen::MatrixXd velocity;      ///< n×6, rad/s; zero in a static test
   Eigen::MatrixXd acceleration;  ///< n×6, rad/s²
   Eigen::MatrixXd wrench;        ///< n×6, zero where none was recorded
-  /// n×6, 1 where a joint stands, starts or stops: friction may hold any torque up to break-away
-  /// there, so that its torque tells nothing.
+  /// n×6, 1 where a joint stands, starts, stops or creeps: friction may hold any torque up to
+  /// break-away there, so that its torque tells nothing of the speed.
   Eigen::MatrixXi stands;
   /// Standard deviations that the encoders' noise leaves in velocity (rad/s) and acceleration
   /// (rad/s²) of each joint.

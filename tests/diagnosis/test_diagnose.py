@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import subprocess
 import tempfile
 import unittest
@@ -14,6 +15,7 @@ PROGRAM = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "flexcomp"
 ROBOT = pathlib.Path(os.environ["FLEXCOMP_SOURCE"]) / "host/robots/kr270/robot.yaml"
 JOINTS = range(1, 7)
 NOISE = 1e-5  # m
+PERIOD = 0.01  # s
 
 
 def run(*arguments):
@@ -60,6 +62,25 @@ def rows(file):
         return list(csv.DictReader(stream))
 
 
+def swing(t):
+    """Angles (rad) of six joints that swing about a posture, each at its own pace."""
+    middle = (0.1, -1.2, 1.4, 0.2, 0.5, 0.1)
+    return [q + 0.25 * math.sin(2 * math.pi * (0.15 + 0.04 * k) * t + k) for k, q in enumerate(middle)]
+
+
+def replace_columns(recording, names, change):
+    """Passes the cells of the columns, row by row, through `change`."""
+    header, *lines = recording.read_text().splitlines()
+    at = [header.split(",").index(name) for name in names]
+    changed = [header]
+    for line in lines:
+        cells = line.split(",")
+        for place, value in zip(at, change(*(float(cells[k]) for k in at))):
+            cells[place] = repr(value)
+        changed.append(",".join(cells))
+    recording.write_text("\n".join(changed) + "\n")
+
+
 class Diagnose(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -79,6 +100,31 @@ class Diagnose(unittest.TestCase):
         done = run("diagnose", "--model", ROBOT, "--recording", recording, "--out", self.out)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads((self.out / "diagnosis.json").read_text())
+
+    def only_finding(self, recording, effect, joint):
+        found = self.diagnosis(recording)
+        self.assertEqual([(f["effect"], f["joint"]) for f in found["findings"]], [(effect, joint)],
+                         found["unexplained"])
+        return found["findings"][0]
+
+    def torques(self, joint, friction):
+        """A recording of the joints swinging, with torques by the model, friction, and noise."""
+        times = [i * PERIOD for i in range(2500)]
+        columns = [f"q_meas_{k}" for k in JOINTS] + [f"tau_{k}" for k in JOINTS]
+        recording = self.folder / "recording.csv"
+        recording.write_text("\n".join(
+            [",".join(["t", *columns])]
+            + [",".join(map(repr, [t, *swing(t), *[0.0] * 6])) for t in times]) + "\n")
+        simulated = self.folder / "simulated.csv"
+        made = run("simulate", "--model", ROBOT, "--recording", recording, "--out", simulated)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        extra = iter(friction([swing(t)[joint - 1] for t in times]))
+        draw = random.Random(7)
+        shown = [[float(row[f"tau_{k}"]) + draw.gauss(0, 2) + (next(extra) if k == joint else 0)
+                  for k in JOINTS] for row in rows(simulated)]
+        torque = iter(shown)
+        replace_columns(recording, columns[6:], lambda *_: next(torque))
+        return recording
 
     def test_a_softer_joint_is_named_measured_and_given_back(self):
         true = self.changed_model("joint_a2: {compliance: 0.29e-6}", "joint_a2: {compliance: 0.40e-6}")
@@ -121,6 +167,79 @@ class Diagnose(unittest.TestCase):
         self.assertEqual(made.returncode, 0, made.stderr)
         filled = [row["x"] != "" for row in rows(simulated)]
         self.assertEqual(filled, [False] + [True] * (len(filled) - 1))
+
+    def test_a_measuring_frame_that_is_not_the_base_frame_is_named(self):
+        recording = measured(self.folder, ROBOT, seed=4)
+        shift, turn = (0.4e-3, -0.3e-3, 0.2e-3), (3e-4, -2e-4, 2.5e-4)  # m, rad
+
+        def moved(x, y, z):
+            a, b, c = turn
+            return (x + shift[0] + b * z - c * y, y + shift[1] + c * x - a * z,
+                    z + shift[2] + a * y - b * x)  # to first order, which is exact to 0.1 µm here
+
+        replace_columns(recording, "xyz", moved)
+        finding = self.only_finding(recording, "base_frame", None)
+        for name, value in zip(("x", "y", "z", "rx", "ry", "rz"), (*shift, *turn)):
+            found = finding["parameters"][name]
+            self.assertAlmostEqual(found["value"], value, delta=4 * found["std"] + 1e-7)
+
+    def test_a_tilted_joint_axis_is_named(self):
+        urdf = (self.folder / "kr270.urdf").read_text()
+        joint = urdf.index('<joint name="joint_a4"')
+        place = urdf.index('rpy="0 0 0"', joint)
+        (self.folder / "kr270.urdf").write_text(urdf[:place] + 'rpy="0 1e-3 0"' + urdf[place + 11:])
+        true = self.folder / "true.yaml"
+        true.write_text(ROBOT.read_text())
+        finding = self.only_finding(measured(self.folder, true, seed=5), "joint_axis", 4)
+        tilt = finding["parameters"]["tilt_y"]
+        self.assertAlmostEqual(tilt["value"], 1e-3, delta=4 * tilt["std"])
+
+    def test_friction_that_builds_up_after_reversals_is_named(self):
+        level, slip, gap, joint = 250.0, 0.02, 0.03, 2  # N·m, rad
+
+        def friction(angles):
+            """A slider on a spring with a gap: the strain of the contact, step by step."""
+            strain, last = 0.0, angles[0]
+            for angle in angles:
+                strain = min(max(strain + angle - last, -gap / 2 - slip), gap / 2 + slip)
+                last = angle
+                yield math.copysign(level * min(max((abs(strain) - gap / 2) / slip, 0), 1), strain)
+
+        finding = self.only_finding(self.torques(joint, friction), "friction_hysteresis", joint)
+        for name, value in (("torque", level), ("slip", slip), ("gap", gap)):
+            self.assertAlmostEqual(finding["parameters"][name]["value"], value, delta=0.03 * value)
+
+    def test_viscous_friction_unlike_in_its_two_directions_is_named(self):
+        joint, forwards, backwards = 3, 900.0, 500.0  # N·m·s/rad
+
+        def friction(angles):
+            speeds = [(b - a) / PERIOD for a, b in zip(angles, angles[1:])]
+            speeds = [speeds[0], *((a + b) / 2 for a, b in zip(speeds, speeds[1:])), speeds[-1]]
+            return [speed * (forwards if speed > 0 else backwards) for speed in speeds]
+
+        finding = self.only_finding(self.torques(joint, friction), "viscous_friction", joint)
+        self.assertAlmostEqual(finding["parameters"]["coefficient"]["value"], 700, delta=10)
+        self.assertAlmostEqual(finding["parameters"]["asymmetry"]["value"], 200, delta=10)
+
+    def test_link_encoders_that_are_late_are_named(self):
+        delay = 3e-3  # s
+        header = ["t", *(f"q_meas_{k}" for k in JOINTS), *(f"q_link_{k}" for k in JOINTS)]
+        draw = random.Random(8)
+        lines = [",".join(header)]
+        for i in range(2500):
+            t = i * PERIOD
+            cells = [t, *swing(t), *(q + draw.gauss(0, 2e-6) for q in swing(t - delay))]
+            lines.append(",".join(map(repr, cells)))
+        recording = self.folder / "recording.csv"
+        recording.write_text("\n".join(lines) + "\n")
+        stiff = self.folder / "stiff.yaml"
+        stiff.write_text(re.sub(r"compliance: \S+e-6", "compliance: 1e-12", ROBOT.read_text()))
+        done = run("diagnose", "--model", stiff, "--recording", recording, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads((self.out / "diagnosis.json").read_text())
+        self.assertEqual([f["effect"] for f in found["findings"]], ["time_offset"])
+        value = found["findings"][0]["parameters"]["delay"]["value"]
+        self.assertAlmostEqual(value, delay, delta=2e-5)
 
     def test_a_robot_like_its_model_is_left_alone(self):
         found = self.diagnosis(measured(self.folder, ROBOT, seed=2))

@@ -124,11 +124,27 @@ void what_is_delayed_is_what_was_before_and_goes_on_at_the_ends() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (0.99 + 0.025), early(99, 0));
 }
 
+void a_motion_is_where_it_was_before() {
+  const VectorXd time = times(201, 0.01);
+  const VectorXd position = (3 * time).array().sin();
+  const VectorXd velocity = 3 * (3 * time).array().cos();
+  for (const double delay : {0.004, 0.01, 0.0337, -0.02}) {
+    const VectorXd moved = history::moved_before(time, position, velocity, delay);
+    for (int row = 10; row < 190; ++row) {
+      const double wanted = std::sin(3 * (time[row] - delay)) - position[row];
+      TEST_ASSERT_DOUBLE_WITHIN(1e-8, wanted, moved[row]);  // Hermite: (3 h)⁴ / 384
+    }
+    const double start = position[0] - delay * velocity[0];
+    TEST_ASSERT_DOUBLE_WITHIN(delay > 0 ? 1e-12 : 1, start - position[0], moved[0]);
+  }
+}
+
 }  // namespace
 
 int main() {
   UNITY_BEGIN();
   RUN_TEST(play_follows_with_half_the_gap_on_either_side);
+  RUN_TEST(a_motion_is_where_it_was_before);
   RUN_TEST(a_flank_changes_over_beyond_the_drag_only);
   RUN_TEST(bouc_wen_rises_to_one_as_an_exponential_and_does_not_depend_on_the_sampling);
   RUN_TEST(a_loop_of_bouc_wen_closes_on_itself);

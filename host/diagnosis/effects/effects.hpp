@@ -9,9 +9,12 @@ namespace flexcomp::diagnosis {
 
 std::vector<Hypothesis> backlash(const Observations& observations);
 std::vector<Hypothesis> base_compliance(const Observations& observations);
+std::vector<Hypothesis> base_frame(const Observations& observations);
 std::vector<Hypothesis> coulomb_friction(const Observations& observations);
+std::vector<Hypothesis> friction_hysteresis(const Observations& observations);
 std::vector<Hypothesis> gravity_compensator(const Observations& observations);
 std::vector<Hypothesis> hysteresis(const Observations& observations);
+std::vector<Hypothesis> joint_axis(const Observations& observations);
 std::vector<Hypothesis> joint_offset(const Observations& observations);
 std::vector<Hypothesis> joint_stiffness(const Observations& observations);
 std::vector<Hypothesis> link_flexibility(const Observations& observations);

@@ -36,10 +36,10 @@ std::vector<Hypothesis> stribeck_friction(const Observations& observations) {
       continue;
     }
     hypothesis.parameters = {{"excess", "N·m", 0, 100 * size, size},
-                             {"speed", "rad/s", 5e-3 * speed, speed, 0.01 * speed}};
+                             {"speed", "rad/s", 5e-3 * speed, 0.4 * speed, 0.01 * speed}};
     hypothesis.linear = 1;
     hypothesis.starts.clear();
-    for (const double share : {0.02, 0.05, 0.1, 0.18, 0.3, 0.5}) {
+    for (const double share : {0.02, 0.05, 0.1, 0.18, 0.3}) {
       hypothesis.starts.push_back({share * speed});
     }
     hypothesis.statement = fmt::format("the friction of joint {} rises at low speed", joint);

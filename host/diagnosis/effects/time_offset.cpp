@@ -16,6 +16,10 @@ simulation::Term late_channel(Channel channel, double delay) {
             Eigen::MatrixXd& values = prediction->channel[channel];
             if (values.cols() > 0 && !scene.is_static) {
               values = simulation::delayed(scene.time, values, delay);
+              if (channel == simulation::joint_deflection) {
+                // Of late link encoders, the whole angle is late, not the wind-up alone.
+                values += simulation::moved_before(scene.time, scene.q, scene.velocity, delay);
+              }
             }
           }};
 }

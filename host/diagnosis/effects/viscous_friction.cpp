@@ -2,7 +2,8 @@
 
 namespace flexcomp::diagnosis {
 
-// Friction in proportion to speed (Armstrong-Helouvry, Dupont and Canudas de Wit 1994). Needs
+// Friction in proportion to speed, the same both ways or with an asymmetry between them:
+// coefficient · v + asymmetry · |v| (Armstrong-Helouvry, Dupont and Canudas de Wit 1994). Needs
 // torques, and several speeds.
 std::vector<Hypothesis> viscous_friction(const Observations& observations) {
   std::vector<Hypothesis> all;
@@ -16,14 +17,29 @@ std::vector<Hypothesis> viscous_friction(const Observations& observations) {
     const auto index = static_cast<std::size_t>(joint - 1);
     const double size = std::max(0.02 * observations.largest_torque(joint), 0.01) /
                         std::max(observations.largest_speed(joint), 1e-3);
-    hypothesis.parameters = {{"coefficient", "N·m·s/rad",
-                              -observations.machine.robot.dynamics[index].viscous, 100 * size,
-                              size}};
+    const double known = observations.machine.robot.dynamics[index].viscous;
+    hypothesis.parameters = {{"coefficient", "N·m·s/rad", -known, 100 * size, size}};
     hypothesis.linear = 1;
     hypothesis.alters_model = true;
     hypothesis.statement = fmt::format("joint {} has another viscous friction", joint);
     hypothesis.apply = [index](const Values& values, Machine* machine) {
       machine->robot.dynamics[index].viscous += values[0];
+    };
+    all.push_back(hypothesis);
+
+    hypothesis.form = "by_direction";
+    hypothesis.parameters.push_back({"asymmetry", "N·m·s/rad", -100 * size, 100 * size, size});
+    hypothesis.linear = 2;
+    hypothesis.alters_model = false;
+    hypothesis.statement =
+        fmt::format("joint {} has another viscous friction, unlike in its two directions", joint);
+    hypothesis.apply = [joint](const Values& values, Machine* machine) {
+      machine->terms.push_back(
+          {simulation::Term::output,
+           [=](const Scene&, const Simulation& at, Prediction* prediction) {
+             const Eigen::VectorXd speed = at.velocity.col(joint - 1);
+             add_torque(joint, values[0] * speed + values[1] * speed.cwiseAbs(), prediction);
+           }});
     };
     all.push_back(hypothesis);
   }
