@@ -9,7 +9,7 @@ const std::vector<Effect>& registry() {
       {"base_frame", base_frame, {}},
       {"coulomb_friction", coulomb_friction, {}},
       {"friction_hysteresis", friction_hysteresis, {"play", "slider", "dahl"}},
-      {"gravity_compensator", gravity_compensator, {}},
+      {"gravity_compensator", gravity_compensator, {"", "sine"}},
       {"hysteresis", hysteresis, {"bouc_wen", "prandtl_ishlinskii"}},
       {"joint_axis", joint_axis, {}},
       {"joint_offset", joint_offset, {}},

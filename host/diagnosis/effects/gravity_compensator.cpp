@@ -28,12 +28,35 @@ simulation::Term balancer(int joint, const Values& values) {
           }};
 }
 
+/// Torque -(sine sin q + cosine cos q), linear in both.
+Hypothesis sine_balancer(int joint) {
+  Hypothesis hypothesis;
+  hypothesis.effect = "gravity_compensator";
+  hypothesis.joint = joint;
+  hypothesis.form = "sine";
+  hypothesis.parameters = {{"sine_torque", "N·m", -1e6, 1e6, 100},
+                           {"cosine_torque", "N·m", -1e6, 1e6, 100}};
+  hypothesis.linear = 2;
+  hypothesis.statement = fmt::format("a balancer acts on joint {}", joint);
+  hypothesis.alters_model = true;
+  hypothesis.apply = [joint](const Values& values, Machine* machine) {
+    machine->balancers.emplace_back([joint, values](const JointVector<double, 6>& q) {
+      JointVector<double, 6> torque = JointVector<double, 6>::Zero();
+      const double angle = q[joint - 1];
+      torque[joint - 1] = -values[0] * std::sin(angle) - values[1] * std::cos(angle);
+      return torque;
+    });
+  };
+  return hypothesis;
+}
+
 }  // namespace
 
 // A coil spring or gas balancer between two links, missing from the model: anchored at distances a
 // and b from the joint's axis, l apart, it pulls with F0 + k (l - l0); its torque is -sin(lean) (K
 // + P / l'), with l' = sqrt(1 + r^2 - 2 r cos(lean)), lean the angle from where it does nothing, r
-// = b/a. Needs gravity in the model.
+// = b/a. The form `sine` is P = 0, a spring that pulls in proportion to its whole length: all that
+// small ranges of the angle can tell. Needs gravity in the model.
 std::vector<Hypothesis> gravity_compensator(const Observations& observations) {
   std::vector<Hypothesis> all;
   if (!observations.has_weight()) {
@@ -65,6 +88,7 @@ std::vector<Hypothesis> gravity_compensator(const Observations& observations) {
     };
     hypothesis.sketch = [joint](const Values& values) { return balancer(joint, values); };
     all.push_back(hypothesis);
+    all.push_back(sine_balancer(joint));
   }
   return all;
 }

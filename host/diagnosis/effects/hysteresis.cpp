@@ -19,7 +19,7 @@ std::vector<Hypothesis> hysteresis(const Observations& observations) {
       continue;
     }
     hypothesis.parameters = {{"amplitude", "rad", 0, 0.05, 1e-4},
-                             {"yield_torque", "N·m", 0.01 * load, 3 * load, 0.02 * load}};
+                             {"yield_torque", "N·m", 0.01 * load, load, 0.02 * load}};
     hypothesis.linear = 1;
     hypothesis.starts.clear();
     for (const double share : {0.05, 0.1, 0.18, 0.3, 0.5, 0.9}) {
