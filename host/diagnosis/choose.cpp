@@ -257,7 +257,9 @@ class Chooser {
       }
       const bool better = replaced.train_sum < current->train_sum &&
                           criterion(replaced) < criterion(*current) - kStrong;
-      if (better && holds(weigh_last(others, replaced))) {
+      const bool simpler = replaced.parameters() < current->parameters() &&
+                           criterion(replaced) < criterion(*current);
+      if ((better || simpler) && holds(weigh_last(others, replaced))) {
         *current = replaced;
         return true;
       }
@@ -310,6 +312,26 @@ class Chooser {
                 last.chosen.begin() + static_cast<std::ptrdiff_t>(index) + 1, last.chosen.end());
     finding.evidence = weigh_last(finding.without, last);
     return finding;
+  }
+
+  /// Finds the alternatives; puts one of fewer parameters in the place of a finding whose evidence
+  /// it surpasses, and is true then: the richer one was taken for what others account for by now.
+  bool simplify(Choice* choice) const {
+    for (std::size_t i = 0; i < choice->findings.size(); ++i) {
+      find_alternatives(choice->fit, i, &choice->findings[i]);
+    }
+    for (std::size_t i = 0; i < choice->findings.size(); ++i) {
+      std::vector<Chosen> chosen = choice->fit.chosen;
+      for (const Alternative& other : choice->findings[i].alternatives) {
+        if (other.delta_bic <= 0 && other.chosen.values.size() < chosen[i].values.size()) {
+          chosen[i] = other.chosen;
+          choice->fit = fit(*observations_, std::move(chosen), kLastSteps);
+          prune(choice);
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// Others that would do nearly as well in the place of a finding.
@@ -391,8 +413,7 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
   choice.fit = fit(*observations, choice.fit.chosen, kLastSteps);
   chooser.prune(&choice);
   chooser.withdraw_unproved(&choice);
-  for (std::size_t i = 0; i < choice.findings.size(); ++i) {
-    chooser.find_alternatives(choice.fit, i, &choice.findings[i]);
+  while (chooser.simplify(&choice)) {  // each time a parameter less, at least
   }
   strongest_first(&choice);
   // In the order that the covariance and the derivative have from here on.
