@@ -89,6 +89,12 @@ std::vector<Experiment> experiments(const Observations& observations) {
     if (observations.has(simulation::joint_deflection)) {
       recording.q_link = nothing(6);
     }
+    // A drift by temperature can be simulated only where there is one; it stays as it is.
+    const Eigen::VectorXd& temperature = observations.scenes.front().temperature;
+    if (temperature.size() > 0) {
+      recording.temperature =
+          recording::Samples(recording::Samples::Constant(recording.size(), 1, temperature.mean()));
+    }
   }
   return all;
 }
