@@ -97,7 +97,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   if (found.chosen.empty()) {
     diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
     diagnosis->reason = is_noise ? "" : reason_of_nothing(diagnosis->choice);
-  } else if (found.chosen.size() > 2 && diagnosis->cancellation > kMostCancellation) {
+  } else if (found.chosen.size() > 1 && diagnosis->cancellation > kMostCancellation) {
     withdraw(observations,
              "only a sum of large effects that cancel each other comes near, which imitates what "
              "is not there",

@@ -1,5 +1,6 @@
 #include "diagnosis/observations.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -242,6 +243,28 @@ double Observations::range(int joint) const {
     most = std::max(most, q.maxCoeff() - q.minCoeff());
   }
   return most;
+}
+
+bool Observations::spans_workspace() const {
+  constexpr double kApart = 0.15;  // m, standard deviation
+  Eigen::Index count = 0;
+  Vector3<double> sum = Vector3<double>::Zero();
+  Matrix3<double> square = Matrix3<double>::Zero();
+  for (const Prediction& prediction : predictions) {
+    const Eigen::MatrixXd& position = prediction.channel[tcp_position];
+    if (position.cols() == 3) {
+      count += position.rows();
+      sum += position.colwise().sum().transpose();
+      square += position.transpose() * position;
+    }
+  }
+  if (count == 0) {
+    return false;
+  }
+  const Vector3<double> mean = sum / static_cast<double>(count);
+  const Matrix3<double> spread = square / static_cast<double>(count) - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(spread, Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()[1] > kApart * kApart;  // in rising order
 }
 
 Eigen::VectorXd Observations::stacked(const std::vector<Prediction>& values) const {

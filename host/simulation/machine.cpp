@@ -101,7 +101,7 @@ Row rigid_torque(const Machine& machine, const Simulation& at, const Row& q, Eig
 /// weight, at link angles `q`.
 Row drive_torque(const Machine& machine, const Scene& scene, const Simulation& at, const Row& rigid,
                  const Row& q, Eigen::Index row) {
-  const Row held = rigid - balance(machine, q);
+  Row held = rigid - balance(machine, q);
   if (!scene.has_wrench) {
     return held;
   }

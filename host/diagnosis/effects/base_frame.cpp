@@ -37,6 +37,9 @@ std::vector<Hypothesis> base_frame(const Observations& observations) {
                            {"z", "m", -0.1, 0.1, 1e-4},    {"rx", "rad", -0.1, 0.1, 1e-4},
                            {"ry", "rad", -0.1, 0.1, 1e-4}, {"rz", "rad", -0.1, 0.1, 1e-4}};
   hypothesis.linear = 6;
+  if (!observations.spans_workspace()) {
+    hypothesis.starts.clear();  // known of the machine it may be, but not found here
+  }
   hypothesis.statement = "the frame of the TCP measurement is not the robot's base frame";
   hypothesis.apply = [](const Values& values, Machine* machine) {
     machine->terms.push_back(

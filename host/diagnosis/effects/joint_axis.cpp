@@ -38,6 +38,9 @@ std::vector<Hypothesis> joint_axis(const Observations& observations) {
           {kNames[static_cast<std::size_t>(axis)], "rad", -0.1, 0.1, 1e-4});
     }
     hypothesis.linear = 2;
+    if (!observations.spans_workspace()) {
+      hypothesis.starts.clear();  // known of the machine it may be, but not found here
+    }
     hypothesis.alters_model = true;
     hypothesis.statement = fmt::format("the axis of joint {} is tilted", joint);
     hypothesis.apply = [index, axes](const Values& values, Machine* machine) {
