@@ -1,0 +1,3 @@
+"""Franka Emika Panda."""
+
+from . import goals, pictures, reader  # noqa: F401

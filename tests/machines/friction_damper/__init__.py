@@ -1,0 +1,3 @@
+"""Rotary friction damper."""
+
+from . import goals, pictures, reader  # noqa: F401

@@ -1,0 +1,3 @@
+"""Hilti JaiBot."""
+
+from . import goals, pictures, reader  # noqa: F401

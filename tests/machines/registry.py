@@ -1,0 +1,6 @@
+"""The machines, by the names of their folders."""
+
+from . import emps, franka_panda, friction_damper, hilti_jaibot, kuka_kr300, ur5
+
+MACHINES = {module.__name__.rpartition(".")[2]: module
+            for module in (kuka_kr300, franka_panda, emps, friction_damper, ur5, hilti_jaibot)}

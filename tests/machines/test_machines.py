@@ -1,0 +1,395 @@
+"""Readers of published recordings against closed forms, and the command around them."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import yaml
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "diagnosis")]
+
+from generator import dynamics, kinematics, robot as robots  # noqa: E402
+from machines import geometry, robot_files, single_axis, study, synthetic, tables  # noqa: E402
+from machines.franka_panda import reader as panda  # noqa: E402
+from machines.hilti_jaibot import reader as jaibot, tilt  # noqa: E402
+from machines.kuka_kr300 import counterbalance, link_encoders, reader as kr300  # noqa: E402
+from machines.registry import MACHINES  # noqa: E402
+
+DATA = os.environ.get("FLEXCOMP_MACHINE_DATA")
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def written(self, name):
+        """Experiments from made-up files, and what the maker of these returns."""
+        reader = MACHINES[name].reader
+        data = self.folder / "data" / reader.FOLDER
+        truth = getattr(synthetic, name)(data)
+        for file in reader.FILES:
+            self.assertTrue((data / file).is_file(), file)
+        return reader.write(data, self.folder / name), truth
+
+
+def tcp(model, angles):
+    """(n, 3) m by the generator's own reading of a written robot."""
+    return kinematics.posture(robots.load(model), np.asarray(angles)).tcp
+
+
+def group(recording, name):
+    return np.column_stack([recording[column] for column in tables.COLUMNS[name]])
+
+
+class Geometry(unittest.TestCase):
+    def test_angles_come_back_upright_too(self):
+        for rpy in ((0.3, -0.7, 2.0), (3.1, 0.1, -3.0), (0.4, np.pi / 2, 0.0),
+                    (0.4, -np.pi / 2, 0.9)):
+            rotation = geometry.rotation_of(rpy)
+            np.testing.assert_allclose(geometry.rotation_of(geometry.rpy_of(rotation)), rotation,
+                                       atol=1e-12)
+
+
+class Readers(Scratch):
+    def test_kr300_has_the_published_kinematics(self):
+        (torques, _), _ = self.written("kuka_kr300")
+        links = ((0.35, -0.675, 90), (1.15, -0.189, 0), (0.041, 0.189, -90), (0, -1.0, 90),
+                 (0, 0, -90), (0, -0.24, 180))
+        zeros = (0, -90, 180, 0, 0, 0)
+        angles = np.array([0.3, -0.2, 0.4, 1.0, -0.7, 2.0])
+        matrix = np.diag([1.0, -1.0, -1.0, 1.0])  # upside down
+        for angle, zero, (length, offset, twist) in zip(angles, zeros, links):
+            matrix = matrix @ synthetic.dh(angle + np.radians(zero), length, offset,
+                                           np.radians(twist))
+        np.testing.assert_allclose(tcp(torques.model, [angles])[0], matrix[:3, 3], atol=1e-9)
+
+    def test_kr300_carries_its_cad_masses(self):
+        """First moment of all masses about the base, and inertia about axis 1, from the CAD's
+        numbers in the frames at the links' ends."""
+        (torques, _), _ = self.written("kuka_kr300")
+        robot, angles = robots.load(torques.model), np.array([0.3, -0.2, 0.4, 1.0, -0.7, 2.0])
+        place = kinematics.posture(robot, angles[None])
+        found = sum(body.mass * (place.origin[k, 0] + place.rotation[k, 0] @ body.com)
+                    for k, bodies in enumerate(robot.bodies) for body in bodies)
+        matrix, moment, inertia = np.diag([1.0, -1.0, -1.0, 1.0]), np.zeros(3), 0.0
+        for k, (length, offset, twist) in enumerate(kr300.LINKS):
+            matrix = matrix @ synthetic.dh(angles[k] + kr300.ANGLE_AT_ZERO[k], length, offset,
+                                           twist)
+            body = kr300.BODIES[k]
+            center = (matrix @ [*body.center, 1])[:3]
+            moment += body.mass * center
+            inertia += (body.mass * (center[0] ** 2 + center[1] ** 2)
+                        + (matrix[:3, :3] @ body.inertia @ matrix[:3, :3].T)[2, 2])
+        payload = (matrix @ [0, 0, 0.1, 1])[:3]
+        np.testing.assert_allclose(found, moment + 151 * payload, atol=1e-6)
+        inertia += 151 * (payload[0] ** 2 + payload[1] ** 2)
+        still, start = np.zeros((1, 6)), np.eye(6)[:1]
+        torque = dynamics.inverse_dynamics(robot, angles[None], still, start)
+        self.assertAlmostEqual(inertia, torque[0, 0], 6)
+        self.assertAlmostEqual(0.00923 * (1798 / 7) ** 2, robot.rotor[0], 6)
+
+    def test_kr300_reflects_torques_to_the_joints(self):
+        (torques, encoders), angles = self.written("kuka_kr300")
+        recording = tables.read_recording(torques.holdout)
+        np.testing.assert_allclose(group(recording, "q_meas"), angles, atol=1e-9)
+        np.testing.assert_allclose(recording["tau_2"], 2 * 1872 / 7)
+        np.testing.assert_allclose(recording["tau_6"], 6 * 206793 / 1340)
+        self.assertNotIn("q_link_1", recording)
+        recording = tables.read_recording(encoders.holdout)
+        self.assertTrue(np.isnan(recording["q_link_4"]).all())
+        _, motor, link, _ = kr300.read(self.folder / "data" / "kuka_kr300" / "kr300_A.csv")
+        self.assertAlmostEqual(1e-3, link[0, 2] - motor[0, 2], 9)
+        self.assertAlmostEqual(0.0, recording["q_link_3"][0] - recording["q_meas_3"][0], 9)
+        self.assertNotIn("tau_1", recording)
+
+    def test_a_late_link_encoder_is_told_by_regression(self):
+        (_, encoders), _ = self.written("kuka_kr300")
+        found = link_encoders.regress([*encoders.recordings, encoders.holdout], 2)
+        self.assertAlmostEqual(0.003, found.delay, 4)
+        self.assertGreater(found.explained, 0.99)
+        np.testing.assert_allclose(found.zeros, 0, atol=2e-5)
+
+    def test_the_counterbalance_does_the_work_of_its_gas(self):
+        """Torque is the change by angle of the ideal gas's energy -C ln(volume)."""
+        def energy(angle):
+            length = np.sqrt(0.8**2 + 0.2**2 - 2 * 0.8 * 0.2 * np.cos(angle + np.radians(5)))
+            area = np.pi / 4 * (0.055**2 - 0.030**2)
+            return -1.01 * 296.8 * 328 * 0.159 * np.log(0.00096 - (length - 0.6) * area)
+
+        angles, step = np.linspace(-0.5, 0.5, 11), 1e-5
+        slope = (energy(angles + step) - energy(angles - step)) / (2 * step)
+        np.testing.assert_allclose(counterbalance.published_torque(angles), slope, rtol=1e-6)
+
+    def test_of_what_was_learnt_only_the_counterbalance_is_kept(self):
+        (torques, encoders), _ = self.written("kuka_kr300")
+        updated = self.folder / "updated_model.yaml"
+        balancer = {"effect": "gravity_compensator", "joint": 2, "stiffness_torque": 7000.0}
+        updated.write_text(torques.model.read_text() + "effects: " + json.dumps(
+            [{"effect": "coulomb_friction", "joint": 2, "torque": 400.0}, balancer]))
+        asked = []
+
+        class Stub:
+            def simulate(self, model, recording, out):
+                asked.append(yaml.safe_load(model.read_text())["effects"])
+                return {"tau_2": np.full(9, 100.0)}
+
+        outcome = study.Outcome(torques, None, updated, {}, {"tau_2": np.full(9, 300.0)}, {})
+        trial = study.Trial({"torques": outcome}, Stub(), self.folder)
+        np.testing.assert_allclose(counterbalance.found_torque(trial, self.folder), -200.0)
+        self.assertEqual([[balancer]], asked)
+
+    def test_panda_has_the_published_kinematics_with_joint_7_held(self):
+        (experiment,), (_, angles) = self.written("franka_panda")
+        links = ((0, 0.333, 0), (0, 0, -90), (0, 0.316, 90), (0.0825, 0, 90), (-0.0825, 0.384, -90),
+                 (0, 0, 90), (0.088, 0, 90))
+        pose = np.array([0.3, -0.2, 0.4, -1.0, 0.7, 2.0, angles[:, 6].mean()])
+        matrix = np.eye(4)
+        for angle, (length, offset, twist) in zip(pose, links):
+            matrix = matrix @ synthetic.modified_dh(angle, length, offset, np.radians(twist))
+        np.testing.assert_allclose(tcp(experiment.model, [pose[:6]])[0],
+                                   (matrix @ [0, 0, 0.107, 1])[:3], atol=1e-9)
+
+    def test_panda_counts_the_controllers_time(self):
+        (experiment,), (time, angles) = self.written("franka_panda")
+        parts = [tables.read_recording(path)
+                 for path in (*experiment.recordings, experiment.holdout)]
+        for name, expected in (("t", time), ("q_meas_2", angles[:, 1])):
+            found = np.concatenate([part[name] for part in parts])
+            np.testing.assert_allclose(found, expected, atol=1e-9)
+        self.assertLess(parts[0]["t"][-1], parts[1]["t"][0])
+        self.assertEqual({5.0}, set(parts[1]["tau_5"]))
+
+    def test_emps_passes_what_is_slow_and_stops_what_hums(self):
+        (experiment,), _ = self.written("emps")
+        for path in (*experiment.recordings, experiment.holdout):
+            recording = tables.read_recording(path)
+            slow = np.sin(2 * np.pi * 0.8 * recording["t"])
+            np.testing.assert_allclose(recording["q_meas_1"], 0.1 * slow, atol=1e-4)
+            np.testing.assert_allclose(recording["tau_1"], 2 * 35.1507 * slow, atol=0.1)
+            self.assertTrue(np.isnan(recording["tau_2"]).all())
+
+    def test_a_carriage_resists_with_its_mass(self):
+        model = robot_files.write_robot(self.folder, single_axis.chain("carriage", 95.0))
+        robot = robots.load(model)
+        only_first = np.eye(6)[:1]
+        torque = dynamics.inverse_dynamics(robot, 0.2 * only_first, only_first, 3 * only_first)
+        np.testing.assert_allclose(torque[0, 0], 95 * 3)
+
+    def test_the_damper_comes_in_newtons_and_metres(self):
+        (experiment,), _ = self.written("friction_damper")
+        recording = tables.read_recording(experiment.holdout)
+        self.assertAlmostEqual(0.0254, recording["q_meas_1"].max(), 6)
+        self.assertAlmostEqual(3000 * 4.4482216, recording["tau_1"].max(), 3)
+        self.assertEqual(3, len(experiment.recordings))
+
+    def test_ur5_targets_are_what_its_model_says(self):
+        (experiment,), grid = self.written("ur5")
+        training, held_out = (tables.read_recording(path)
+                              for path in (*experiment.recordings, experiment.holdout))
+        for recording in (training, held_out):
+            error = group(recording, "xyz") - tcp(experiment.model, group(recording, "q_cmd"))
+            expected = np.tile([1e-3, 2e-3, -3e-3], (len(error), 1))
+            np.testing.assert_allclose(error, expected, atol=1e-9)
+        self.assertEqual((170, 50 + 20), (len(training["t"]), len(held_out["t"])))
+        np.testing.assert_allclose(np.degrees(held_out["q_cmd_3"][:50]), grid[150:200, 2],
+                                   atol=1e-9)
+
+    def test_jaibot_is_brought_from_the_stations_frame_to_its_own(self):
+        experiments, arm = self.written("hilti_jaibot")
+        self.assertEqual(["flat", "pallet"], [experiment.name for experiment in experiments])
+        for experiment in experiments:
+            held_out = tables.read_recording(experiment.holdout)
+            np.testing.assert_allclose(group(held_out, "q_cmd"), arm[1::4], atol=1e-9)
+            expected = [synthetic.jaibot_frames(angles)[-1][:3, 3] for angles in arm[1::4]]
+            np.testing.assert_allclose(group(held_out, "xyz"), expected, atol=1e-9)
+            np.testing.assert_allclose(tcp(experiment.model, arm[1::4]), expected, atol=1e-9)
+
+    def test_jaibots_sensors_tell_the_springs(self):
+        self.written("hilti_jaibot")
+        found = tilt.springs(self.folder / "data" / jaibot.FOLDER, "flat")
+        np.testing.assert_allclose(found["top of the column"], 2e-5, rtol=1e-6)
+        np.testing.assert_allclose(found["base"], 2e-6, rtol=1e-6)
+
+
+class Figures(unittest.TestCase):
+    def test_errors_are_measured_where_both_are_known(self):
+        errors, signal = np.array([[3.0], [np.nan], [4.0]]), np.array([[30.0], [1000.0], [40.0]])
+        self.assertAlmostEqual(0.1, study.relative(errors, signal))
+
+    def test_an_answer_against_the_contract_is_refused(self):
+        for text in ("no JSON", "{}",
+                     '{"verdict": "explained", "findings": [{}], "unexplained": null}'):
+            with self.assertRaises(study.NoAnswer):
+                study.parse(text)
+
+
+class Command(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.tool = self.folder / "flexcomp"
+        self.tool.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{HERE / "fake_tool.py"}" "$@"\n')
+        self.tool.chmod(0o755)
+        self.data = self.folder / "data"
+        self.data.mkdir()
+
+    def run_command(self, *words, answer="silent", findings=(), data=True):
+        environment = {name: value for name, value in os.environ.items()
+                       if name != "FLEXCOMP_MACHINE_DATA"}
+        environment |= {"PYTHONPATH": str(HERE.parent), "FAKE_ANSWER": answer,
+                        "FAKE_FINDINGS": json.dumps(findings)}
+        words = [*words, "--tool", self.tool, "--out", self.folder / "out"]
+        words += ["--data", self.data] if data else []
+        return subprocess.run([sys.executable, "-m", "machines", *map(str, words)],
+                              capture_output=True, text=True, env=environment)
+
+    def make(self, *names):
+        for name in names:
+            getattr(synthetic, name)(self.data / MACHINES[name].reader.FOLDER)
+
+    def assert_refused(self, done, saying):
+        self.assertEqual(2, done.returncode, done.stderr)
+        self.assertIn(saying, done.stderr.splitlines()[-1])
+        self.assertNotIn("Traceback", done.stderr)
+
+    def test_absent_data_are_skipped_saying_so(self):
+        done = self.run_command()
+        self.assertEqual((0, ""), (done.returncode, done.stderr))
+        self.assertEqual(list(MACHINES), [line.split(":")[0] for line in done.stdout.splitlines()])
+        self.assertEqual(len(MACHINES), done.stdout.count("skipped, its data are not there"))
+
+    def test_every_machine_is_read_diagnosed_and_judged(self):
+        self.make(*MACHINES)
+        done = self.run_command()
+        self.assertEqual((1, ""), (done.returncode, done.stderr))
+        for name in MACHINES:
+            self.assertIn(f"{name}: ", done.stdout)
+        self.assertNotIn("holds: ", done.stdout)
+
+    def test_goals_hold_where_the_answer_is_right(self):
+        self.make("friction_damper", "ur5")
+        loop = ("friction_hysteresis", 1, {"torque": 1.5e4, "slip": 2e-3, "gap": 4e-3})
+        done = self.run_command("friction_damper", answer="perfect", findings=[loop])
+        self.assertEqual((0, ""), (done.returncode, done.stderr), done.stdout)
+        self.assertIn("gap 0.004 ± 0.01", done.stdout)
+        sag = ("joint_stiffness", 2, {"compliance": 3e-5})
+        done = self.run_command("ur5", answer="perfect", findings=[("base_frame", None, {}), sag])
+        self.assertEqual(0, done.returncode, done.stdout)
+        done = self.run_command("ur5", answer="perfect", findings=[sag, ("base_frame", None, {})])
+        self.assertEqual(1, done.returncode, done.stdout)
+        self.assertIn("MISSED: geometry is named first", done.stdout)
+
+    def test_a_damaged_file_gives_one_line(self):
+        damages = {
+            "friction_damper": ("0.5Hz36lbtension1amplitude.csv", "\n0.5,", "\n0.5x,",
+                                "is no number"),
+            "emps": ("DATA_EMPS.csv", "vir_V", "voltage", "no column 'vir_V'"),
+            "ur5": ("3D_UR5_uncalibrated_grid_cleaned.csv", "\n7,", "\n7,1,",
+                    "cells under a header"),
+            "kuka_kr300": ("kr300_B.csv", "\n0.008,", "\n0.004,", "does not grow"),
+            "franka_panda": ("panda_exciting_1kHz.csv", "tau_Nm_7", "tau", "no column 'tau_Nm_7'"),
+            "hilti_jaibot": ("trailblazer.urdf", "</robot>", "", "no robot description"),
+        }
+        for name, (file, before, after, saying) in damages.items():
+            with self.subTest(name):
+                self.make(name)
+                path = self.data / MACHINES[name].reader.FOLDER / file
+                path.write_text(path.read_text().replace("\r\n", "\n").replace(before, after, 1))
+                done = self.run_command(name)
+                self.assert_refused(done, saying)
+                self.assertEqual(1, done.stderr.count("\n"), done.stderr)
+                self.assertIn(file, done.stderr)
+
+    def test_damaged_poses_give_one_line(self):
+        self.make("hilti_jaibot")
+        path = self.data / "hilti_jaibot" / "flat.yaml"
+        renamed = path.read_text().replace("prism_position", "prism")
+        for text, saying in ((renamed, "'prism_position'"), ("a: [1, 2\nb: 3\n", "flat.yaml:2"),
+                             ("column_heights: {}", "poses at 3.87 m")):
+            path.write_text(text)
+            done = self.run_command("hilti_jaibot")
+            self.assert_refused(done, saying)
+            self.assertEqual(1, done.stderr.count("\n"), done.stderr)
+
+    def test_a_tool_without_an_answer_reaches_nothing(self):
+        self.make("friction_damper")
+        for answer, saying in (("absent", "an internal fault"), ("broken", "diagnosis.json")):
+            done = self.run_command("friction_damper", answer=answer)
+            self.assertEqual(1, done.returncode)
+            self.assertIn(saying, done.stderr)
+            self.assertEqual(1, done.stderr.count("\n"), done.stderr)
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not there")
+    def test_every_machine_has_pictures(self):
+        self.make(*MACHINES)
+        done = self.run_command("--pictures")
+        self.assertEqual((1, ""), (done.returncode, done.stderr))
+        for name in MACHINES:
+            self.assertTrue(list((self.folder / "out" / name).glob("*.png")), name)
+
+    def test_bad_arguments_are_refused(self):
+        self.assert_refused(self.run_command("kuka"), "'kuka' is no machine")
+        self.assert_refused(self.run_command(data=False), "FLEXCOMP_MACHINE_DATA")
+        self.data.rmdir()
+        self.assert_refused(self.run_command(), "is no folder")
+
+
+@unittest.skipUnless(DATA, "FLEXCOMP_MACHINE_DATA is not set: no real recordings are read")
+class RealFiles(Scratch):
+    """The published files themselves, where they are."""
+
+    def experiments(self, name):
+        reader = MACHINES[name].reader
+        data = pathlib.Path(DATA) / reader.FOLDER
+        if not all((data / file).is_file() for file in reader.FILES):
+            self.skipTest(f"the data of {name} are not there")
+        return reader.write(data, self.folder / name)
+
+    def test_kr300_moves_for_ten_seconds(self):
+        torques, encoders = self.experiments("kuka_kr300")
+        recording = tables.read_recording(torques.holdout)
+        self.assertEqual((2501, 10.0), (len(recording["t"]), recording["t"][-1]))
+        delay = link_encoders.regress(encoders.recordings, 2).delay
+        self.assertAlmostEqual(3.05e-3, delay, delta=1e-4)
+
+    def test_pandas_angles_and_speeds_agree_once_its_time_is_counted(self):
+        self.experiments("franka_panda")
+        data = pathlib.Path(DATA) / panda.FOLDER / panda.RECORDING
+        time, angle, _ = panda.read(data)
+        self.assertAlmostEqual(20.5, time[-1], delta=1.0)
+        jumps = np.abs(np.diff(angle, axis=0) / np.diff(time)[:, None]).max(axis=0)
+        self.assertLess(jumps.max(), 2.7)  # rad/s: the fastest joint's limit is 2.61
+
+    def test_emps_has_the_forces_of_its_benchmark(self):
+        (experiment,) = self.experiments("emps")
+        for path, force in zip((*experiment.recordings, experiment.holdout), (52.7, 53.3)):
+            found = study.rms(tables.read_recording(path)["tau_1"])
+            self.assertAlmostEqual(force, found, delta=0.1)
+
+    def test_the_damper_moves_as_its_runs_are_named(self):
+        (experiment,) = self.experiments("friction_damper")
+        recording = tables.read_recording(experiment.holdout)
+        self.assertAlmostEqual(1.5 * 0.0254, np.abs(recording["q_meas_1"]).max(), delta=1e-3)
+
+    def test_ur5_targets_are_in_the_models_base_frame(self):
+        (experiment,) = self.experiments("ur5")
+        recording = tables.read_recording(experiment.holdout)
+        errors = group(recording, "xyz") - tcp(experiment.model, group(recording, "q_cmd"))
+        self.assertAlmostEqual(2.6e-3, study.mean_norm(errors), delta=1e-4)
+
+    def test_jaibots_column_gives_and_its_base_hardly(self):
+        self.experiments("hilti_jaibot")
+        found = tilt.springs(pathlib.Path(DATA) / jaibot.FOLDER, "flat")
+        self.assertTrue(np.all(found["top of the column"] > 15 * found["base"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
