@@ -311,7 +311,8 @@ class Campaign(unittest.TestCase):
         other = scratch_folder(self)
         (other / "thesis.tex").write_text("years of work")
         for words in (["--cases", "3"], ["--seed", "-1"], ["--seed", "1", "--tool", "/nowhere"],
-                      ["--seed", "1", "--cases", "0"],
+                      ["--seed", "1", "--tool", "/bin/true", "--cases", "0"],
+                      ["--seed", "1", "--tool", "/bin/true", "--limit", "nan"],
                       ["--seed", "1", "--tool", "/bin/true", "--out", str(other)]):
             said = io.StringIO()
             with self.assertRaises(SystemExit) as ended, contextlib.redirect_stderr(said):

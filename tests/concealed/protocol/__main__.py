@@ -1,13 +1,9 @@
-"""Proves `flexcomp diagnose` blind: draws a campaign of recordings with concealed physics, seals
-the truth, diagnoses every case in a sandbox, opens the seal, scores, and sets rivals beside it."""
+"""One blind campaign from its seed to its report: `tools/concealed`."""
 
-import argparse
 import concurrent.futures
 import dataclasses
 import hashlib
 import json
-import os
-import pathlib
 import shlex
 import shutil
 import signal
@@ -16,65 +12,14 @@ import time
 
 from scoring import figures
 
-from . import cases, goals, judging, report, sandbox, seal, trial, watch, wording
+from . import arguments, cases, goals, judging, report, sandbox, seal, trial, watch, wording
 
-SOURCE = pathlib.Path(__file__).resolve().parents[3]
-TOLD = "STATE"  # one line: how far the campaign in a folder is
-OURS = (TOLD, "cases", "answers", seal.SEALED, seal.HASH, seal.OPENED, seal.KEY, "report.html",
-        "scores.json")
-EPILOG = """\
-DIR holds afterwards: report.html, scores.json, cases/ (recordings and nominal models), answers/
-(what the tool wrote), seal.sha256 (printed before the first diagnosis), truth.sealed, and, since
-the seal was opened, truth.json and seal.key.
-
-The truth of a campaign follows from its seed: take one that nobody has looked at.
-
-Exit code 0: every goal that could be judged holds; 1: one does not, or the seal was touched, in
-which case nothing is scored; 2: unusable arguments; 130: interrupted.
-"""
+OURS = (arguments.TOLD, "cases", "answers", seal.SEALED, seal.HASH, seal.OPENED, seal.KEY,
+        "report.html", "scores.json")
 
 
 class Void(Exception):
     """The campaign proves nothing; says why."""
-
-
-def _arguments(words):
-    parser = argparse.ArgumentParser(prog="tools/concealed", description=__doc__, epilog=EPILOG,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-
-    def count(text):
-        number = int(text)
-        if number < 0:
-            raise argparse.ArgumentTypeError("is negative")
-        return number
-
-    parser.add_argument("--seed", type=count, required=True, metavar="N", help="draws the campaign")
-    parser.add_argument("--cases", type=count, default=100, metavar="K",
-                        help="how many (default 100)")
-    parser.add_argument("--jobs", type=count, default=os.cpu_count(), metavar="J",
-                        help="cases at a time (default: one a core)")
-    parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
-                        help="default: build/concealed/seed-N; an earlier campaign there is "
-                        "replaced")
-    parser.add_argument("--tool", type=pathlib.Path, default=SOURCE / "build/release/bin/flexcomp",
-                        metavar="FILE", help="what is put to the proof (default: "
-                        "build/release/bin/flexcomp)")
-    parser.add_argument("--limit", type=float, default=300.0, metavar="S",
-                        help="seconds after which a diagnosis counts as failed (default 300)")
-    parser.add_argument("--rival-limit", type=float, default=60.0, metavar="S",
-                        help="the same for each rival (default 60)")
-    parser.add_argument("--no-rivals", action="store_true", help="leave the rivals out")
-    options = parser.parse_args(words)
-    options.tool = options.tool.resolve()
-    options.out = (options.out or SOURCE / f"build/concealed/seed-{options.seed}").resolve()
-    if not os.access(options.tool, os.X_OK) or options.tool.is_dir():
-        parser.error(f"{options.tool} is not there; run tools/build first")
-    if options.jobs < 1 or options.cases < 1:
-        parser.error("--jobs and --cases need at least 1")
-    if options.out.exists() and not (options.out.is_dir() and (
-            (options.out / TOLD).is_file() or not any(options.out.iterdir()))):
-        parser.error(f"{options.out} holds something else than a campaign; name another --out")
-    return options
 
 
 class Progress:
@@ -103,7 +48,7 @@ def _clear(folder):
 
 
 def _tell(folder, words):
-    (folder / TOLD).write_text(words + "\n")
+    (folder / arguments.TOLD).write_text(words + "\n")
 
 
 def _watched(path):
@@ -199,7 +144,7 @@ def _prove(options):
     _tell(options.out, "sealed; diagnoses run")
 
     box = sandbox.Sandbox(trial.needed_to_read(options.tool), [
-        options.out, SOURCE / "tests/diagnosis", trial.PACKAGES / "campaign"])
+        options.out, arguments.SOURCE / "tests/diagnosis", trial.PACKAGES / "campaign"])
     if not box.isolated:
         print(f"No sandbox: {box.why_not}. The truth is protected by its seal and the watch only.")
     watcher, why_not_watched = _watched(sealed.path)
@@ -229,7 +174,7 @@ def _prove(options):
 
 
 def main(words=None):
-    options = _arguments(words)
+    options = arguments.parse(words)
     try:
         return _prove(options)
     except (Void, seal.Altered, cases.Unfit) as error:

@@ -48,7 +48,8 @@ def _write_curves(path, data, curves):
             for begin in range(0, len(usable), bundle):
                 rows = slice(begin, begin + bundle)
                 pieces = [left[channel][rows] for left in curves.values()]
-                errors = [residual.rms(piece, usable[rows] & np.isfinite(piece)) for piece in pieces]
+                errors = [residual.rms(piece, usable[rows] & np.isfinite(piece))
+                          for piece in pieces]
                 if None not in errors:
                     writer.writerow([channel, f"{data.recording.time[begin]:.6g}",
                                      *(f"{error:.5g}" for error in errors)])
