@@ -39,7 +39,7 @@ while [[ $1 != -- ]]; do
 done
 shift
 
-mkdir -p "$root"/{proc,tmp,dev,case,outside}
+mkdir -p "$root"/{proc,tmp,dev/shm,case,outside}
 mount -t proc proc "$root/proc"
 for device in null zero urandom; do
   touch "$root/dev/$device"
