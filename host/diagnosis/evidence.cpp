@@ -11,9 +11,15 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-bool are_neighbours(const Sample& a, const Sample& b) {
+constexpr Eigen::Index kNeighboursApart = 40;  // of all rows: half a stretch that is held out
+
+/// Samples that follow each other, though a slow sensor may have none in many rows between; not
+/// across what is held out.
+bool are_neighbours(const Observations& observations, const Sample& a, const Sample& b) {
+  const Eigen::Index nearest =
+      std::max<Eigen::Index>(2, observations.scenes[a.scene].rows() / kNeighboursApart);
   return a.scene == b.scene && a.channel == b.channel && a.component == b.component &&
-         b.row - a.row <= 2;
+         b.row - a.row <= nearest;
 }
 
 /// Deviations by which the squares that were held out fall, block by block of time: what varies is
@@ -92,7 +98,7 @@ double independent_samples(const Observations& observations, const Eigen::Vector
   double square = 0;
   for (Eigen::Index i = 1; i < observations.train; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (are_neighbours(observations.samples[at - 1], observations.samples[at])) {
+    if (are_neighbours(observations, observations.samples[at - 1], observations.samples[at])) {
       const double a = std::clamp(remainder[i - 1], -30.0, 30.0);
       const double b = std::clamp(remainder[i], -30.0, 30.0);
       product += a * b;

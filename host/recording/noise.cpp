@@ -16,6 +16,37 @@ double median(std::vector<double>* values) {
   return *middle;
 }
 
+/// The values that are there; how many rows they lie apart, typically.
+Eigen::Index take_known(const Eigen::VectorXd& signal, Eigen::VectorXd* known) {
+  std::vector<double> steps;
+  Eigen::Index count = 0;
+  Eigen::Index last = -1;
+  known->resize(signal.size());
+  for (Eigen::Index row = 0; row < signal.size(); ++row) {
+    if (std::isfinite(signal[row])) {
+      (*known)[count++] = signal[row];
+      if (last >= 0) {
+        steps.push_back(static_cast<double>(row - last));
+      }
+      last = row;
+    }
+  }
+  known->conservativeResize(count);
+  return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(median(&steps)));
+}
+
+/// Values nearest before (step −1) or after (step 1) a row, so many at most.
+void add_neighbours(const Eigen::VectorXd& signal, Eigen::Index row, Eigen::Index step,
+                    std::size_t most, std::vector<double>* near) {
+  const std::size_t wanted = near->size() + most;
+  for (Eigen::Index i = row + step; i >= 0 && i < signal.size() && near->size() < wanted;
+       i += step) {
+    if (std::isfinite(signal[i])) {
+      near->push_back(signal[i]);
+    }
+  }
+}
+
 }  // namespace
 
 double robust_deviation(const Eigen::VectorXd& values) {
@@ -30,12 +61,14 @@ double robust_deviation(const Eigen::VectorXd& values) {
 
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride) {
   constexpr Eigen::Index kFewest = 12;
-  const Eigen::Index n = signal.size() - 3 * stride;
+  Eigen::VectorXd known;
+  const Eigen::Index step = std::max<Eigen::Index>(1, stride / take_known(signal, &known));
+  const Eigen::Index n = known.size() - 3 * step;
   if (n < kFewest - 3) {
-    return robust_deviation(signal);
+    return robust_deviation(known);
   }
-  return robust_deviation(signal.tail(n) - 3 * signal.segment(2 * stride, n) +
-                          3 * signal.segment(stride, n) - signal.head(n)) /
+  return robust_deviation(known.tail(n) - 3 * known.segment(2 * step, n) +
+                          3 * known.segment(step, n) - known.head(n)) /
          std::sqrt(20.0);
 }
 
@@ -65,14 +98,10 @@ double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) 
 
 bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise) {
   constexpr double kFar = 8;
-  constexpr Eigen::Index kReach = 3;
+  constexpr std::size_t kReach = 3;
   std::vector<double> near;
-  for (Eigen::Index i = std::max<Eigen::Index>(row - kReach, 0);
-       i <= std::min(row + kReach, signal.size() - 1); ++i) {
-    if (i != row && std::isfinite(signal[i])) {
-      near.push_back(signal[i]);
-    }
-  }
+  add_neighbours(signal, row, -1, kReach, &near);
+  add_neighbours(signal, row, 1, kReach, &near);
   if (near.size() < 4) {
     return false;
   }

@@ -5,8 +5,9 @@
 namespace flexcomp::recording {
 
 /// Standard deviation of the noise in a signal that is otherwise smooth from row to row, by the
-/// median size of its third differences, which leave √20 of white noise. NaN rows are missing. With
-/// a stride beyond the memory of coloured noise, that noise counts too.
+/// median size of its third differences, which leave √20 of white noise. NaN rows are missing; of a
+/// signal that is there every few rows only, the differences are between those. With a stride (rows)
+/// beyond the memory of coloured noise, that noise counts too.
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride = 1);
 
 /// The same for a signal that is nearly noiseless, an encoder's: what its values differ from the
@@ -16,7 +17,7 @@ double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle);
 /// 1.4826 times the median size: the standard deviation of a normal distribution, outliers or not.
 double robust_deviation(const Eigen::VectorXd& values);
 
-/// Does a row stand alone, far from the median of its neighbours?
+/// Does a row stand alone, far from the median of the three values before and after?
 bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise);
 
 /// How many independent samples so many correlated ones are worth: n(1−ρ)/(1+ρ), ρ the correlation

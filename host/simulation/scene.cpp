@@ -5,6 +5,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "error.hpp"
@@ -147,6 +149,42 @@ LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& 
   return motion;
 }
 
+/// Does a sensor repeat its last sample in a log that is faster than it? Then it does so regularly;
+/// what stays the same in a motion, or at rest, does not.
+bool is_held(const std::vector<Eigen::Index>& runs) {
+  constexpr std::size_t kFewest = 20;
+  if (runs.size() < kFewest) {
+    return false;
+  }
+  std::vector<Eigen::Index> sorted = runs;
+  std::sort(sorted.begin(), sorted.end());
+  const Eigen::Index typical = sorted[sorted.size() / 2];
+  return typical > 1 && sorted[sorted.size() * 9 / 10] <= typical + 1;
+}
+
+/// Only the first of repeated samples tells anything: the others are taken for missing.
+void drop_held(std::optional<recording::Samples>* samples) {
+  if (!*samples) {
+    return;
+  }
+  std::vector<Eigen::Index> runs;
+  Eigen::Index first = 0;
+  for (Eigen::Index row = 1; row < (*samples)->rows(); ++row) {
+    if ((*samples)->row(row) != (*samples)->row(first)) {
+      runs.push_back(row - first);
+      first = row;
+    }
+  }
+  if (!is_held(runs)) {
+    return;
+  }
+  for (Eigen::Index row = (*samples)->rows() - 1; row > 0; --row) {
+    if ((*samples)->row(row) == (*samples)->row(row - 1)) {
+      (*samples)->row(row).setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+}
+
 template <typename Group>
 Eigen::MatrixXd picked(const Group& group, const std::vector<Eigen::Index>& rows) {
   Eigen::MatrixXd values(static_cast<Eigen::Index>(rows.size()), group.cols());
@@ -192,6 +230,30 @@ void refuse_unusable(const recording::Recording& recording) {
   }
 }
 
+/// Values that a row has of what a simulation can be compared with.
+Eigen::Index measured_at(const recording::Recording& recording, Eigen::Index row) {
+  const auto known = [row](const auto& group) {
+    return group ? group->row(row).array().isFinite().count() : 0;
+  };
+  return known(recording.position) + known(recording.tau) + known(recording.q_link);
+}
+
+/// Of so many rows that follow each other, the first of those that show most: a slow sensor may be
+/// there in some only.
+std::vector<Eigen::Index> thinned(const recording::Recording& recording,
+                                  const std::vector<Eigen::Index>& rows, Eigen::Index each) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t first = 0; first < rows.size(); first += static_cast<std::size_t>(each)) {
+    const std::size_t end = std::min(rows.size(), first + static_cast<std::size_t>(each));
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
+    kept.push_back(*std::max_element(begin, rows.begin() + static_cast<std::ptrdiff_t>(end),
+                                     [&](Eigen::Index a, Eigen::Index b) {
+                                       return measured_at(recording, a) < measured_at(recording, b);
+                                     }));
+  }
+  return kept;
+}
+
 std::vector<Eigen::Index> usable_rows(const recording::Recording& recording,
                                       const recording::Samples& q, Eigen::Index most_rows,
                                       Preparation* preparation) {
@@ -209,11 +271,7 @@ std::vector<Eigen::Index> usable_rows(const recording::Recording& recording,
   preparation->rows = recording.size();
   preparation->incomplete = recording.size() - count;
   preparation->kept_each = std::max<Eigen::Index>(1, (count + most_rows - 1) / most_rows);
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < count; i += preparation->kept_each) {
-    kept.push_back(rows[static_cast<std::size_t>(i)]);
-  }
-  return kept;
+  return thinned(recording, rows, preparation->kept_each);
 }
 
 void describe_times(const Eigen::VectorXd& time, Preparation* preparation) {
@@ -228,9 +286,12 @@ void describe_times(const Eigen::VectorXd& time, Preparation* preparation) {
 
 }  // namespace
 
-Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
-              Preparation* preparation) {
-  refuse_unusable(recording);
+Scene prepare(const recording::Recording& made, Eigen::Index most_rows, Preparation* preparation) {
+  refuse_unusable(made);
+  recording::Recording recording = made;
+  for (auto* samples : {&recording.position, &recording.tau, &recording.q_link}) {
+    drop_held(samples);
+  }
   const recording::Samples& q = recording.q_meas ? *recording.q_meas : *recording.q_cmd;
   const std::vector<Eigen::Index> rows = usable_rows(recording, q, most_rows, preparation);
   describe_times(recording.time, preparation);

@@ -52,10 +52,12 @@ struct Preparation {
   double median_step = 0;       ///< s
 };
 
-/// Makes a recording ready; with more than `most_rows` usable rows, evenly spread ones are taken.
+/// Makes a recording ready; with more than `most_rows` usable rows, ones that are spread over them
+/// are taken, those that show most of a few.
 ///
 /// Velocities and accelerations come from all rows: polynomials of fifth order through the
-/// neighbours within 16 ms, at their true times (Savitzky and Golay 1964). Throws InputError where
+/// neighbours within 16 ms, at their true times (Savitzky and Golay 1964). Of a sensor slower than
+/// the log that repeats its last sample, the first of each counts. Throws InputError where
 /// the recording has no joint angles or nothing to compare a simulation with.
 Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
               Preparation* preparation);

@@ -64,6 +64,49 @@ struct Ramp {
   }
 };
 
+/// A swing of joint 1 with the TCP measured in every third row.
+Recording slowly_tracked(bool holds) {
+  const VectorXd time = times(600, 0.004);
+  Recording recording = recording_of(time, (2 * time.array()).sin());
+  recording.tau.reset();
+  recording.position = Samples::Constant(time.size(), 3, std::numeric_limits<double>::quiet_NaN());
+  for (Index row = 0; row < time.size(); ++row) {
+    if (row % 3 == 1) {
+      recording.position->row(row).setConstant(std::sin(2 * time[row]));
+    } else if (holds && row > 1) {
+      recording.position->row(row) = recording.position->row(row - 1);
+    }
+  }
+  return recording;
+}
+
+void a_sample_that_a_slow_sensor_repeats_counts_once() {
+  const Scene held = scene_of(slowly_tracked(true));
+  const Scene missing = scene_of(slowly_tracked(false));
+  const auto& position = held.measured[flexcomp::simulation::tcp_position];
+  TEST_ASSERT_EQUAL_INT(200 * 3, position.array().isFinite().count());
+  const Eigen::ArrayXXd difference =
+      (position - missing.measured[flexcomp::simulation::tcp_position]).array();
+  TEST_ASSERT_EQUAL_INT(200 * 3, (difference == 0).count());
+}
+
+void torque_that_stays_the_same_in_a_motion_is_not_taken_for_repeats() {
+  const VectorXd time = times(600, 0.004);
+  Recording recording = recording_of(time, (2 * time.array()).sin());
+  for (Index row = 0; row < time.size(); ++row) {
+    recording.tau->row(row).setConstant(std::cos(2 * time[row]) > 0 ? 1 : -1);
+  }
+  const Scene scene = scene_of(recording);
+  TEST_ASSERT_TRUE(scene.measured[flexcomp::simulation::joint_torque].allFinite());
+}
+
+void of_many_rows_those_are_used_that_show_something() {
+  Preparation preparation;
+  const Scene scene = prepare(slowly_tracked(false), 200, &preparation);
+  TEST_ASSERT_EQUAL_INT(200, scene.rows());
+  TEST_ASSERT_TRUE(scene.measured[flexcomp::simulation::tcp_position].allFinite());
+}
+
 void derivatives_of_a_swing_are_its_own_at_uneven_times() {
   VectorXd time = times(2000, 0.004);
   for (Index row = 0; row < time.size(); ++row) {
@@ -158,6 +201,9 @@ void what_cannot_be_compared_is_refused() {
 
 int main() {
   UNITY_BEGIN();
+  RUN_TEST(a_sample_that_a_slow_sensor_repeats_counts_once);
+  RUN_TEST(torque_that_stays_the_same_in_a_motion_is_not_taken_for_repeats);
+  RUN_TEST(of_many_rows_those_are_used_that_show_something);
   RUN_TEST(derivatives_of_a_swing_are_its_own_at_uneven_times);
   RUN_TEST(accelerations_are_doubted_where_ramps_are_too_abrupt_for_the_samples);
   RUN_TEST(the_same_ramps_are_not_doubted_with_ten_times_the_samples);
