@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
+#include "diagnosis/learned_correction.hpp"
 #include "error.hpp"
 #include "flexcomp/compensator.hpp"
 #include "flexcomp/table_builder.hpp"
@@ -118,6 +120,16 @@ TableError<double> tcp_error(const RobotModel<double, 6>& model,
   return {off.head<3>().norm(), off.tail<3>().norm()};
 }
 
+/// Where the TCP of the stiff robot would pass: n×3, m.
+recording::Samples wanted_positions(const model::Robot& robot, const recording::Samples& q_cmd) {
+  recording::Samples wanted(q_cmd.rows(), 3);
+  for (Eigen::Index row = 0; row < q_cmd.rows(); ++row) {
+    const JointVector<double, 6> q = q_cmd.row(row).transpose();
+    wanted.row(row) = forward_kinematics<double, 6>(robot.elastic, q).tcp.position.transpose();
+  }
+  return wanted;
+}
+
 int run(const Options& options) {
   const model::Robot robot = model::load_robot(options.model);
   const TableFile file = read_table(options.table, robot);
@@ -141,12 +153,20 @@ int run(const Options& options) {
     larger(&after, tcp_error(robot.elastic, wanted, command, wrench));
     progress.show(static_cast<std::size_t>(row));
   }
+  std::optional<diagnosis::LearnedCorrection> learned;
+  if (!robot.effects.empty()) {
+    learned = diagnosis::correct_for_learned(robot, corrected, wanted_positions(robot, *path.q_cmd));
+    corrected.q_cmd = learned->q_cmd;
+  }
   recording::write_recording(options.out, corrected);
   if (options.json) {
-    const nlohmann::ordered_json json = {
+    nlohmann::ordered_json json = {
         {"rows", path.size()},
         {"before", {{"position", before.position}, {"orientation", before.orientation}}},
         {"after", {{"position", after.position}, {"orientation", after.orientation}}}};
+    if (learned) {
+      json["learned"] = {{"before", learned->before}, {"after", learned->after}};
+    }
     fmt::print("{}\n", json.dump(2));
   } else {
     fmt::print(
@@ -154,6 +174,10 @@ int run(const Options& options) {
         "{:.3g} mrad after\n",
         options.out, path.size(), 1e3 * before.position, 1e3 * before.orientation,
         1e3 * after.position, 1e3 * after.orientation);
+    if (learned) {
+      fmt::print("with the effects learnt of it: {:.4g} mm so far; {:.3g} mm corrected for them\n",
+                 1e3 * learned->before, 1e3 * learned->after);
+    }
   }
   return kDone;
 }
@@ -167,7 +191,9 @@ void add_compensate(CLI::App* app, Action* action) {
       "Correct a program: the same rows, with q_cmd moved so that the TCP of the bent robot "
       "stands,\n"
       "in position and orientation, where the given q_cmd would put that of a stiff one. Runs the\n"
-      "controller's own core, tick by tick, without filter and fading.\n"
+      "controller's own core, tick by tick, without filter and fading. Of a model from a diagnosis,\n"
+      "the effects under its key 'effects', which the core does not know, are corrected too, with\n"
+      "the wrench as the force sensor reads it.\n"
       "Example: flexcomp compensate --model robot.yaml --table t.fct --path path.csv --out "
       "out.csv");
   command->add_option("--model", options->model, "robot.yaml")->required();

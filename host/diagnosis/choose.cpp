@@ -314,8 +314,46 @@ class Chooser {
     return finding;
   }
 
-  /// Finds the alternatives; puts one of fewer parameters in the place of a finding whose evidence
-  /// it surpasses, and is true then: the richer one was taken for what others account for by now.
+  /// Puts one hypothesis in the place of two that are not far better than it, and is true then.
+  bool merge(Choice* choice) const {
+    const std::size_t count = choice->findings.size();
+    for (std::size_t i = 0; count <= kMany && i < count; ++i) {
+      for (std::size_t j = i + 1; j < count; ++j) {
+        const Fit others = without(without(choice->fit, j), i);
+        const Fit merged = best_with(others, kShortlist);
+        if (!merged.chosen.empty() && is_as_good(merged, choice->fit) &&
+            holds(weigh_last(others, merged))) {
+          choice->fit = fit(*observations_, merged.chosen, kLastSteps);
+          prune(choice);
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Does no strong evidence speak for the richer fit?
+  bool is_as_good(const Fit& plain, const Fit& rich) const {
+    const double samples = independent_samples(*observations_, rich.remainder);
+    const double parameters =
+        static_cast<double>(rich.parameters()) - static_cast<double>(plain.parameters());
+    return bic_gain(samples, plain.train_sum, rich.train_sum, 0) - parameters * std::log(samples) <
+           kStrong;
+  }
+
+  /// Of fewer parameters, and no strong evidence speaks for the other; or the very same in numbers,
+  /// of what is changed more often than a joint's own: the payload, not the last link's mass.
+  static bool is_plainer(const Alternative& one, const Chosen& other) {
+    constexpr double kIdentical = 0.1;  // of BIC
+    const bool is_smaller = one.chosen.values.size() < other.values.size();
+    const bool is_identical = one.chosen.values.size() == other.values.size() &&
+                              one.delta_bic < kIdentical && one.joint == 0 &&
+                              other.hypothesis->joint != 0;
+    return (is_smaller && one.delta_bic <= kStrong) || is_identical;
+  }
+
+  /// Finds the alternatives; puts a plainer one in the place of a finding, and is true then: the
+  /// richer one was taken for what others account for by now.
   bool simplify(Choice* choice) const {
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
       find_alternatives(choice->fit, i, &choice->findings[i]);
@@ -323,7 +361,7 @@ class Chooser {
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
       std::vector<Chosen> chosen = choice->fit.chosen;
       for (const Alternative& other : choice->findings[i].alternatives) {
-        if (other.delta_bic <= 0 && other.chosen.values.size() < chosen[i].values.size()) {
+        if (is_plainer(other, chosen[i])) {
           chosen[i] = other.chosen;
           choice->fit = fit(*observations_, std::move(chosen), kLastSteps);
           prune(choice);
@@ -413,7 +451,8 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
   choice.fit = fit(*observations, choice.fit.chosen, kLastSteps);
   chooser.prune(&choice);
   chooser.withdraw_unproved(&choice);
-  while (chooser.simplify(&choice)) {  // each time a parameter less, at least
+  // Each time a finding, a parameter or a joint less.
+  while (chooser.merge(&choice) || chooser.simplify(&choice)) {
   }
   strongest_first(&choice);
   // In the order that the covariance and the derivative have from here on.

@@ -19,7 +19,7 @@ const std::vector<Effect>& registry() {
       {"link_mass", link_mass, {"body", "mounted"}},
       {"nonlinear_stiffness", nonlinear_stiffness, {}},
       {"payload", payload, {}},
-      {"resonance", resonance, {}},
+      {"resonance", resonance, {"", "posture"}},
       {"rotor_inertia", rotor_inertia, {}},
       {"servo_lag", servo_lag, {}},
       {"stribeck_friction", stribeck_friction, {}},

@@ -53,20 +53,27 @@ Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield) 
 
 Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double frequency,
                      double damping) {
-  const double omega = 2 * M_PI * frequency;
-  const double decay = damping * omega;
-  const double damped = omega * std::sqrt(1 - damping * damping);
+  return mode(time, input, Eigen::VectorXd::Constant(input.size(), frequency), damping);
+}
+
+Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input,
+                     const Eigen::VectorXd& frequency, double damping) {
   Eigen::VectorXd response(input.size());
   double x = input.size() > 0 ? input[0] : 0;
   double v = 0;
   double known_step = -1;
+  double known_omega = -1;
   double cosine = 1;
   double sine = 0;
   for (Eigen::Index row = 0; row < input.size(); ++row) {
     if (row > 0) {
       const double step = time[row] - time[row - 1];
-      if (std::abs(step - known_step) > 1e-9 * step) {
+      const double omega = 2 * M_PI * frequency[row];
+      const double decay = damping * omega;
+      const double damped = omega * std::sqrt(1 - damping * damping);
+      if (std::abs(step - known_step) > 1e-9 * step || omega != known_omega) {
         known_step = step;
+        known_omega = omega;
         cosine = std::exp(-decay * step) * std::cos(damped * step);
         sine = std::exp(-decay * step) * std::sin(damped * step);
       }

@@ -28,6 +28,10 @@ Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield);
 Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double frequency,
                      double damping);
 
+/// The same with a natural frequency (Hz) for each row, which stays between two of them.
+Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input,
+                     const Eigen::VectorXd& frequency, double damping);
+
 /// What follows `input` by a first-order lag (s), having caught up with its slope at first; exact
 /// for an input that is straight between the times (s).
 Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double constant);

@@ -3,8 +3,9 @@
 namespace flexcomp::diagnosis {
 
 // A rate-independent loop of torque and wind-up beside the spring, as Bouc and Wen's or as Prandtl
-// and Ishlinskii's (Wen 1976; Visintin 1994), simulated along the load. Needs the TCP or link
-// encoders, and a load that rises and falls.
+// and Ishlinskii's (Wen 1976; Visintin 1994), simulated along the load: dry friction in parallel to
+// the spring lets the wind-up lag behind its straight line by up to `amplitude` either way, so that
+// the loop takes energy. Needs the TCP or link encoders, and a load that rises and falls.
 std::vector<Hypothesis> hysteresis(const Observations& observations) {
   std::vector<Hypothesis> all;
   if (!sees_angles(observations)) {
@@ -34,7 +35,7 @@ std::vector<Hypothesis> hysteresis(const Observations& observations) {
                                     add_load_driven(
                                         at, joint,
                                         [&](const Eigen::VectorXd& torque) {
-                                          return Eigen::VectorXd(values[0] *
+                                          return Eigen::VectorXd(-values[0] *
                                                                  loop(torque, values[1]));
                                         },
                                         prediction);

@@ -40,8 +40,8 @@ class Backlash(Effect):
 
 
 class Hysteresis(Effect):
-    """A rate-independent loop of torque and deflection that adds to the spring: Bouc and Wen's, or
-    Prandtl and Ishlinskii's sum of sliding elements."""
+    """A rate-independent loop of torque and deflection beside the spring, which lags behind its load
+    and so takes energy: Bouc and Wen's, or Prandtl and Ishlinskii's sum of sliding elements."""
 
     name = "hysteresis"
     joints = ALL_JOINTS
@@ -58,7 +58,7 @@ class Hysteresis(Effect):
         loop = memory.prandtl_ishlinskii if parameters["sliding"] else memory.bouc_wen
 
         def series(state, load):
-            return (parameters["amplitude"] * loop(load[:, k], parameters["yield_torque"])[:, None]
+            return (-parameters["amplitude"] * loop(load[:, k], parameters["yield_torque"])[:, None]
                     * column)
 
         machine.memory.append(series)

@@ -1,0 +1,83 @@
+#include "diagnosis/learned_correction.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr int kSteps = 5;
+constexpr double kLargest = 0.02;  // rad, of a step: beyond it nothing is linear
+constexpr double kDamping = 1e-3;  // m, of the Jacobian's singular values
+
+/// Does an effect move the robot, and not only what is measured of it?
+bool moves_robot(const model::LearnedEffect& learned) {
+  return learned.effect != "base_frame" &&
+         (learned.effect != "time_offset" || learned.form == "wrench");
+}
+
+/// The program as a recording of a TCP, whose values do not matter.
+Scene scene_of(const recording::Recording& program, const recording::Samples& q_cmd) {
+  recording::Recording recording;
+  recording.file = program.file;
+  recording.lines = program.lines;
+  recording.time = program.time;
+  recording.q_cmd = q_cmd;
+  recording.wrench = program.wrench;
+  recording.temperature = program.temperature;
+  recording.position = recording::Samples::Zero(program.size(), 3);
+  simulation::Preparation preparation;
+  return simulation::prepare(recording, recording.size(), &preparation);
+}
+
+Eigen::MatrixXd errors_of(const Machine& machine, const Scene& scene,
+                          const recording::Samples& wanted) {
+  return predict(machine, {scene}).front().channel[simulation::tcp_position] - wanted;
+}
+
+/// Angles that move the TCP by `error` and turn it by nothing.
+JointVector<double, 6> angles_for(const Jacobian<double, 6>& jacobian,
+                                  const Vector3<double>& error) {
+  Eigen::Matrix<double, 6, 6> gram = jacobian * jacobian.transpose();
+  gram.diagonal().array() += kDamping * kDamping;
+  Twist<double> twist = Twist<double>::Zero();
+  twist.head<3>() = error;
+  const JointVector<double, 6> angles = jacobian.transpose() * gram.ldlt().solve(twist);
+  const double largest = angles.cwiseAbs().maxCoeff();
+  return largest > kLargest ? JointVector<double, 6>(angles * (kLargest / largest)) : angles;
+}
+
+}  // namespace
+
+LearnedCorrection correct_for_learned(const model::Robot& robot,
+                                      const recording::Recording& program,
+                                      const recording::Samples& wanted) {
+  model::Robot moving = robot;
+  moving.effects.erase(
+      std::remove_if(moving.effects.begin(), moving.effects.end(),
+                     [](const auto& learned) { return !moves_robot(learned); }),
+      moving.effects.end());
+  LearnedCorrection correction;
+  correction.q_cmd = *program.q_cmd;
+  for (int step = 0; step <= kSteps; ++step) {
+    const Scene scene = scene_of(program, correction.q_cmd);
+    const Machine machine = machine_of(moving, {scene});
+    const Eigen::MatrixXd errors = errors_of(machine, scene, wanted);
+    correction.after = errors.rowwise().norm().maxCoeff();
+    if (step == 0) {
+      correction.before = correction.after;
+    }
+    if (step == kSteps) {
+      break;
+    }
+    const simulation::Simulation at = simulate(machine, scene);
+    for (Eigen::Index row = 0; row < errors.rows(); ++row) {
+      correction.q_cmd.row(row) -=
+          angles_for(at.jacobian[static_cast<std::size_t>(row)], errors.row(row).transpose())
+              .transpose();
+    }
+  }
+  return correction;
+}
+
+}  // namespace flexcomp::diagnosis
