@@ -22,7 +22,8 @@ FAKES = HERE / "protocol" / "fakes"
 sys.path[:0] = [str(FAKES), str(HERE), str(HERE.parent / "diagnosis")]
 
 import campaign  # noqa: E402
-from protocol import cases, goals, judging, report, sandbox, seal, svg, watch  # noqa: E402
+from protocol import (cases, goals, judging, loop_section, loops, report, sandbox, seal,  # noqa: E402
+                      svg, watch)
 from protocol import __main__ as protocol  # noqa: E402
 
 SEED, CASES = 5, 5
@@ -199,7 +200,7 @@ class Campaign(unittest.TestCase):
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             code = protocol.main(["--seed", str(SEED), "--cases", str(count), "--jobs", "2",
-                                  "--no-rivals", "--tool", str(self.tool(manner)),
+                                  "--no-rivals", "--no-loop", "--tool", str(self.tool(manner)),
                                   "--out", str(folder), *more])
         return code, said.getvalue(), folder
 
@@ -415,6 +416,26 @@ class Scoring(unittest.TestCase):
         self.assertEqual(["001", "003"], [each.case for each, _ in lost])
         self.assertEqual([True, False], [each.beyond_chance("flexcomp", "refit", "untrained")
                                          for each, _ in lost])
+
+    def test_only_circles_that_are_spoiled_count_in_the_loop(self):
+        closed = [scored("000"), scored("001"), scored("002"), scored("003")]
+        closed[0].loop = loops.Loop(9e-4, 1e-5, 1e-4, 2e-5)
+        closed[1].loop = loops.Loop(9e-4, 3e-5, 1e-4, 9e-5)
+        closed[2].loop = "flexcomp table: exit 2"
+        found = goals.figures(closed)
+        self.assertAlmostEqual(0.2, found[goals.LOOP])
+        self.assertEqual(1, found["closed loops in which what is concealed spoils the circle"])
+        page = loop_section.section(closed)
+        self.assertIn("hardly matters", page)
+        self.assertIn("flexcomp table: exit 2", page)
+
+    def test_a_pair_is_located_by_the_finding_that_has_a_joint(self):
+        place = judging._named_joint
+        self.assertEqual(2, place([("wrench_scale", None), ("backlash", 2)], {"wrench_scale"}))
+        self.assertIsNone(place([("wrench_scale", None), ("backlash", 2)], {"backlash"}))
+        self.assertEqual(3, place([("backlash", 3), ("hysteresis", 2)], {"backlash"}))
+        self.assertIsNone(place([("wrench_scale", None)], {"wrench_scale"}))
+        self.assertEqual("", place([], {"backlash"}))
 
     def test_goals_without_a_case_are_not_judged(self):
         judged = {goal.figure: met for goal, _, met in goals.judged(goals.figures([]))}

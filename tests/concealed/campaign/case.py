@@ -113,7 +113,7 @@ class _Work:
         slow = any(entry.slow for entry in entries)
         self.robot, self.rated = cell.write_model(self.rng, folder / "model", gravity)
         self.description = descriptions.load(folder / "model" / "robot.yaml")
-        center = paths.posture(self.rng)
+        center = self.center = paths.posture(self.rng)
         self.courses = {}
         for name in ("train", "train_2", "holdout") if case.kind in TWICE else ("train", "holdout"):
             self.courses[name] = _course(self.rng, case.kind, self.description, self.rated,
@@ -181,19 +181,28 @@ def _truth(work, ratios, groups):
                       for group in strength.CHANNELS if group in groups}}
 
 
-def write_case(case, folder):
-    """Writes model/ and the recordings into a folder, and returns the truth."""
+def _drawn(case, folder):
+    """(_Work, how far each effect stands out of the noise, signals by recording)."""
     for attempt in range(ATTEMPTS):
         try:
             work = _Work(case, folder, attempt)
             ratios = [work.conceal(name) for name in case.names]
-            signals = {name: work.run(work.effects, name) for name in work.courses}
-            break
+            return work, ratios, {name: work.run(work.effects, name) for name in work.courses}
         except (Unsuitable, FloatingPointError):
             for left in (folder / "model").iterdir():
                 left.unlink()
-    else:
-        raise Unsuitable(f"nothing fair came of {ATTEMPTS} draws from {case.seed}")
+    raise Unsuitable(f"nothing fair came of {ATTEMPTS} draws from {case.seed}")
+
+
+def rebuild(case, folder):
+    """The same plant once more: its description, effects, rated (N), and the posture center (6,) that
+    it worked about, as attributes. Raises Unsuitable."""
+    return _drawn(case, folder)[0]
+
+
+def write_case(case, folder):
+    """Writes model/ and the recordings into a folder, and returns the truth."""
+    work, ratios, signals = _drawn(case, folder)
     groups = _groups(work.rng, case, work.effects)
     for name, each in signals.items():
         course = work.courses[name]

@@ -39,7 +39,9 @@ def warming(rng, share):
     return ROOM - rise * np.expm1(-share / constant)
 
 
-def _circle(rng, arm, center, cutting_force, duration):
+def circle(rng, arm, center, cutting_force, duration):
+    """A milled circle, in air if the force (N) is zero: (Motion, name of its plane). Raises
+    paths.Unreachable."""
     time = _time(duration)
     plane, sense = str(rng.choice(list(paths.PLANES))), int(rng.choice([-1, 1]))
     radius = rng.uniform(0.05, 0.08)
@@ -49,7 +51,7 @@ def _circle(rng, arm, center, cutting_force, duration):
     wrench = np.zeros((len(time), 6))
     if cutting_force:
         wrench = cutting.milling(rng, time, RAMP, angle, plane, sense, cutting_force)
-    return Motion(time, q, velocity, acceleration, wrench, np.zeros(len(time)), RUN_IN)
+    return Motion(time, q, velocity, acceleration, wrench, np.zeros(len(time)), RUN_IN), plane
 
 
 def _swing(rng, arm, description, center, duration, base, harmonics, fastest, force=0.0):
@@ -78,7 +80,7 @@ def course(rng, kind, description, center, rated, slow=False):
     duration = rng.uniform(*SECONDS[kind])
     if kind in ("circle", "air"):
         force = rated * rng.uniform(0.25, 0.5) if kind == "circle" else 0.0
-        return _circle(rng, arm, center, force, duration)
+        return circle(rng, arm, center, force, duration)[0]
     if kind == "mixed":
         return _swing(rng, arm, description, center, duration, 0.018, 2, 0.007,
                       0.3 * rated)

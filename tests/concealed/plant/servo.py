@@ -13,6 +13,22 @@ SMOOTH_SPEED = 3e-4  # rad/s: friction fed forward turns over this
 COARSE = 4e-3  # s between computed torques
 
 
+def holding_torque(description, motion):
+    """Torque (n, 6) in N·m that holds a rigid robot against the wrench of a motion."""
+    model = assembly.rigid(description)
+    data, site = mujoco.MjData(model), model.site("tcp").id
+    stride = max(1, round(COARSE / motion.step))
+    rows = np.unique(np.append(np.arange(0, len(motion.time), stride), len(motion.time) - 1))
+    held, moves, turns = np.empty((len(rows), 6)), np.zeros((3, 6)), np.zeros((3, 6))
+    for index, row in enumerate(rows):
+        data.qpos[:] = motion.q[row]
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_jacSite(model, data, moves, turns, site)
+        held[index] = -moves.T @ motion.wrench[row, :3] - turns.T @ motion.wrench[row, 3:]
+    return CubicSpline(motion.time[rows], held)(motion.time)
+
+
 def computed_torque(description, motion):
     """Torque (n, 6) in N·m that a rigid robot with the described friction needs for a motion."""
     model = assembly.rigid(description)
@@ -66,3 +82,7 @@ class Servo:
         self._sum += error * self._motion.step
         return (self._forward[row] + self._stiffness * error + self._damping * speed_error
                 + self._integral * self._sum)
+
+    def feed_forward(self, torque):
+        """Adds torques (n, 6) in N·m, of something that the controller knows beforehand."""
+        self._forward = self._forward + torque

@@ -12,7 +12,8 @@ import time
 
 from scoring import figures
 
-from . import arguments, cases, goals, judging, report, sandbox, seal, trial, watch, wording
+from . import (arguments, cases, goals, judging, loops, report, sandbox, seal, trial, watch,
+               wording)
 
 OURS = (arguments.TOLD, "cases", "answers", seal.SEALED, seal.HASH, seal.OPENED, seal.KEY,
         "report.html", "scores.json")
@@ -92,7 +93,8 @@ def _check_files(truths, folder):
 
 def _command(options):
     words = ["tools/concealed", "--seed", str(options.seed), "--cases", str(options.cases)]
-    return shlex.join(words + (["--no-rivals"] if options.no_rivals else []))
+    words += ["--no-rivals"] * options.no_rivals + ["--no-loop"] * options.no_loop
+    return shlex.join(words)
 
 
 def _as_json(thing):
@@ -125,6 +127,14 @@ def _print(options, scored, found):
         print(f"  {each.case}  {each.result.truth} ({each.result.kind}): "
               f"{each.result.named or 'nothing named'}, {each.result.verdict}")
     print(f"\n{wording.headline(found)}\nReport: {options.out / 'report.html'}")
+
+
+def _close_loops(options, truths, scored):
+    drawn = cases.drawn(options.seed, options.cases)
+    closed = loops.close(options.tool, drawn, truths, options.out, options.jobs,
+                         Progress("closed the loop"))
+    for each in scored:
+        each.loop = closed.get(each.case)
 
 
 def _prove(options):
@@ -162,6 +172,8 @@ def _prove(options):
     _tell(options.out, "opened")
     scored = [judging.score(name, truths[name]["truth"], options.out / "answers" / name)
               for name in names]
+    if not options.no_loop:
+        _close_loops(options, truths, scored)
     found = goals.figures(scored)
     facts = {"seed": options.seed, "cases": len(names), "sha256": sealed.sha256,
              "tool_sha256": tool_sha256, "isolated": box.isolated, "why_not_isolated": box.why_not,

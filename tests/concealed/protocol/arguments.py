@@ -8,7 +8,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[3]
 TOLD = "STATE"  # one line: how far the campaign in a folder is
 DESCRIPTION = """\
 Proves `flexcomp diagnose` blind: draws a campaign of recordings with concealed physics, seals the
-truth, diagnoses every case in a sandbox, opens the seal, scores, and sets rivals beside it.
+truth, diagnoses every case in a sandbox, opens the seal, scores, sets rivals beside it, and closes
+the loop: one case of each effect mills a circle, corrected by the nominal and by the diagnosed model.
 """
 EPILOG = """\
 DIR holds afterwards: report.html, scores.json, cases/ (recordings and nominal models), answers/
@@ -49,6 +50,8 @@ def parse(words):
     parser.add_argument("--rival-limit", type=float, default=60.0, metavar="S",
                         help="the same for each rival (default 60)")
     parser.add_argument("--no-rivals", action="store_true", help="leave the rivals out")
+    parser.add_argument("--no-loop", action="store_true",
+                        help="mill no circles with the diagnosed models")
     options = parser.parse_args(words)
     options.tool = options.tool.resolve()
     options.out = (options.out or SOURCE / f"build/concealed/seed-{options.seed}").resolve()

@@ -54,21 +54,25 @@ def _write(task):
     return {"files": found, "truth": truth}
 
 
-def _leave_signals_to_the_parent():
+def leave_signals_to_the_parent():
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)  # with which the pool ends them
 
 
+def drawn(seed, count):
+    """{name: case of the campaign}, in an order that only the seed tells."""
+    order = importlib.import_module("campaign").draw(seed, count)
+    random.Random(f"order of {seed}").shuffle(order)
+    return {name(number): each for number, each in enumerate(order)}
+
+
 def write(seed, count, folder, jobs, progress):
-    """Draws the campaign and writes its cases into folder/000, 001, ..., in an order that only the
-    seed tells. Returns {name of a case: {"files": …, "truth": …}}, without those of which no draw
-    gave a fair case. The processes that wrote them, and with them all that knows a truth but the
-    caller, have ended when this returns."""
-    drawn = importlib.import_module("campaign").draw(seed, count)
-    random.Random(f"order of {seed}").shuffle(drawn)
-    tasks = [(each, folder / name(number)) for number, each in enumerate(drawn)]
+    """Draws the campaign and writes its cases into folder/000, 001, .... Returns {name of a case:
+    {"files": …, "truth": …}}, without those of which no draw gave a fair case. The processes that
+    wrote them, and with them all that knows a truth but the caller, have ended when this returns."""
+    tasks = [(each, folder / label) for label, each in drawn(seed, count).items()]
     written = {}
-    with multiprocessing.Pool(jobs, _leave_signals_to_the_parent) as pool:
+    with multiprocessing.Pool(jobs, leave_signals_to_the_parent) as pool:
         for number, entry in enumerate(pool.imap(_write, tasks)):
             if entry:
                 written[name(number)] = entry

@@ -5,6 +5,7 @@ import statistics
 from scoring.figures import Goal, Rate, value_of
 
 from .judging import DIAGNOSED, NOMINAL
+from .loops import Loop
 
 REFIT = "refit"
 MODELS = (NOMINAL, DIAGNOSED, REFIT)
@@ -13,6 +14,7 @@ ALARMS, CLAIMS = "false alarms on clean recordings", "confident wrong findings i
 HELD_OUT = "held-out error / noise, median"
 BLACK_BOX = "untrained region: error / best black box's, median"
 WORSE = "untrained region: cases worse than the plain refit"
+LOOP = "closed loop: circularity / that with the nominal model, median"
 
 GOALS = (
     Goal(EFFECT, 0.90, True, 80),
@@ -22,6 +24,7 @@ GOALS = (
     Goal(HELD_OUT, 1.2, False, 80),
     Goal(BLACK_BOX, 0.5, False, 80),
     Goal(WORSE, 0, False, 100),
+    Goal(LOOP, 0.25, False, 10),
 )
 
 
@@ -66,6 +69,11 @@ def worse_than_refit(scored, region="untrained"):
     return sorted(found, key=lambda pair: -pair[1])
 
 
+def closed_loops(scored):
+    """Those in which what is concealed spoils the circle."""
+    return [each for each in scored if isinstance(each.loop, Loop) and each.loop.is_spoiled]
+
+
 def coverage(parameters):
     return _rate(each.covered for each in parameters)
 
@@ -99,6 +107,8 @@ def figures(scored):
         "of these, by more than chance": sum(
             each.beyond_chance(DIAGNOSED, REFIT, "untrained")
             for each, _ in worse_than_refit(scored)) if refitted else None,
+        LOOP: median(each.loop.ratio for each in closed_loops(scored)),
+        "closed loops in which what is concealed spoils the circle": len(closed_loops(scored)),
         "diagnoses without an answer": _rate(
             each.result.verdict.startswith("failed") for each in scored),
         "cases that could not be simulated": _rate(NOMINAL not in each.errors for each in scored),

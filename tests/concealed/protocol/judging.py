@@ -43,11 +43,12 @@ class Scored:
     effect_right: bool | None  # of the first finding; None: nothing is concealed
     joint_right: bool | None  # None: no concealed effect has a joint
     joints: tuple  # concealed ones
-    named_joint: object  # of the first finding: 1 to 6, None: no joint, "": no finding
+    named_joint: object  # of the first finding that can have one: 1 to 6, None, "": no finding
     parameters: list  # of ParameterError
     noise: dict  # channel -> rms
     errors: dict  # method -> region -> channel -> {"rms", "stretches"}
     failures: dict  # method -> why it has no errors
+    loop: object = None  # loops.Loop, why it could not be closed, or None where it was not tried
 
     def error(self, method, region):
         """Error of a method in a region in units of the noise, channels weighing the same; None
@@ -139,6 +140,14 @@ def parameter_errors(name, effects, said):
     return found
 
 
+def _named_joint(named, concealed):
+    """The joint of the first finding; of the second, if the first is a concealed effect that has
+    none. "" without findings."""
+    if len(named) > 1 and named[0][1] is None and named[0][0] in concealed:
+        return named[1][1]
+    return named[0][1] if named else ""
+
+
 def score(name, truth, folder):
     """One case's truth (of the campaign) and the folder of its answers -> Scored."""
     adapted = for_the_scorer(truth)
@@ -149,10 +158,12 @@ def score(name, truth, folder):
     joints = tuple(effect["joint"] for effect in effects if effect["joint"] is not None)
     first = said.named[0] if said and said.named else ("", "")
     names = {effect["effect"] for effect in effects}
+    named_joint = _named_joint(said.named if said else [], names)
     errors, failures = _contest(folder)
     return Scored(
         case=name, robot=truth["robot"], result=result,
         effect_right=first[0] in names if effects else None,
-        joint_right=first[1] in joints if joints else None, joints=joints, named_joint=first[1],
+        joint_right=named_joint in joints if joints else None, joints=joints,
+        named_joint=named_joint,
         parameters=parameter_errors(name, effects, said) if said else [],
         noise=adapted["noise_rms"], errors=errors, failures=failures)

@@ -7,7 +7,7 @@ from html import escape
 from generator.effects import CATALOGUE
 from scoring import table as confusion_table
 
-from . import goals, pictures, rivals_section, wording
+from . import goals, loop_section, pictures, rivals_section, wording
 from .judging import DIAGNOSED, NOMINAL
 from .markup import STYLE, grid, number, paragraph, table
 
@@ -161,6 +161,7 @@ def _sections(scored, found, campaign, answers):
     ) + pictures.errors_picture(goals.of_families(scored, "single", "pair"))
     yield "Parameters and their stated uncertainty", _parameters(scored)
     yield "Rivals", rivals_section.section(scored)
+    yield "The loop closed", loop_section.section(scored)
     yield "The worst cases", _worst(scored, answers)
     yield "All figures", table(("figure", "value"), [
         [escape(name), escape(wording.figure_text(figure))] for name, figure in found.items()])

@@ -1,0 +1,98 @@
+"""Closes the loop of a case: new tables from the diagnosed model, the core over the program tick by
+tick, and the concealed plant again."""
+
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from campaign import case as campaign_case
+
+from . import milling
+
+TOLERANCE = "1e-5"  # m, of the tables
+ORIENTATION = "1e-4"  # rad
+LIMIT = 300.0  # s a command
+
+
+class Failed(Exception):
+    """A command of the tool refused; says which and why."""
+
+
+def pick(truths):
+    """The first case of every concealed effect that is alone: {case: effect}."""
+    found = {}
+    for name in sorted(truths):
+        effects = truths[name]["truth"]["effects"]
+        if len(effects) == 1 and effects[0]["effect"] not in found.values():
+            found[name] = effects[0]["effect"]
+    return found
+
+
+def _call(tool, *words):
+    done = subprocess.run([str(tool), *map(str, words)], capture_output=True, text=True,
+                          timeout=LIMIT, check=False)
+    if done.returncode != 0:
+        last = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:]
+        raise Failed(f"flexcomp {words[0]}: exit {done.returncode}: {' '.join(last)}")
+    return done.stdout
+
+
+def _commands(path):
+    lines = path.read_text().splitlines()
+    names = lines[0].split(",")
+    table = np.array([[float(cell or "nan") for cell in line.split(",")] for line in lines[1:]])
+    return table[:, [names.index(f"q_cmd_{k}") for k in range(1, 7)]]
+
+
+class _Loop:
+    def __init__(self, tool, circle, work, folder):
+        self.tool, self.circle, self.work, self.folder = tool, circle, work, folder
+
+    def circularity(self, signals):
+        """m, minimum zone, of where the TCP went."""
+        path = self.folder / "course.csv"
+        self.circle.write_course(signals, path)
+        said = json.loads(_call(self.tool, "circularity", path, "--columns", self.circle.columns,
+                                "--json"))
+        return said["mzc"]["circularity"]
+
+    def corrected(self, effects, signals, model):
+        """Circularity with the program corrected by a model, of a plant with effects, whose signals
+        without correction are known."""
+        program, table = self.folder / "program.csv", self.folder / "table.fct"
+        corrected = self.folder / "corrected.csv"
+        self.circle.write_program(signals, program)
+        _call(self.tool, "table", "--model", model, "--path", program, "--out", table,
+              "--tolerance", TOLERANCE, "--orientation-tolerance", ORIENTATION)
+        _call(self.tool, "compensate", "--model", model, "--table", table, "--path", program,
+              "--out", corrected)
+        correction = _commands(corrected) - _commands(program)
+        return self.circularity(self.circle.run(self.work.description, effects, correction))
+
+
+def close(tool, drawn, nominal, diagnosed):
+    """drawn: the campaign's case; nominal, diagnosed: paths of models, the second may be missing,
+    then nothing was learnt. Returns circularities (m) of a milled circle of the plant: uncorrected,
+    nominal, diagnosed; without: of the plant without what is concealed, corrected by the nominal
+    model; or {"failed": why}."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        try:
+            work = campaign_case.rebuild(drawn, folder / "case")
+            circle = milling.draw(np.random.default_rng([*drawn.seed, 7]), work.description,
+                                  work.center, work.rated, drawn.seed[0])
+            loop = _Loop(tool, circle, work, folder)
+            clean = circle.run(work.description, [])
+            signals = circle.run(work.description, work.effects)
+            result = {"uncorrected": loop.circularity(signals),
+                      "without": loop.corrected([], clean, nominal),
+                      "nominal": loop.corrected(work.effects, signals, nominal)}
+            result["diagnosed"] = (loop.corrected(work.effects, signals, diagnosed)
+                                   if diagnosed.is_file() else result["nominal"])
+        except (Failed, campaign_case.Unsuitable, FloatingPointError,
+                subprocess.TimeoutExpired) as error:
+            return {"failed": str(error)}
+    return result
