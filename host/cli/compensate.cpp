@@ -155,7 +155,8 @@ int run(const Options& options) {
   }
   std::optional<diagnosis::LearnedCorrection> learned;
   if (!robot.effects.empty()) {
-    learned = diagnosis::correct_for_learned(robot, corrected, wanted_positions(robot, *path.q_cmd));
+    learned =
+        diagnosis::correct_for_learned(robot, corrected, wanted_positions(robot, *path.q_cmd));
     corrected.q_cmd = learned->q_cmd;
   }
   recording::write_recording(options.out, corrected);
@@ -191,7 +192,8 @@ void add_compensate(CLI::App* app, Action* action) {
       "Correct a program: the same rows, with q_cmd moved so that the TCP of the bent robot "
       "stands,\n"
       "in position and orientation, where the given q_cmd would put that of a stiff one. Runs the\n"
-      "controller's own core, tick by tick, without filter and fading. Of a model from a diagnosis,\n"
+      "controller's own core, tick by tick, without filter and fading. Of a model from a "
+      "diagnosis,\n"
       "the effects under its key 'effects', which the core does not know, are corrected too, with\n"
       "the wrench as the force sensor reads it.\n"
       "Example: flexcomp compensate --model robot.yaml --table t.fct --path path.csv --out "

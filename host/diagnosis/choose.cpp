@@ -322,7 +322,7 @@ class Chooser {
         const Fit others = without(without(choice->fit, j), i);
         const Fit merged = best_with(others, kShortlist);
         if (!merged.chosen.empty() && is_as_good(merged, choice->fit) &&
-            holds(weigh_last(others, merged))) {
+            !is_confirmed(merged, choice->fit) && holds(weigh_last(others, merged))) {
           choice->fit = fit(*observations_, merged.chosen, kLastSteps);
           prune(choice);
           return true;
@@ -339,6 +339,11 @@ class Chooser {
         static_cast<double>(rich.parameters()) - static_cast<double>(plain.parameters());
     return bic_gain(samples, plain.train_sum, rich.train_sum, 0) - parameters * std::log(samples) <
            kStrong;
+  }
+
+  /// Does what was held out speak for the richer fit?
+  bool is_confirmed(const Fit& plain, const Fit& rich) const {
+    return weigh_last(plain, rich).confirmation > kConfirmed;
   }
 
   /// Of fewer parameters, and no strong evidence speaks for the other; or the very same in numbers,
@@ -359,13 +364,16 @@ class Chooser {
       find_alternatives(choice->fit, i, &choice->findings[i]);
     }
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
-      std::vector<Chosen> chosen = choice->fit.chosen;
       for (const Alternative& other : choice->findings[i].alternatives) {
-        if (is_plainer(other, chosen[i])) {
+        if (is_plainer(other, choice->fit.chosen[i])) {
+          std::vector<Chosen> chosen = choice->fit.chosen;
           chosen[i] = other.chosen;
-          choice->fit = fit(*observations_, std::move(chosen), kLastSteps);
-          prune(choice);
-          return true;
+          Fit plain = fit(*observations_, std::move(chosen), kLastSteps);
+          if (!is_confirmed(plain, choice->fit)) {
+            choice->fit = std::move(plain);
+            prune(choice);
+            return true;
+          }
         }
       }
     }

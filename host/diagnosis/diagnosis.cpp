@@ -47,14 +47,13 @@ void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypo
 /// it is, may leave less. Was the noise lowered to that?
 bool lower_noise(Observations* observations, const Fit& chosen) {
   constexpr double kMuchLess = 0.8;
-  const Eigen::Index freedom =
-      observations->train - static_cast<Eigen::Index>(chosen.parameters());
+  const Eigen::Index freedom = observations->train - static_cast<Eigen::Index>(chosen.parameters());
   if (!observations->is_static || !observations->noise_is_known || chosen.chosen.empty() ||
       freedom < kLeastFreedom) {
     return false;
   }
-  const double deviation = std::sqrt(
-      chosen.remainder.head(observations->train).squaredNorm() / static_cast<double>(freedom));
+  const double deviation = std::sqrt(chosen.remainder.head(observations->train).squaredNorm() /
+                                     static_cast<double>(freedom));
   if (deviation > kMuchLess) {
     return false;
   }

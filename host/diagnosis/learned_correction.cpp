@@ -53,10 +53,9 @@ LearnedCorrection correct_for_learned(const model::Robot& robot,
                                       const recording::Recording& program,
                                       const recording::Samples& wanted) {
   model::Robot moving = robot;
-  moving.effects.erase(
-      std::remove_if(moving.effects.begin(), moving.effects.end(),
-                     [](const auto& learned) { return !moves_robot(learned); }),
-      moving.effects.end());
+  moving.effects.erase(std::remove_if(moving.effects.begin(), moving.effects.end(),
+                                      [](const auto& learned) { return !moves_robot(learned); }),
+                       moving.effects.end());
   LearnedCorrection correction;
   correction.q_cmd = *program.q_cmd;
   for (int step = 0; step <= kSteps; ++step) {

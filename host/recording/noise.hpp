@@ -6,8 +6,8 @@ namespace flexcomp::recording {
 
 /// Standard deviation of the noise in a signal that is otherwise smooth from row to row, by the
 /// median size of its third differences, which leave √20 of white noise. NaN rows are missing; of a
-/// signal that is there every few rows only, the differences are between those. With a stride (rows)
-/// beyond the memory of coloured noise, that noise counts too.
+/// signal that is there every few rows only, the differences are between those. With a stride
+/// (rows) beyond the memory of coloured noise, that noise counts too.
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride = 1);
 
 /// The same for a signal that is nearly noiseless, an encoder's: what its values differ from the

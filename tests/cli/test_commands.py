@@ -1,6 +1,8 @@
 """The flexcomp command as its users drive it."""
 
+import csv
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -117,6 +119,56 @@ class MainJob(Command):
         self.assertGreater(summary["before"]["position"], 3e-3)
         self.assertLess(summary["after"]["position"], 0.01 * summary["before"]["position"])
         self.assertLess(summary["after"]["orientation"], 0.01 * summary["before"]["orientation"])
+
+    def learnt_model(self, *effects):
+        robot = self.folder / "learnt"
+        shutil.copytree(ROBOTS / "kr270", robot)
+        with open(robot / "robot.yaml", "a", encoding="utf-8") as file:
+            file.write("effects:\n" + "".join(f"  - {{{effect}}}\n" for effect in effects))
+        return robot / "robot.yaml"
+
+    def compensated(self, model, path):
+        corrected = self.folder / f"corrected-{model.parent.name}.csv"
+        summary = self.run_well("compensate", "--model", model, "--table", self.table(path, model),
+                                "--path", path, "--json", "--out", corrected)
+        return corrected, json.loads(summary)
+
+    def positions(self, path, scale="1"):
+        out = self.folder / "positions.csv"
+        self.run_well("simulate", "--model", KR270, "--path", path, "--compliance-scale", scale,
+                      "--out", out)
+        with open(out, encoding="utf-8") as file:
+            return [[float(row[axis]) for axis in "xyz"] for row in csv.DictReader(file)]
+
+    def test_a_joint_zero_that_a_diagnosis_learnt_is_corrected(self):
+        path = self.plan()
+        corrected, summary = self.compensated(
+            self.learnt_model("effect: joint_offset, joint: 3, offset: 2e-3"), path)
+        with open(corrected, encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:  # the real robot stands elsewhere than it is told
+            row["q_cmd_3"] = float(row["q_cmd_3"]) + 2e-3
+        real = self.folder / "real.csv"
+        with open(real, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, rows[0])
+            writer.writeheader()
+            writer.writerows(rows)
+        stiff = self.positions(path, "1e-9")
+        left = max(math.dist(a, b) for a, b in zip(self.positions(real), stiff))
+        self.assertLess(left, 2e-6)
+        self.assertGreater(summary["learned"]["before"], 1e-3)
+        self.assertLess(summary["learned"]["after"], 2e-6)
+
+    def test_what_only_the_measurement_showed_moves_no_command(self):
+        path = self.plan()
+        plain, _ = self.compensated(KR270, path)
+        learnt, _ = self.compensated(
+            self.learnt_model("effect: time_offset, form: tcp_position, delay: 0.05"), path)
+        with open(plain, encoding="utf-8") as first, open(learnt, encoding="utf-8") as second:
+            for a, b in zip(csv.DictReader(first), csv.DictReader(second), strict=True):
+                for joint in range(1, 7):
+                    self.assertAlmostEqual(float(a[f"q_cmd_{joint}"]), float(b[f"q_cmd_{joint}"]),
+                                           delta=2e-6)
 
     def test_both_directions_and_every_plane_can_be_planned(self):
         for plane, tool_axis in (("xy", "0,0,-1"), ("xz", "0,1,0"), ("yz", "1,0,0")):

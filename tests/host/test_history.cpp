@@ -102,6 +102,24 @@ void a_mode_does_not_depend_on_even_steps() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-9, even_response[999], uneven_response[999]);
 }
 
+void a_mode_whose_frequency_doubles_rings_twice_as_fast_from_there_on() {
+  const VectorXd time = times(4001, 0.001);
+  VectorXd input = VectorXd::Zero(4001);
+  input[0] = 1;  // let go after a millisecond
+  VectorXd frequency = VectorXd::Constant(4001, 5);
+  frequency.tail(2001).setConstant(10);
+  const VectorXd response = history::mode(time, input, frequency, 1e-3);
+  const auto crossings = [&](int first, int last) {
+    int count = 0;
+    for (int row = first + 1; row <= last; ++row) {
+      count += (response[row - 1] < 0) != (response[row] < 0) ? 1 : 0;
+    }
+    return count;
+  };
+  TEST_ASSERT_INT_WITHIN(1, 20, crossings(0, 2000));
+  TEST_ASSERT_INT_WITHIN(1, 40, crossings(2000, 4000));
+}
+
 void a_lag_stays_behind_a_ramp_by_its_time_constant() {
   const VectorXd time = times(500, 0.004);
   const VectorXd output = history::lag(time, 2 * time, 0.03);
@@ -151,6 +169,7 @@ int main() {
   RUN_TEST(prandtl_ishlinskii_begins_as_a_spring_and_ends_saturated);
   RUN_TEST(a_mode_rings_at_its_frequency_and_dies_out_at_its_damping);
   RUN_TEST(a_mode_does_not_depend_on_even_steps);
+  RUN_TEST(a_mode_whose_frequency_doubles_rings_twice_as_fast_from_there_on);
   RUN_TEST(a_lag_stays_behind_a_ramp_by_its_time_constant);
   RUN_TEST(a_lag_without_a_constant_is_the_input);
   RUN_TEST(what_is_delayed_is_what_was_before_and_goes_on_at_the_ends);

@@ -1,10 +1,9 @@
 // Noise of a signal told apart from its motion, whole or with samples in few rows only.
-#include "recording/noise.hpp"
-
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "recording/noise.hpp"
 #include "unity_main.hpp"
 
 using Eigen::Index;

@@ -73,8 +73,7 @@ double explained(const std::vector<JointResidual>& residual, const Observations&
         (by_motion ? prediction.dynamic_load : prediction.load).col(joint - 1);
     const double scale = torque ? -1 : observations.simulations[s].joint_compliance[joint - 1];
     const Eigen::VectorXd wave =
-        scale *
-        (simulation::mode(observations.scenes[s].time, load, frequency[s], damping) - load);
+        scale * (simulation::mode(observations.scenes[s].time, load, frequency[s], damping) - load);
     sum += 2 * wave.dot(residual[s].product) - wave.cwiseAbs2().dot(residual[s].weight);
   }
   return sum;
