@@ -289,14 +289,18 @@ class Chooser {
     choice->findings.clear();
   }
 
-  /// Withdraws what leaves most of the mismatch standing where it shows: that proves nothing.
+  /// Withdraws what leaves most of the mismatch standing where it shows, or what was held out
+  /// there: that proves nothing.
   void withdraw_unproved(Choice* choice) const {
     std::vector<Chosen> kept;
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
-      const double explained = choice->findings[i].evidence.explained;
-      const bool stands = explained >= kLeastExplained;
-      (stands ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
-      choice->explained = stands ? choice->explained : std::max(choice->explained, explained);
+      const Evidence& evidence = choice->findings[i].evidence;
+      const bool explains = evidence.explained >= kLeastExplained;
+      const bool fails = fails_held_out(*observations_, choice->fit.remainder, evidence.group);
+      (explains && !fails ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
+      choice->explained =
+          explains ? choice->explained : std::max(choice->explained, evidence.explained);
+      choice->mispredicts = choice->mispredicts || (explains && fails);
     }
     if (kept.size() < choice->findings.size()) {
       choice->fit = fit(*observations_, std::move(kept), kLastSteps);

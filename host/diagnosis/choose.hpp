@@ -37,7 +37,8 @@ struct Choice {
   std::vector<Finding> findings;  ///< in the order of `fit.chosen`, the strongest first
   /// What held beside the others, but with all of them left most of the mismatch there standing.
   std::vector<Chosen> withdrawn;
-  double explained = 0;  ///< most of the power there that was accounted for
+  double explained = 0;      ///< most of the power there that was accounted for
+  bool mispredicts = false;  ///< some came near the noise there, but not of what was held out
 };
 
 /// Above it, effects imitate something else by large parts that cancel.
@@ -53,7 +54,8 @@ using Tell = std::function<void(std::size_t, std::size_t)>;
 /// some component by more than a third of its noise; and if, where it shows most, it accounts for a
 /// tenth of what was left beyond the noise, for a fiftieth of the whole fit, and takes away what
 /// is beyond the noise rather than noise. In the end nine tenths of the mismatch there must be
-/// accounted for by all of them together, or it is withdrawn.
+/// accounted for by all of them together, or it is withdrawn; and so it is if all of them come near
+/// the noise there, but fail on what was held out.
 ///
 /// The starts of hypotheses that are sought in the residual are sought anew after every step (the
 /// observations' `unexplained` is used for that). In the end the best pairs of hypotheses are tried

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <map>
 
 #include "diagnosis/parameters.hpp"
 
@@ -102,38 +100,10 @@ bool is_outdone(const Observations& observations, const Fit& findings, const Pro
   return bic_gain(samples, findings.train_sum, rival.fit.train_sum, 0) > kFarMoreEvidence;
 }
 
-/// Does what comes near the noise in the recordings fitted to fail on what was held out, in some
-/// component of a channel? Then it fits without being so. In a load test samples are too few, and
-/// their noise too little known, to tell.
-bool fails_held_out(const Observations& observations, const Fit& found) {
-  constexpr double kFar = 30;
-  constexpr double kNear = 2;  // times the noise
-  constexpr double kWorse = 1.5;
-  struct Part {
-    double sum = 0, count = 0;
-    double ratio() const { return std::sqrt(sum / std::max(count, 1.0)); }
-  };
-  if (observations.is_static) {
-    return false;
-  }
-  std::map<Group, std::array<Part, 2>> all;
-  for (Eigen::Index i = 0; i < observations.size(); ++i) {
-    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
-    Part& part = all[{at.channel, at.component}][i < observations.train ? 0 : 1];
-    const double value = std::clamp(found.remainder[i], -kFar, kFar);
-    part.sum += value * value;
-    part.count += 1;
-  }
-  for (const auto& [component, parts] : all) {
-    const double fitted = parts[0].ratio();
-    if (fitted < kNear && parts[1].ratio() > kWorse * std::max(fitted, 1.0)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 std::string reason_of_nothing(const Choice& choice) {
+  if (choice.mispredicts) {
+    return "what fits the recordings does not predict what was held out";
+  }
   return choice.withdrawn.empty() ? "no known effect accounts for it"
                                   : fmt::format("known effects account for {:.0f} % of it at most",
                                                 100 * std::max(choice.explained, 0.0));
@@ -153,9 +123,6 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
     withdraw(observations,
              "only a sum of large effects that cancel each other comes near, which imitates what "
              "is not there",
-             diagnosis);
-  } else if (fails_held_out(observations, found)) {
-    withdraw(observations, "what fits the recordings does not predict what was held out",
              diagnosis);
   } else {
     diagnosis->verdict = is_noise ? "explained" : "partly_explained";

@@ -147,6 +147,39 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
   return evidence;
 }
 
+bool fails_held_out(const Observations& observations, const Eigen::VectorXd& remainder,
+                    const Group& group) {
+  constexpr double kFar = 30;
+  constexpr double kNear = 2;  // times the noise
+  constexpr double kWorse = 1.5;
+  if (observations.is_static) {
+    return false;
+  }
+  struct Part {
+    double sum = 0, count = 0;
+    double ratio() const { return std::sqrt(sum / std::max(count, 1.0)); }
+  };
+  std::map<Eigen::Index, std::array<Part, 2>> components;
+  for (Eigen::Index i = 0; i < observations.size(); ++i) {
+    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
+    if (at.channel != group.first ||
+        (at.channel != simulation::tcp_position && at.component != group.second)) {
+      continue;
+    }
+    Part& part = components[at.component][i < observations.train ? 0 : 1];
+    const double value = std::clamp(remainder[i], -kFar, kFar);
+    part.sum += value * value;
+    part.count += 1;
+  }
+  for (const auto& [component, parts] : components) {
+    const double fitted = parts[0].ratio();
+    if (fitted < kNear && parts[1].ratio() > kWorse * std::max(fitted, 1.0)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 double largest_ratio(const Observations& observations, const Eigen::VectorXd& remainder) {
   std::array<double, 3> sums{};
   std::array<double, 3> counts{};

@@ -36,6 +36,12 @@ double independent_samples(const Observations& observations, const Eigen::Vector
 /// Schwarz's criterion: n·ln(before/after) less ln(n) for each parameter; n independent samples.
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters);
 
+/// Does a remainder that comes near the noise in what was fitted to fail on what was held out,
+/// where a group shows it? Then the fit fits without being so. In a load test samples are too few,
+/// and their noise too little known, to tell.
+bool fails_held_out(const Observations& observations, const Eigen::VectorXd& remainder,
+                    const Group& group);
+
 /// Root mean square of the remainder of the samples to fit to, over the noise, in the channel where
 /// it is largest.
 double largest_ratio(const Observations& observations, const Eigen::VectorXd& remainder);
