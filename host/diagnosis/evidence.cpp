@@ -11,6 +11,9 @@
 namespace flexcomp::diagnosis {
 namespace {
 
+constexpr double kAsGoodAsNoise =
+    2;                             // times the noise: a fit that comes so near claims to be right,
+constexpr double kFarWorse = 1.5;  // and must not be so many times worse where it was not fitted
 constexpr Eigen::Index kNeighboursApart = 40;  // of all rows: half a stretch that is held out
 
 /// Samples that follow each other, though a slow sensor may have none in many rows between; not
@@ -150,8 +153,6 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
 bool fails_held_out(const Observations& observations, const Eigen::VectorXd& remainder,
                     const Group& group) {
   constexpr double kFar = 30;
-  constexpr double kNear = 2;  // times the noise
-  constexpr double kWorse = 1.5;
   if (observations.is_static) {
     return false;
   }
@@ -171,13 +172,11 @@ bool fails_held_out(const Observations& observations, const Eigen::VectorXd& rem
     part.sum += value * value;
     part.count += 1;
   }
-  for (const auto& [component, parts] : components) {
-    const double fitted = parts[0].ratio();
-    if (fitted < kNear && parts[1].ratio() > kWorse * std::max(fitted, 1.0)) {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(components.begin(), components.end(), [](const auto& component) {
+    const double fitted = component.second[0].ratio();
+    const double held_out = component.second[1].ratio();
+    return fitted < kAsGoodAsNoise && held_out > kFarWorse * std::max(fitted, 1.0);
+  });
 }
 
 double largest_ratio(const Observations& observations, const Eigen::VectorXd& remainder) {

@@ -284,14 +284,15 @@ void describe_times(const Eigen::VectorXd& time, Preparation* preparation) {
   preparation->median_step = steps[steps.size() / 2];
 }
 
-}  // namespace
-
-Scene prepare(const recording::Recording& made, Eigen::Index most_rows, Preparation* preparation) {
-  refuse_unusable(made);
-  recording::Recording recording = made;
+recording::Recording without_repeats(recording::Recording recording) {
   for (auto* samples : {&recording.position, &recording.tau, &recording.q_link}) {
     drop_held(samples);
   }
+  return recording;
+}
+
+Scene scene_of(const recording::Recording& recording, Eigen::Index most_rows,
+               Preparation* preparation) {
   const recording::Samples& q = recording.q_meas ? *recording.q_meas : *recording.q_cmd;
   const std::vector<Eigen::Index> rows = usable_rows(recording, q, most_rows, preparation);
   describe_times(recording.time, preparation);
@@ -339,6 +340,14 @@ Scene prepare(const recording::Recording& made, Eigen::Index most_rows, Preparat
     scene.measured[joint_deflection] = picked(*recording.q_link, rows) - scene.q;
   }
   return scene;
+}
+
+}  // namespace
+
+Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
+              Preparation* preparation) {
+  refuse_unusable(recording);
+  return scene_of(without_repeats(recording), most_rows, preparation);
 }
 
 }  // namespace flexcomp::simulation
