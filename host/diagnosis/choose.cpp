@@ -296,7 +296,14 @@ class Chooser {
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
       const Evidence& evidence = choice->findings[i].evidence;
       const bool explains = evidence.explained >= kLeastExplained;
-      const bool fails = fails_held_out(*observations_, choice->fit.remainder, evidence.group);
+      const auto shows_there = [&](const Finding& other) {
+        return other.evidence.group == evidence.group;
+      };
+      // One law that accounts for so much is not so by accident; a sum of several may be.
+      const bool is_sum =
+          std::count_if(choice->findings.begin(), choice->findings.end(), shows_there) > 1;
+      const bool fails =
+          is_sum && fails_held_out(*observations_, choice->fit.remainder, evidence.group);
       (explains && !fails ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
       choice->explained =
           explains ? choice->explained : std::max(choice->explained, evidence.explained);
@@ -350,15 +357,15 @@ class Chooser {
     return weigh_last(plain, rich).confirmation > kConfirmed;
   }
 
-  /// Of fewer parameters, and no strong evidence speaks for the other; or the very same in numbers,
-  /// of what is changed more often than a joint's own: the payload, not the last link's mass.
+  /// Of fewer parameters, and no evidence speaks for the other; or the very same in numbers, of
+  /// what is changed more often than a joint's own: the payload, not the last link's mass.
   static bool is_plainer(const Alternative& one, const Chosen& other) {
     constexpr double kIdentical = 0.1;  // of BIC
     const bool is_smaller = one.chosen.values.size() < other.values.size();
     const bool is_identical = one.chosen.values.size() == other.values.size() &&
                               one.delta_bic < kIdentical && one.joint == 0 &&
                               other.hypothesis->joint != 0;
-    return (is_smaller && one.delta_bic <= kStrong) || is_identical;
+    return (is_smaller && one.delta_bic <= 0) || is_identical;
   }
 
   /// Finds the alternatives; puts a plainer one in the place of a finding, and is true then: the
