@@ -2,6 +2,7 @@
 tick, and the concealed plant again."""
 
 import json
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
@@ -47,6 +48,13 @@ def _commands(path):
     return table[:, [names.index(f"q_cmd_{k}") for k in range(1, 7)]]
 
 
+def _beside_model(nominal, diagnosed, folder):
+    """The diagnosed model's copy, where it finds the URDF: in ../model, as where it was written."""
+    shutil.copytree(nominal.parent, folder / "model")
+    (folder / "answer").mkdir()
+    return Path(shutil.copy(diagnosed, folder / "answer"))
+
+
 class _Loop:
     def __init__(self, tool, circle, work, folder):
         self.tool, self.circle, self.work, self.folder = tool, circle, work, folder
@@ -90,8 +98,10 @@ def close(tool, drawn, nominal, diagnosed):
             result = {"uncorrected": loop.circularity(signals),
                       "without": loop.corrected([], clean, nominal),
                       "nominal": loop.corrected(work.effects, signals, nominal)}
-            result["diagnosed"] = (loop.corrected(work.effects, signals, diagnosed)
-                                   if diagnosed.is_file() else result["nominal"])
+            result["diagnosed"] = result["nominal"]
+            if diagnosed.is_file():
+                learned = _beside_model(nominal, diagnosed, folder)
+                result["diagnosed"] = loop.corrected(work.effects, signals, learned)
         except (Failed, campaign_case.Unsuitable, FloatingPointError,
                 subprocess.TimeoutExpired) as error:
             return {"failed": str(error)}
