@@ -289,8 +289,8 @@ class Chooser {
     choice->findings.clear();
   }
 
-  /// Withdraws what leaves most of the mismatch standing where it shows, or what was held out
-  /// there: that proves nothing.
+  /// Withdraws what leaves most of the mismatch standing where it shows, and several findings that
+  /// fail together on what was held out there: that proves nothing.
   void withdraw_unproved(Choice* choice) const {
     std::vector<Chosen> kept;
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {

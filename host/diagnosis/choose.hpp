@@ -60,7 +60,7 @@ using Tell = std::function<void(std::size_t, std::size_t)>;
 /// The starts of hypotheses that are sought in the residual are sought anew after every step (the
 /// observations' `unexplained` is used for that). In the end the best pairs of hypotheses are tried
 /// too: a third may look better than either of the two alone. What is plainer takes the place of
-/// what no strong evidence prefers to it: one hypothesis of two, or one with fewer parameters.
+/// what the evidence does not prefer to it: one hypothesis of two, or one with fewer parameters.
 Choice choose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
               const Dictionary& dictionary, double false_discovery, const Tell& tell);
 

@@ -30,11 +30,6 @@ Scene scene_of(const recording::Recording& program, const recording::Samples& q_
   return simulation::prepare(recording, recording.size(), &preparation);
 }
 
-Eigen::MatrixXd errors_of(const Machine& machine, const Scene& scene,
-                          const recording::Samples& wanted) {
-  return predict(machine, {scene}).front().channel[simulation::tcp_position] - wanted;
-}
-
 /// Angles that move the TCP by `error` and turn it by nothing.
 JointVector<double, 6> angles_for(const Jacobian<double, 6>& jacobian,
                                   const Vector3<double>& error) {
@@ -61,7 +56,9 @@ LearnedCorrection correct_for_learned(const model::Robot& robot,
   for (int step = 0; step <= kSteps; ++step) {
     const Scene scene = scene_of(program, correction.q_cmd);
     const Machine machine = machine_of(moving, {scene});
-    const Eigen::MatrixXd errors = errors_of(machine, scene, wanted);
+    const simulation::Simulation at = simulate(machine, scene);
+    const Eigen::MatrixXd errors =
+        with_terms(machine.terms, scene, at).channel[simulation::tcp_position] - wanted;
     correction.after = errors.rowwise().norm().maxCoeff();
     if (step == 0) {
       correction.before = correction.after;
@@ -69,7 +66,6 @@ LearnedCorrection correct_for_learned(const model::Robot& robot,
     if (step == kSteps) {
       break;
     }
-    const simulation::Simulation at = simulate(machine, scene);
     for (Eigen::Index row = 0; row < errors.rows(); ++row) {
       correction.q_cmd.row(row) -=
           angles_for(at.jacobian[static_cast<std::size_t>(row)], errors.row(row).transpose())

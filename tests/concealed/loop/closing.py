@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from campaign import case as campaign_case
+from rivals.recording import read
 
 from . import milling
 
@@ -41,13 +42,6 @@ def _call(tool, *words):
     return done.stdout
 
 
-def _commands(path):
-    lines = path.read_text().splitlines()
-    names = lines[0].split(",")
-    table = np.array([[float(cell or "nan") for cell in line.split(",")] for line in lines[1:]])
-    return table[:, [names.index(f"q_cmd_{k}") for k in range(1, 7)]]
-
-
 def _beside_model(nominal, diagnosed, folder):
     """The diagnosed model's copy, where it finds the URDF: in ../model, as where it was written."""
     shutil.copytree(nominal.parent, folder / "model")
@@ -77,7 +71,7 @@ class _Loop:
               "--tolerance", TOLERANCE, "--orientation-tolerance", ORIENTATION)
         _call(self.tool, "compensate", "--model", model, "--table", table, "--path", program,
               "--out", corrected)
-        correction = _commands(corrected) - _commands(program)
+        correction = read(corrected).groups["q_cmd"] - read(program).groups["q_cmd"]
         return self.circularity(self.circle.run(self.work.description, effects, correction))
 
 

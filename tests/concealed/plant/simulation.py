@@ -9,6 +9,9 @@ from . import assembly as assemblies
 from .motion import Signals
 from .servo import Servo
 
+# An unstable plant raises; the engine would say it in a log in the user's folder, too.
+mujoco.set_mju_user_warning(lambda words: None)
+
 CLAMPED = 1e9  # kg·m²: a rotor that nothing moves
 RELAXING = 1.0  # of critical: damping while loads settle
 SETTLE = 0.6  # s, for a first equilibrium
