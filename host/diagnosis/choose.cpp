@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kConfirmed = 2;
+/// Such a fall of what was held out outweighs the estimate of the noise.
+constexpr double kOverwhelming = 20;
 constexpr double kLeastStrength = 1.0 / 3;
 /// What is weaker than this part of the whole is within the exactness of what is simulated of a
 /// motion.
@@ -202,7 +204,8 @@ class Chooser {
     return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
            evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
            (observations_->is_static || evidence.relative_strength > kExactness) &&
-           (observations_->is_static || evidence.beyond_noise > kLeastBeyondNoise) &&
+           (observations_->is_static || evidence.beyond_noise > kLeastBeyondNoise ||
+            evidence.confirmation > kOverwhelming) &&
            evidence.share > kLeastShare;
   }
 
@@ -361,6 +364,9 @@ class Chooser {
   /// what is changed more often than a joint's own: the payload, not the last link's mass.
   static bool is_plainer(const Alternative& one, const Chosen& other) {
     constexpr double kIdentical = 0.1;  // of BIC
+    if (one.chosen.hypothesis->is_shape_only) {
+      return false;
+    }
     const bool is_smaller = one.chosen.values.size() < other.values.size();
     const bool is_identical = one.chosen.values.size() == other.values.size() &&
                               one.delta_bic < kIdentical && one.joint == 0 &&
@@ -368,20 +374,31 @@ class Chooser {
     return (is_smaller && one.delta_bic <= 0) || is_identical;
   }
 
-  /// Finds the alternatives; puts a plainer one in the place of a finding, and is true then: the
-  /// richer one was taken for what others account for by now.
+  /// A law of the same joint that fits as well as a mere shape: that it has more parameters, some
+  /// of which do not show, says nothing against it.
+  static bool is_the_law(const Alternative& one, const Finding& finding, const Chosen& other) {
+    constexpr double kIndifferent = 2;  // "not worth more than a bare mention" (Kass and Raftery)
+    const double more =
+        static_cast<double>(one.chosen.values.size()) - static_cast<double>(other.values.size());
+    return other.hypothesis->is_shape_only && one.joint == other.hypothesis->joint &&
+           one.delta_bic - more * std::log(finding.evidence.effective_samples) < kIndifferent;
+  }
+
+  /// Finds the alternatives; puts a plainer one or the law itself in the place of a finding, and is
+  /// true then: the richer one was taken for what others account for by now.
   bool simplify(Choice* choice) const {
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
       find_alternatives(choice->fit, i, &choice->findings[i]);
     }
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
       for (const Alternative& other : choice->findings[i].alternatives) {
-        if (is_plainer(other, choice->fit.chosen[i])) {
+        const Chosen& own = choice->fit.chosen[i];
+        if (is_plainer(other, own) || is_the_law(other, choice->findings[i], own)) {
           std::vector<Chosen> chosen = choice->fit.chosen;
           chosen[i] = other.chosen;
-          Fit plain = fit(*observations_, std::move(chosen), kLastSteps);
-          if (!is_confirmed(plain, choice->fit)) {
-            choice->fit = std::move(plain);
+          Fit better = fit(*observations_, std::move(chosen), kLastSteps);
+          if (!is_confirmed(better, choice->fit)) {
+            choice->fit = std::move(better);
             prune(choice);
             return true;
           }

@@ -64,7 +64,10 @@ void find_groups(Diagnosis* diagnosis) {
     const Hypothesis& chosen = *diagnosis->choice.fit.chosen[i].hypothesis;
     std::vector<Place> group = {{chosen.effect, chosen.joint}};
     for (const Alternative& other : diagnosis->choice.findings[i].alternatives) {
-      if (other.delta_bic < kSameEvidence) {
+      const bool is_in = std::any_of(group.begin(), group.end(), [&](const Place& place) {
+        return place.effect == other.effect && place.joint == other.joint;
+      });
+      if (other.delta_bic < kSameEvidence && !is_in) {
         group.push_back({other.effect, other.joint});
       }
     }

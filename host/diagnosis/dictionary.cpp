@@ -14,6 +14,47 @@ namespace {
 constexpr double kLeastWhole = 0.4;
 constexpr double kMostWhole = 2.5;
 
+/// Which of its linear parameters is the most out of bounds, in steps of it; -1 where none is.
+Eigen::Index most_out_of_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitude) {
+  Eigen::Index most = -1;
+  // Noise may take a parameter that is nothing a little below its bound.
+  double distance = amplitude.size() > 1 ? 2 : 0;
+  for (Eigen::Index i = 0; i < amplitude.size(); ++i) {
+    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
+    const double out =
+        std::max(parameter.lower - amplitude[i], amplitude[i] - parameter.upper) / parameter.step;
+    if (out > distance) {
+      distance = out;
+      most = i;
+    }
+  }
+  return most;
+}
+
+/// The amplitudes of an entry within its hypothesis' bounds. Parameters that leave them (a mass
+/// that a recording cannot tell from its moments) are held at zero, the farthest first.
+LeastSquares solve_within_bounds(const Hypothesis& hypothesis, const Eigen::MatrixXd& gram,
+                                 const Eigen::VectorXd& moment, const Eigen::VectorXd& length) {
+  constexpr double kDamping = 1e-10;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < moment.size(); ++i) {
+    free.push_back(i);
+  }
+  while (!free.empty()) {
+    const LeastSquares solved =
+        solve_scaled(gram(free, free), moment(free), length(free), kDamping);
+    Eigen::VectorXd amplitude = Eigen::VectorXd::Zero(moment.size());
+    amplitude(free) = solved.amplitude;
+    const Eigen::Index out =
+        hypothesis.linear > 0 ? most_out_of_bounds(hypothesis, amplitude) : Eigen::Index{-1};
+    if (out < 0 || !amplitude.allFinite()) {
+      return {amplitude, solved.gain};
+    }
+    free.erase(std::remove(free.begin(), free.end(), out), free.end());
+  }
+  return {Eigen::VectorXd::Zero(moment.size()), 0};
+}
+
 }  // namespace
 
 Changes::Changes(const Observations& observations)
@@ -150,8 +191,8 @@ std::vector<Screened> screen(const Observations& observations,
     const Eigen::MatrixXd own =
         dictionary.gram.block(entry.first, entry.first, entry.count, entry.count);
     const LeastSquares solved =
-        solve_scaled(own - common.transpose() * common, product.segment(entry.first, entry.count),
-                     own.diagonal().cwiseSqrt(), 1e-10);
+        solve_within_bounds(hypotheses[entry.hypothesis], own - common.transpose() * common,
+                            product.segment(entry.first, entry.count), own.diagonal().cwiseSqrt());
     if (solved.gain > 0 && solved.amplitude.allFinite() &&
         within_bounds(hypotheses[entry.hypothesis], solved.amplitude)) {
       all.push_back({i, std::max(sum - solved.gain, 0.0), solved.amplitude});
@@ -193,15 +234,7 @@ bool within_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitud
   if (hypothesis.linear == 0) {
     return amplitude[0] > kLeastWhole && amplitude[0] < kMostWhole;
   }
-  for (Eigen::Index i = 0; i < amplitude.size(); ++i) {
-    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
-    // Noise may take a parameter that is nothing a little below its bound.
-    const double slack = amplitude.size() > 1 ? 2 * parameter.step : 0;
-    if (!(amplitude[i] >= parameter.lower - slack && amplitude[i] <= parameter.upper + slack)) {
-      return false;
-    }
-  }
-  return true;
+  return most_out_of_bounds(hypothesis, amplitude) < 0;
 }
 
 Values values_of(const Hypothesis& hypothesis, const Entry& entry,

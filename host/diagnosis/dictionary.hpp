@@ -71,7 +71,8 @@ struct Screened {
 };
 
 /// Every entry beside columns that are fitted already (samples × p, the parameters' derivatives);
-/// entries with amplitudes out of bounds are left out. Unsorted.
+/// parameters out of bounds are held at zero, and entries of which nothing is left are left out.
+/// Unsorted.
 std::vector<Screened> screen(const Observations& observations,
                              const std::vector<Hypothesis>& hypotheses,
                              const Dictionary& dictionary, const Eigen::VectorXd& remainder,

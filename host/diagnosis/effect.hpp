@@ -28,9 +28,10 @@ struct Hypothesis {
   std::size_t linear = 0;             ///< of the parameters, those that act (nearly) in proportion
   /// Where to begin with the other parameters; with `linear` zero each start is a whole guess.
   std::vector<Values> starts = {{}};
-  bool is_sought = false;     ///< the starts were sought in what was unexplained
-  bool alters_model = false;  ///< the scene must be simulated anew; else it only adds a term
-  bool is_curved = false;     ///< far from proportion: derivatives must be taken where it stands
+  bool is_sought = false;      ///< the starts were sought in what was unexplained
+  bool alters_model = false;   ///< the scene must be simulated anew; else it only adds a term
+  bool is_shape_only = false;  ///< a curve for want of the law: a law that fits as well is meant
+  bool is_curved = false;      ///< far from proportion: derivatives must be taken where it stands
   std::function<void(const Values&, simulation::Machine*)> apply;
   /// A term that does nearly the same, where `apply` alters the model; may be left out.
   std::function<simulation::Term(const Values&)> sketch;

@@ -142,7 +142,8 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
       const double fall = each.before - each.after;
       evidence.group = each.group;
       evidence.relative_strength = std::sqrt(each.change / std::max(each.whole, kTiny));
-      evidence.share = fall / std::max(each.before - each.count, kTiny);
+      const double noise = std::min(each.count, each.after);
+      evidence.share = fall / std::max(each.before - noise, kTiny);
       evidence.beyond_noise = (each.before - each.count) / std::max(fall, kTiny);
       evidence.explained = 1 - (each.after - each.count) / std::max(each.first - each.count, kTiny);
     }

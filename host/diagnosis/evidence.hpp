@@ -19,7 +19,8 @@ struct Evidence {
                             ///< over the noise
   Group group;              ///< that shows it most; what follows is of that group
   double relative_strength = 0;  ///< to that of the whole fit
-  double share = 0;              ///< of the power that is left beyond the noise without it
+  double share = 0;              ///< of the power that is left beyond the noise without it; the
+                                 ///< noise is no more than what is left with it
   double beyond_noise = 0;       ///< what was beyond the noise over what it takes away
   double explained = 0;          ///< part of the mismatch's power that the whole fit accounts for
   double effective_samples = 0;

@@ -15,6 +15,8 @@ from generator import case
 from scoring import answer, judge, trial
 
 TORQUE, STATIC = 16, 23  # stribeck_friction, joint_stiffness
+LINK_MASS = 4000097  # of which only the moments show, in a load test
+LATE_WRENCH = 4000066  # a cutting force that changes from row to row, as noise does
 CLEAN = 12
 FOREIGN = 11
 TOOL = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "flexcomp"
@@ -52,6 +54,20 @@ class Trials(unittest.TestCase):
 
     def test_an_effect_in_load_tests(self):
         self.assert_named_and_given_back(STATIC)
+
+    def test_a_mass_that_pulls_as_a_balancer_would_is_named_with_it(self):
+        _, found, result = self.result("single", LINK_MASS)
+        self.assertIn(result.first, judge.RIGHT, found.named)
+        said = json.loads((self.folder / "out" / "diagnosis.json").read_text())
+        self.assertIn([{"effect": "link_mass", "joint": 2}, {"effect": "gravity_compensator", "joint": 2}],
+                      said["indistinguishable"])
+
+    def test_a_mismatch_as_fast_as_noise(self):
+        truth, found, result = self.result("single", LATE_WRENCH)
+        self.assertIn(result.first, judge.RIGHT, found.named)
+        concealed = truth["effects"][0]["parameters"]["delay"]
+        self.assertAlmostEqual(concealed, found.parameters[0]["delay"]["value"],
+                               delta=0.05 * abs(concealed))
 
     def test_a_machine_like_its_model_is_left_alone(self):
         self.assertFalse(self.result("clean", CLEAN)[2].alarm)

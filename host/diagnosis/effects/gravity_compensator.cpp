@@ -34,6 +34,7 @@ Hypothesis sine_balancer(int joint) {
   hypothesis.effect = "gravity_compensator";
   hypothesis.joint = joint;
   hypothesis.form = "sine";
+  hypothesis.is_shape_only = true;  // a link's mass pulls by the same sine
   hypothesis.parameters = {{"sine_torque", "N·m", -1e6, 1e6, 100},
                            {"cosine_torque", "N·m", -1e6, 1e6, 100}};
   hypothesis.linear = 2;
