@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "cli/command.hpp"
+#include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/learned.hpp"
@@ -79,14 +80,6 @@ std::vector<simulation::Scene> read_scenes(const Options& options,
   return scenes;
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("{}: cannot be made a folder: {}", folder, error.message()));
-  }
-}
-
 void write_text(const std::filesystem::path& file, const std::string& text) {
   files::write_file(file, [&](std::ostream& stream) { stream << text; });
 }
@@ -134,7 +127,7 @@ int run(const Options& options) {
   // All of it is made before any of it is written.
   const std::string json = diagnosis::to_json(observations, result).dump(2) + "\n";
   const std::string html = diagnosis::to_html(observations, result, qualities);
-  make_folder(options.out);
+  output_folder(options.out);
   const std::filesystem::path folder(options.out);
   write_text(folder / "diagnosis.json", json);
   write_text(folder / "report.html", html);

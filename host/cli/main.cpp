@@ -59,6 +59,8 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp simulate …      where the bending robot really goes\n"
       "  flexcomp circularity …   how round that is\n"
       "  flexcomp report …        all of it on one page\n\n"
+      "Before there is a path:\n"
+      "  flexcomp map …           how round this robot mills, where it stands best\n\n"
       "On the bus, with flexcompd:\n"
       "  flexcomp configure …     a configuration file for flexcompd\n"
       "  flexcomp node …          arm it, disarm it, send it a table\n"
@@ -77,6 +79,7 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_compensate(&app, &action);
   flexcomp::cli::add_simulate(&app, &action);
   flexcomp::cli::add_circularity(&app, &action);
+  flexcomp::cli::add_map(&app, &action);
   flexcomp::cli::add_report(&app, &action);
   flexcomp::cli::add_configure(&app, &action);
   flexcomp::cli::add_node(&app, &action);

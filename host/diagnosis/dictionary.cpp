@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/parallel.hpp"
+#include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {

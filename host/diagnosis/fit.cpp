@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/parallel.hpp"
+#include "parallel/in_parallel.hpp"
 #include "error.hpp"
 
 namespace flexcomp::diagnosis {

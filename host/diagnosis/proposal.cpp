@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/effects/effects.hpp"
-#include "diagnosis/parallel.hpp"
+#include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {

@@ -38,24 +38,37 @@ class ScratchFolder {
   fs::path path_;
 };
 
-}  // namespace
+constexpr std::size_t kLargest = std::size_t{1} << 28;  // bytes
 
-std::string plot_svg(const std::string& script, int width, int height) {
+/// What a script draws on a terminal of gnuplot.
+std::string plotted(const std::string& script, const std::string& terminal) {
   const ScratchFolder folder;
   const fs::path script_file = folder.path() / "plot.gp";
-  const fs::path picture = folder.path() / "plot.svg";
-  std::ofstream(script_file) << fmt::format(
-                                    "set terminal svg size {},{} font 'sans-serif,13' "
-                                    "background '#ffffff'\nset output '{}'\nset encoding utf8\n",
-                                    width, height, picture.string())
+  const fs::path picture = folder.path() / "picture";
+  std::ofstream(script_file) << fmt::format("set terminal {}\nset output '{}'\nset encoding utf8\n",
+                                            terminal, picture.string())
                              << script << "\nunset output\n";
   const std::string command = fmt::format("gnuplot '{}' >/dev/null 2>&1", script_file.string());
   if (std::system(command.c_str()) != 0) {
     throw InputError("gnuplot failed: pictures need the program gnuplot (Debian: gnuplot-nox)");
   }
-  const std::string svg = files::read_text(picture);
+  return files::read_file(picture, kLargest);
+}
+
+}  // namespace
+
+std::string plot_svg(const std::string& script, int width, int height) {
+  const std::string svg = plotted(
+      script,
+      fmt::format("svg size {},{} font 'sans-serif,13' background '#ffffff'", width, height));
   const std::size_t begin = svg.find("<svg");
   return begin == std::string::npos ? svg : svg.substr(begin);
+}
+
+std::string plot_png(const std::string& script, int width, int height) {
+  return plotted(
+      script,
+      fmt::format("pngcairo size {},{} font 'sans-serif,13' background '#ffffff'", width, height));
 }
 
 }  // namespace flexcomp::report

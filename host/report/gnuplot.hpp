@@ -8,4 +8,7 @@ namespace flexcomp::report {
 /// output. Throws InputError where gnuplot is not installed or does not like the script.
 std::string plot_svg(const std::string& script, int width, int height);
 
+/// The same as the bytes of a PNG file.
+std::string plot_png(const std::string& script, int width, int height);
+
 }  // namespace flexcomp::report

@@ -13,49 +13,12 @@ import tempfile
 import unittest
 import zlib
 
-FLEXCOMP = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "flexcomp"
-SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
-ROBOTS = SOURCE / "host" / "robots"
-KR270 = ROBOTS / "kr270" / "robot.yaml"
+from command import FLEXCOMP, KR270, ROBOTS, SOURCE, Command, flexcomp
+
 HEADER_BYTES = 268
 
 
-def flexcomp(*arguments):
-    return subprocess.run(
-        [str(FLEXCOMP), *(str(argument) for argument in arguments)], capture_output=True, text=True
-    )
-
-
-class Command(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(self.scratch.cleanup)
-        self.folder = pathlib.Path(self.scratch.name)
-
-    def file(self, name, content):
-        path = self.folder / name
-        if isinstance(content, bytes):
-            path.write_bytes(content)
-        else:
-            path.write_text(content)
-        return path
-
-    def run_well(self, *arguments):
-        done = flexcomp(*arguments)
-        self.assertEqual(0, done.returncode, done.stderr)
-        self.assertEqual("", done.stderr)
-        return done.stdout
-
-    def assert_refused(self, *arguments, saying):
-        """One clear line on standard error, exit code 2, nothing left behind."""
-        before = sorted(self.folder.rglob("*"))
-        done = flexcomp(*arguments)
-        self.assertEqual(2, done.returncode, done.stderr)
-        self.assertEqual("", done.stdout)
-        self.assertEqual(1, done.stderr.count("\n"), done.stderr)
-        self.assertIn(saying, done.stderr)
-        self.assertEqual(before, sorted(self.folder.rglob("*")))
-
+class PathCommand(Command):
     def plan(self, model=KR270, *more):
         path = self.folder / "path.csv"
         self.run_well("plan", "circle", "--model", model, "--center", "1.6,0,1.2", "--plane", "xz",
@@ -72,7 +35,7 @@ class Command(unittest.TestCase):
         return json.loads(self.run_well("circularity", recording, "--columns", "x,z", "--json"))
 
 
-class MainJob(Command):
+class MainJob(PathCommand):
     def test_the_corrected_circle_keeps_less_than_two_percent_of_the_error(self):
         for robot in ("kr100", "kr270", "kr360", "kr500"):
             with self.subTest(robot=robot):
@@ -200,7 +163,7 @@ class MainJob(Command):
         self.assertNotIn("src=", html)
 
 
-class Tables(Command):
+class Tables(PathCommand):
     def test_the_certificate_of_a_fresh_table_holds(self):
         path = self.plan()
         table = self.table(path)
@@ -256,7 +219,7 @@ class Tables(Command):
                             "--out", self.folder / "c.csv", saying="wrench beyond")
 
 
-class BadInput(Command):
+class BadInput(PathCommand):
     """A missing file, a directory, an empty file, a binary file, and worse."""
 
     def commands_reading(self, bad):
@@ -359,7 +322,7 @@ class BadInput(Command):
                 self.assert_refused(*arguments, saying=saying)
 
 
-class Manners(Command):
+class Manners(PathCommand):
     def test_help_and_version_go_to_standard_output(self):
         for arguments in (("--help",), ("--version",), ("table", "--help"), ("plan", "circle", "--help")):
             self.assertIn("flexcomp", self.run_well(*arguments))

@@ -1,4 +1,4 @@
-#include "diagnosis/parallel.hpp"
+#include "parallel/in_parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace flexcomp::diagnosis {
+namespace flexcomp {
 
 void in_parallel(std::size_t count, const std::function<void(std::size_t, std::size_t)>& progress,
                  const std::function<void(std::size_t)>& work) {
@@ -41,4 +41,4 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t, std::s
   }
 }
 
-}  // namespace flexcomp::diagnosis
+}  // namespace flexcomp

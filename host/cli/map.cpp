@@ -1,0 +1,233 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "cli/command.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/progress.hpp"
+#include "error.hpp"
+#include "files/text_file.hpp"
+#include "model/robot.hpp"
+#include "report/gnuplot.hpp"
+#include "study/circularity_map.hpp"
+#include "study/map_picture.hpp"
+#include "study/presets.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string model;
+  std::string out;
+  std::string preset = "strict";
+  std::string sense;
+  std::array<double, 3> force{};
+  std::array<double, 3> moment{};
+  double radius = 0.1;
+  double step = 0.05;
+  int points = 72;
+  std::vector<double> regions = {0.1, 0.2, 0.5};
+  bool has_force = false;
+  bool has_moment = false;
+  bool first_order = false;
+  bool no_limits = false;
+  bool json = false;
+};
+
+const study::Preset& preset_named(const std::string& name) {
+  for (const study::Preset& each : study::presets()) {
+    if (each.name == name) {
+      return each;
+    }
+  }
+  throw InputError(fmt::format("--preset: no preset {}", name));
+}
+
+Vector3<double> vector(const std::array<double, 3>& values) {
+  return {values[0], values[1], values[2]};
+}
+
+study::MilledCircle circle_of(const Options& options) {
+  study::MilledCircle circle = preset_named(options.preset).circle;
+  circle.radius = options.radius;
+  circle.points = options.points;
+  circle.force = options.has_force ? vector(options.force) : circle.force;
+  circle.moment = options.has_moment ? vector(options.moment) : circle.moment;
+  circle.is_first_order = circle.is_first_order || options.first_order;
+  circle.has_limits = !options.no_limits;
+  if (!options.sense.empty()) {
+    circle.sense =
+        options.sense == "with" ? study::WrenchSense::with_path : study::WrenchSense::against_path;
+  }
+  return circle;
+}
+
+/// A map with all that is told of it.
+struct Study {
+  study::MilledCircle circle;
+  study::PlanarArm arm;
+  study::CircularityMap map;
+  study::MapSummary summary;
+  std::vector<study::BestSquare> squares;
+
+  bool is_counter() const {
+    return circle.is_first_order && circle.sense == study::WrenchSense::against_path;
+  }
+  double middle() const { return is_counter() ? study::counter_middle(arm, circle) : summary.mean; }
+};
+
+Study study_of(const model::Robot& robot, const Options& options) {
+  Study study;
+  study.circle = circle_of(options);
+  const study::CircleStudy at(robot.elastic, study.circle);
+  study.arm = at.arm();
+  Progress progress("mapping", 1000);
+  study.map = study::map_circularity(at, options.step, [&](std::size_t done, std::size_t count) {
+    progress.show(1000 * done / count);
+  });
+  study.summary = study::summarize(study.map);
+  for (const double size : options.regions) {
+    study.squares.push_back(study::best_square(study.map, size));
+  }
+  return study;
+}
+
+Json summary_json(const model::Robot& robot, const Options& options, const Study& study) {
+  const study::MilledCircle& circle = study.circle;
+  Json regions = Json::array();
+  for (const study::BestSquare& square : study.squares) {
+    regions.push_back(
+        square.fits
+            ? Json{{"size", square.size}, {"x", square.x}, {"z", square.z}, {"worst", square.worst}}
+            : Json{{"size", square.size}, {"x", nullptr}, {"z", nullptr}, {"worst", nullptr}});
+  }
+  return {{"schema", "flexcomp/map/1"},
+          {"robot", robot.name},
+          {"preset", options.preset},
+          {"radius", circle.radius},
+          {"force", {circle.force[0], circle.force[1], circle.force[2]}},
+          {"moment", {circle.moment[0], circle.moment[1], circle.moment[2]}},
+          {"point", circle.point == study::ToolPoint::wrist ? "wrist" : "tcp"},
+          {"wrench_sense", circle.sense == study::WrenchSense::with_path ? "with" : "against"},
+          {"first_order", circle.is_first_order},
+          {"joint_limits", circle.has_limits},
+          {"step", study.map.step},
+          {"nodes_in_reach", study.summary.reached},
+          {"min", study.summary.min},
+          {"max", study.summary.max},
+          {"mean", study.summary.mean},
+          {"median", study.summary.median},
+          {"middle", study.middle()},
+          {"middle_is",
+           study.is_counter() ? "mean over the distance from joint 2" : "mean over the area"},
+          {"regions", regions}};
+}
+
+void write_csv(const std::filesystem::path& file, const study::CircularityMap& map) {
+  files::write_file(file, [&](std::ostream& out) {
+    out << "x,z,circularity\n";
+    for (int row = 0; row < map.rows; ++row) {
+      for (int column = 0; column < map.columns; ++column) {
+        const double value = map.at(column, row);
+        out << fmt::format("{:.9g},{:.9g},{}\n", map.x(column), map.z(row),
+                           std::isnan(value) ? "" : fmt::format("{:.9g}", value));
+      }
+    }
+  });
+}
+
+void print_summary(const model::Robot& robot, const Options& options, const Study& study) {
+  const auto mm = [](double metres) { return 1e3 * metres; };
+  fmt::print("{}, preset {}: {}\n", robot.name, options.preset,
+             preset_named(options.preset).meaning);
+  fmt::print("circularity (least squares), mm: min {:.3f}, max {:.3f}, middle {:.3f}\n",
+             mm(study.summary.min), mm(study.summary.max), mm(study.middle()));
+  for (const study::BestSquare& square : study.squares) {
+    fmt::print("best place for {:g} × {:g} mm: {}\n", mm(square.size), mm(square.size),
+               square.fits ? fmt::format("x {:.3f} m, z {:.3f} m, at most {:.3f} mm", square.x,
+                                         square.z, mm(square.worst))
+                           : "none in reach");
+  }
+}
+
+int run(const Options& options) {
+  for (const double size : options.regions) {
+    if (!(size > 0) || !std::isfinite(size)) {
+      throw InputError("--region: expected sides above zero");
+    }
+  }
+  const model::Robot robot = model::load_robot(options.model);
+  const Study study = study_of(robot, options);
+  const Json summary = summary_json(robot, options, study);
+  const std::string script =
+      study::map_script(study.map, study.arm, study.squares,
+                        fmt::format("{}: circularity of a milled circle, radius {:g} mm, preset {}",
+                                    robot.name, 1e3 * study.circle.radius, options.preset));
+  const std::string svg = report::plot_svg(script, 900, 860);
+  const std::string png = report::plot_png(script, 900, 860);
+  const std::filesystem::path folder = output_folder(options.out);
+  write_csv(folder / "map.csv", study.map);
+  files::write_file(folder / "map.svg", [&](std::ostream& out) { out << svg; });
+  files::write_file(folder / "map.png", [&](std::ostream& out) { out << png; });
+  files::write_file(folder / "summary.json",
+                    [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
+  if (options.json) {
+    fmt::print("{}\n", summary.dump(2));
+  } else {
+    print_summary(robot, options, study);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_map(CLI::App* app, Action* action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "map",
+      "How round circles become that the uncorrected robot mills, over the plane of joints 2 and "
+      "3\n"
+      "(y = 0, joints 1, 4, 5 and 6 at zero), and the best places for square jobs.\n\n"
+      "Writes map.csv (x, z, circularity; m), map.svg, map.png and summary.json. The study by\n"
+      "Klimchik et al. (2017) does not say all of its assumptions; a preset is one reading of it:\n"
+      "  strict   wrist centre, the force of the study turning with the path (eq. 15 as written)\n"
+      "  flange   flange (the model's TCP), 1104 N out of the circle, turning with the path\n"
+      "  counter  wrist centre, first order, the force turning against the path\n"
+      "Example: flexcomp map --model robot.yaml --preset strict --out map");
+  command->add_option("--model", options->model, "robot.yaml")->required();
+  command->add_option("--out", options->out, "folder to write to")->required();
+  command->add_option("--preset", options->preset, "posture, point, force and its sense")
+      ->check(CLI::IsMember({"strict", "flange", "counter"}));
+  command->add_option("--radius", options->radius, "of the circles, m");
+  CLI::Option* force = add_vector(command, "--force", &options->force,
+                                  "N: out of the circle, along the feed, along the normal; "
+                                  "otherwise the preset's");
+  CLI::Option* moment = add_vector(command, "--moment", &options->moment,
+                                   "N·m, in the same directions; otherwise the preset's");
+  force->default_str("");
+  moment->default_str("");
+  command->add_option("--step", options->step, "of the grid, m");
+  command->add_option("--points", options->points, "of a circle");
+  command->add_option("--region", options->regions, "sides of square jobs, m")->delimiter(',');
+  command->add_flag("--first-order", options->first_order,
+                    "levers taken at the circle's centre all round");
+  command
+      ->add_option("--wrench-sense", options->sense,
+                   "the wrench turns with the path or against it; otherwise the preset's")
+      ->check(CLI::IsMember({"with", "against"}));
+  command->add_flag("--no-limits", options->no_limits, "without joint limits");
+  command->add_flag("--json", options->json, "print summary.json");
+  command->callback([=] {
+    options->has_force = force->count() > 0;
+    options->has_moment = moment->count() > 0;
+    *action = [=] { return run(*options); };
+  });
+}
+
+}  // namespace flexcomp::cli

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "study/planar_arm.hpp"
+
+namespace flexcomp::study {
+
+using Values = Eigen::ArrayXd;
+
+/// Points or vectors of the plane, all along a path.
+struct PlanarPath {
+  Values x;
+  Values z;
+
+  static PlanarPath constant(Planar value, Eigen::Index count) {
+    return {Values::Constant(count, value.real()), Values::Constant(count, value.imag())};
+  }
+  PlanarPath operator+(const PlanarPath& other) const { return {x + other.x, z + other.z}; }
+  PlanarPath operator-(const PlanarPath& other) const { return {x - other.x, z - other.z}; }
+  PlanarPath shifted(Planar by) const { return {x + by.real(), z + by.imag()}; }
+  PlanarPath turned(Planar by) const {
+    return {by.real() * x - by.imag() * z, by.imag() * x + by.real() * z};
+  }
+  Planar operator[](Eigen::Index i) const { return {x[i], z[i]}; }
+};
+
+/// Each vector times the conjugate of the other's: its direction from there.
+inline PlanarPath relative(const PlanarPath& a, const PlanarPath& b) {
+  return {a.x * b.x + a.z * b.z, a.z * b.x - a.x * b.z};
+}
+
+inline PlanarPath scaled(const PlanarPath& path, double by) { return {by * path.x, by * path.z}; }
+
+/// The levers of one posture or of all along a path.
+struct Levers {
+  PlanarPath shoulder;  ///< from joint 2 to the tool point
+  PlanarPath elbow;     ///< from joint 3
+  PlanarPath wrist;     ///< from joint 5
+};
+
+}  // namespace flexcomp::study

@@ -1,0 +1,44 @@
+#include "study/presets.hpp"
+
+#include <cmath>
+
+namespace flexcomp::study {
+namespace {
+
+MilledCircle strict() { return {}; }
+
+MilledCircle flange() {
+  MilledCircle circle;
+  circle.force = {1104, 0, 0};
+  circle.point = ToolPoint::tcp;
+  return circle;
+}
+
+MilledCircle counter() {
+  MilledCircle circle;
+  circle.sense = WrenchSense::against_path;
+  circle.is_first_order = true;
+  return circle;
+}
+
+}  // namespace
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all = {
+      {"strict", "the wrist centre, the force of the study turning with the path", strict()},
+      {"flange", "the flange, 1104 N out of the circle turning with the path", flange()},
+      {"counter", "the wrist centre, first order, the force turning against the path", counter()},
+  };
+  return all;
+}
+
+double counter_middle(const PlanarArm& arm, const MilledCircle& circle) {
+  const double least = arm.reach[0];
+  const double most = arm.reach[1];
+  const double mean_square = (std::pow(most, 3) - std::pow(least, 3)) / (3 * (most - least));
+  return std::hypot(circle.force[0], circle.force[1]) *
+         (arm.compliance[0] * mean_square + arm.compliance[1] * std::norm(arm.forearm) +
+          arm.compliance[2] * std::norm(arm.wrist_to_tool));
+}
+
+}  // namespace flexcomp::study

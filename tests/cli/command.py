@@ -1,0 +1,49 @@
+"""What the tests of the flexcomp command share."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+FLEXCOMP = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "flexcomp"
+SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
+ROBOTS = SOURCE / "host" / "robots"
+KR270 = ROBOTS / "kr270" / "robot.yaml"
+
+
+def flexcomp(*arguments):
+    return subprocess.run(
+        [str(FLEXCOMP), *(str(argument) for argument in arguments)], capture_output=True, text=True
+    )
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+
+    def file(self, name, content):
+        path = self.folder / name
+        if isinstance(content, bytes):
+            path.write_bytes(content)
+        else:
+            path.write_text(content)
+        return path
+
+    def run_well(self, *arguments):
+        done = flexcomp(*arguments)
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertEqual("", done.stderr)
+        return done.stdout
+
+    def assert_refused(self, *arguments, saying):
+        """One clear line on standard error, exit code 2, nothing left behind."""
+        before = sorted(self.folder.rglob("*"))
+        done = flexcomp(*arguments)
+        self.assertEqual(2, done.returncode, done.stderr)
+        self.assertEqual("", done.stdout)
+        self.assertEqual(1, done.stderr.count("\n"), done.stderr)
+        self.assertIn(saying, done.stderr)
+        self.assertEqual(before, sorted(self.folder.rglob("*")))
