@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "cli/position_columns.hpp"
 #include "error.hpp"
+#include "geometry/polar_profile.hpp"
 
 namespace flexcomp::cli {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::string path;
   std::vector<std::string> columns;
+  double filter = 0;
   bool json = false;
 };
 
@@ -31,12 +33,31 @@ constexpr Method kMethods[] = {
     {"mcc", "MCC  minimum circumscribed", geometry::minimum_circumscribed_circularity},
 };
 
+/// The path, filtered if that is asked for.
+geometry::Points points_of(const recording::NumberTable& table, const Options& options) {
+  const geometry::Points points = points_in(table, plane_columns(table, options.columns));
+  try {
+    return options.filter == 0 ? points : geometry::filtered(points, options.filter);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", options.path, error.what()));
+  }
+}
+
+std::string filter_name(double cutoff) {
+  return cutoff > 0 ? fmt::format(", Gaussian filter of {:g} undulations per revolution", cutoff)
+                    : std::string(", no filter");
+}
+
 int run(const Options& options) {
   const recording::NumberTable table = recording::read_csv(options.path);
-  const geometry::Points points = points_in(table, plane_columns(table, options.columns));
+  const geometry::Points points = points_of(table, options);
   nlohmann::ordered_json json = {{"points", points.size()}};
-  std::string text = fmt::format("{} points; mm\n{:28} {:>13} {:>13} {:>13}   center\n",
-                                 points.size(), "", "circularity", "r_min", "r_max");
+  if (options.filter > 0) {
+    json["filter"] = options.filter;
+  }
+  std::string text =
+      fmt::format("{} points{}; mm\n{:28} {:>13} {:>13} {:>13}   center\n", points.size(),
+                  filter_name(options.filter), "", "circularity", "r_min", "r_max");
   for (const Method& method : kMethods) {
     geometry::Circularity result;
     try {
@@ -63,13 +84,15 @@ void add_circularity(CLI::App* app, Action* action) {
   CLI::App* command = app->add_subcommand(
       "circularity",
       "How round a path is, about the four reference circles of ISO 12181-1, exactly.\n"
-      "No filter is applied: every point counts.\n"
+      "Without --filter every point counts.\n"
       "Example: flexcomp circularity recording.csv --columns x,z --json");
   command->add_option("path", options->path, "CSV with a header and position columns in m")
       ->required();
   command->add_option("--columns", options->columns, "the two columns of the circle's plane")
       ->delimiter(',')
       ->expected(2);
+  command->add_option("--filter", options->filter,
+                      "Gaussian filter (ISO 16610-21): cut-off, undulations per revolution");
   command->add_flag("--json", options->json, "one JSON object, lengths in m");
   command->callback([=] { *action = [=] { return run(*options); }; });
 }

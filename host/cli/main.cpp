@@ -58,6 +58,7 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp compensate …    the path, corrected\n"
       "  flexcomp simulate …      where the bending robot really goes\n"
       "  flexcomp circularity …   how round that is\n"
+      "  flexcomp form …          how straight, how flat, how round both ways\n"
       "  flexcomp report …        all of it on one page\n\n"
       "Before there is a path:\n"
       "  flexcomp map …           how round this robot mills, where it stands best\n\n"
@@ -79,6 +80,7 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_compensate(&app, &action);
   flexcomp::cli::add_simulate(&app, &action);
   flexcomp::cli::add_circularity(&app, &action);
+  flexcomp::cli::add_form(&app, &action);
   flexcomp::cli::add_map(&app, &action);
   flexcomp::cli::add_report(&app, &action);
   flexcomp::cli::add_configure(&app, &action);

@@ -51,4 +51,18 @@ geometry::Points points_in(const recording::NumberTable& table,
   return points;
 }
 
+geometry::SpacePoints points_in_space(const recording::NumberTable& table) {
+  const std::size_t x = column_index(table, "x");
+  const std::size_t y = column_index(table, "y");
+  const std::size_t z = column_index(table, "z");
+  geometry::SpacePoints points;
+  for (const std::vector<double>& row : table.rows) {
+    const Eigen::Vector3d point(row[x], row[y], row[z]);
+    if (point.allFinite()) {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
 }  // namespace flexcomp::cli
