@@ -61,7 +61,8 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp form …          how straight, how flat, how round both ways\n"
       "  flexcomp report …        all of it on one page\n\n"
       "Before there is a path:\n"
-      "  flexcomp map …           how round this robot mills, where it stands best\n\n"
+      "  flexcomp map …           how round this robot mills, where it stands best\n"
+      "  flexcomp force …         the force of milling, and a path with it\n\n"
       "On the bus, with flexcompd:\n"
       "  flexcomp configure …     a configuration file for flexcompd\n"
       "  flexcomp node …          arm it, disarm it, send it a table\n"
@@ -80,6 +81,7 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_compensate(&app, &action);
   flexcomp::cli::add_simulate(&app, &action);
   flexcomp::cli::add_circularity(&app, &action);
+  flexcomp::cli::add_force(&app, &action);
   flexcomp::cli::add_form(&app, &action);
   flexcomp::cli::add_map(&app, &action);
   flexcomp::cli::add_report(&app, &action);

@@ -23,7 +23,7 @@ class Map(Command):
                          {path.name for path in out.iterdir()})
         summary = json.loads((out / "summary.json").read_text())
         self.assertEqual(summary, json.loads(printed))
-        rows = list(csv.DictReader((out / "map.csv").open()))
+        rows = list(csv.DictReader((out / "map.csv").read_text().splitlines()))
         values = [float(row["circularity"]) for row in rows if row["circularity"]]
         self.assertEqual(summary["nodes_in_reach"], len(values))
         self.assertLess(len(values), len(rows))
