@@ -27,6 +27,7 @@ void add_circularity(CLI::App* app, Action* action);
 void add_force(CLI::App* app, Action* action);
 void add_form(CLI::App* app, Action* action);
 void add_map(CLI::App* app, Action* action);
+void add_select(CLI::App* app, Action* action);
 void add_report(CLI::App* app, Action* action);
 void add_configure(CLI::App* app, Action* action);
 void add_convert(CLI::App* app, Action* action);
