@@ -111,8 +111,7 @@ Problem problem_of(const RobotModel<double, 6>& model, const Tests& tests,
   Eigen::MatrixXd stacked(3 * n, springs + 6 + 1);
   for (Eigen::Index i = 0; i < n; ++i) {
     const LoadTest test{tests.q.row(i).transpose(), tests.wrench.row(i).transpose()};
-    const Vector3<double> unloaded =
-        forward_kinematics<double, 6>(model, test.q).tcp.position;
+    const Vector3<double> unloaded = forward_kinematics<double, 6>(model, test.q).tcp.position;
     stacked.block(3 * i, 0, 3, springs) = spring_columns(model, test, sought);
     stacked.block(3 * i, springs, 3, 6) = cubic_columns(model, test);
     stacked.block(3 * i, springs + 6, 3, 1) = tests.position.row(i).transpose() - unloaded;
@@ -242,8 +241,7 @@ Identification identify_springs(const RobotModel<double, 6>& model,
   result.noise = std::sqrt(sum / static_cast<double>(result.freedom));
   const Eigen::VectorXd spread = (svd.matrixV() * inverse.asDiagonal()).rowwise().norm();
   // A column that takes part in a direction that is not told is not told either.
-  const Eigen::VectorXd untold =
-      svd.matrixV().rightCols(singular.size() - rank).rowwise().norm();
+  const Eigen::VectorXd untold = svd.matrixV().rightCols(singular.size() - rank).rowwise().norm();
   const boost::math::students_t student(static_cast<double>(result.freedom));
   const double reach = boost::math::quantile(boost::math::complement(student, 0.025));
   for (Eigen::Index i = 0; i < solution.size(); ++i) {
@@ -265,8 +263,8 @@ Identification identify_springs(const RobotModel<double, 6>& model,
     const double share = std::sqrt(static_cast<double>(result.freedom) /
                                    static_cast<double>(problem.observed.size()));
     result.largest_residual = largest / (result.noise * share);
-    const double alone = 2 * boost::math::cdf(boost::math::complement(
-                                 boost::math::normal(), result.largest_residual));
+    const double alone = 2 * boost::math::cdf(boost::math::complement(boost::math::normal(),
+                                                                      result.largest_residual));
     result.outlier_chance = std::min(1.0, alone * static_cast<double>(problem.observed.size()));
     result.nonlinearity_chance = nonlinearity_chance(problem, sum, result.freedom);
   }

@@ -22,10 +22,10 @@ struct SoughtSprings {
 
 /// A compliance and how well it is known.
 struct IdentifiedSpring {
-  std::string name;       ///< joint_1 … joint_6, base_x … base_rz, tool_x … tool_rz
-  double value = 0;       ///< rad/(N·m), or m/N
-  double deviation = 0;   ///< standard
-  double lower = 0;       ///< of the 95 % interval (Student's t)
+  std::string name;      ///< joint_1 … joint_6, base_x … base_rz, tool_x … tool_rz
+  double value = 0;      ///< rad/(N·m), or m/N
+  double deviation = 0;  ///< standard
+  double lower = 0;      ///< of the 95 % interval (Student's t)
   double upper = 0;
   bool is_told = true;  ///< false where the tests say nothing of it; the rest is meaningless then
 };
@@ -37,9 +37,9 @@ struct Identification {
   double condition_number = 0;  ///< of the columns over their lengths, of what can be told
   Eigen::Index freedom = 0;     ///< coordinates less what was fitted
   Eigen::Index postures = 0;
-  double largest_residual = 0;    ///< in standard deviations
-  Eigen::Index largest_row = 0;   ///< of the recording, where that is
-  double outlier_chance = 1;      ///< of one so large among as many, were all noise
+  double largest_residual = 0;     ///< in standard deviations
+  Eigen::Index largest_row = 0;    ///< of the recording, where that is
+  double outlier_chance = 1;       ///< of one so large among as many, were all noise
   double nonlinearity_chance = 1;  ///< of cubic terms that explain so much, were springs linear
 };
 
