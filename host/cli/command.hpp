@@ -26,6 +26,7 @@ void add_simulate(CLI::App* app, Action* action);
 void add_circularity(CLI::App* app, Action* action);
 void add_force(CLI::App* app, Action* action);
 void add_form(CLI::App* app, Action* action);
+void add_identify(CLI::App* app, Action* action);
 void add_map(CLI::App* app, Action* action);
 void add_select(CLI::App* app, Action* action);
 void add_report(CLI::App* app, Action* action);

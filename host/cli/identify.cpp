@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "error.hpp"
+#include "model/robot.hpp"
+#include "study/identification.hpp"
+#include "study/load_test_plan.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kUnlikely = 0.01;
+
+struct Options {
+  std::string model;
+  std::string recording;
+  std::string out;
+  std::array<double, 3> deviations = {1, 1, 1};
+  study::SoughtSprings sought;
+  bool json = false;
+};
+
+struct PlanOptions {
+  std::string model;
+  std::string out;
+  study::PlanRequest request;
+  bool json = false;
+};
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Puts a spring that is told into the model; a compliance cannot be below zero.
+void put(const study::IdentifiedSpring& spring, std::size_t index,
+         const study::SoughtSprings& sought, model::Robot* robot) {
+  if (!spring.is_told) {
+    return;
+  }
+  const double value = std::max(spring.value, 0.0);
+  if (index < 6) {
+    robot->elastic.joints[index].compliance = value;
+  } else if (index < 12 && sought.base) {
+    robot->elastic.base_compliance[static_cast<Eigen::Index>(index) - 6] = value;
+  } else {
+    robot->elastic.tool_compliance[static_cast<Eigen::Index>(index) % 6] = value;
+  }
+}
+
+Json to_json(const study::Identification& found, const recording::Recording& recording) {
+  Json springs = Json::object();
+  for (const study::IdentifiedSpring& spring : found.springs) {
+    springs[spring.name] = spring.is_told ? Json{{"value", spring.value},
+                                                 {"std", spring.deviation},
+                                                 {"interval_95", {spring.lower, spring.upper}}}
+                                          : Json(nullptr);
+  }
+  return {{"schema", "flexcomp/identification/1"},
+          {"springs", springs},
+          {"noise", found.noise},
+          {"condition_number", found.condition_number},
+          {"degrees_of_freedom", found.freedom},
+          {"postures", found.postures},
+          {"largest_residual",
+           {{"place", recording.place(found.largest_row)},
+            {"deviations", found.largest_residual},
+            {"p_value", found.outlier_chance}}},
+          {"nonlinearity_p_value", found.nonlinearity_chance}};
+}
+
+void print(const study::Identification& found, const recording::Recording& recording) {
+  fmt::print("{:10} {:>13} {:>13}   95 % interval, 1e-6 rad/(N·m) (translations: 1e-6 m/N)\n",
+             "spring", "compliance", "deviation");
+  for (const study::IdentifiedSpring& spring : found.springs) {
+    if (spring.is_told) {
+      fmt::print("{:10} {:13.5f} {:13.5f}   {:.5f} to {:.5f}\n", spring.name, 1e6 * spring.value,
+                 1e6 * spring.deviation, 1e6 * spring.lower, 1e6 * spring.upper);
+    } else {
+      fmt::print("{:10} these tests do not tell it\n", spring.name);
+    }
+  }
+  fmt::print(
+      "noise of a coordinate {:.1f} µm, {} degrees of freedom, {} postures, condition number "
+      "{:.1f}\n",
+      1e6 * found.noise, found.freedom, found.postures, found.condition_number);
+  if (found.outlier_chance < kUnlikely) {
+    fmt::print(
+        "{}: off by {:.1f} standard deviations: is it right, and the others of its posture?\n",
+        recording.place(found.largest_row), found.largest_residual);
+  }
+  if (found.nonlinearity_chance < kUnlikely) {
+    fmt::print("the springs are not linear (p = {:.1g}): try flexcomp diagnose\n",
+               found.nonlinearity_chance);
+  }
+}
+
+int run(const Options& options) {
+  if (options.model.empty() || options.recording.empty()) {
+    throw InputError("identify: --model and --recording are required (see --help)");
+  }
+  model::Robot robot = model::load_robot(options.model);
+  const recording::Recording recording = recording::read_recording(options.recording);
+  const study::Identification found = study::identify_springs(
+      robot.elastic, recording, options.sought,
+      {options.deviations[0], options.deviations[1], options.deviations[2]});
+  if (!options.out.empty()) {
+    for (std::size_t i = 0; i < found.springs.size(); ++i) {
+      put(found.springs[i], i, options.sought, &robot);
+    }
+    model::write_robot(options.out, robot);
+  }
+  if (options.json) {
+    fmt::print("{}\n", to_json(found, recording).dump(2));
+  } else {
+    print(found, recording);
+  }
+  return kDone;
+}
+
+int run_plan(const PlanOptions& options) {
+  const model::Robot robot = model::load_robot(options.model);
+  Progress progress("planning", 1000);
+  const study::LoadTestPlan plan = study::plan_load_tests(
+      robot.elastic, options.request,
+      [&](std::size_t done, std::size_t most) { progress.show(1000 * done / most); });
+  const double gain = study::gain_over_random(robot.elastic, plan, options.request);
+  recording::write_recording(options.out, study::as_recording(plan));
+  Json widths = Json::object();
+  std::string text;
+  for (std::size_t i = 0; i < plan.names.size(); ++i) {
+    const double width = plan.half_width[static_cast<Eigen::Index>(i)];
+    widths[plan.names[i]] = finite_or_null(width);
+    text += std::isfinite(width) ? fmt::format("{:10} ± {:.1f} %\n", plan.names[i], 100 * width)
+                                 : fmt::format("{:10} no such test tells it\n", plan.names[i]);
+  }
+  if (options.json) {
+    const Json json = {{"tests", plan.tests.size()},
+                       {"is_precise", plan.is_precise},
+                       {"half_width_95", widths},
+                       {"gain_over_random", gain}};
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{} load tests; what they tell (95 %):\n{}", plan.tests.size(), text);
+    fmt::print("variance of as many tests at random: {:.1f} times as large (median)\n", gain);
+    if (!plan.is_precise) {
+      fmt::print("the precision is not reached: more force, less noise, or more than {} tests\n",
+                 options.request.most);
+    }
+  }
+  return plan.is_precise ? kDone : kDoesNotHold;
+}
+
+void add_sought(CLI::App* command, study::SoughtSprings* sought) {
+  command->add_flag("--base", sought->base, "the base's springs too");
+  command->add_flag("--tool", sought->tool, "the tool's springs too");
+}
+
+}  // namespace
+
+void add_identify(CLI::App* app, Action* action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "identify",
+      "Compliances from static load tests: weighted least squares, 95 % intervals, what the tests\n"
+      "cannot tell, readings that stand out, springs that are not linear.\n\n"
+      "A load test is a recording with t = 0, 1, 2, …, q_meas or q_cmd, the wrench and x, y, z; "
+      "each\n"
+      "posture needs two loads or more (none is a load too). Errors of the geometry do not "
+      "matter.\n"
+      "Example: flexcomp identify --model robot.yaml --recording load.csv --out identified.yaml\n"
+      "         flexcomp identify plan --model robot.yaml --force 2000 --out plan.csv");
+  command->add_option("--model", options->model, "robot.yaml");
+  command->add_option("--recording", options->recording, "load tests");
+  command->add_option("--out", options->out, "robot.yaml to write, with the springs that are told");
+  add_vector(command, "--deviations", &options->deviations,
+             "of measured x, y and z; their proportions count");
+  add_sought(command, &options->sought);
+  command->add_flag("--json", options->json, "one JSON object, SI units");
+
+  auto planned = std::make_shared<PlanOptions>();
+  CLI::App* plan = command->add_subcommand(
+      "plan",
+      "Postures and loads that tell the springs to a stated precision with few tests (D-optimal),\n"
+      "and how much better they are than as many at random. Exit code 1 if the precision is not\n"
+      "reached.\n"
+      "Example: flexcomp identify plan --model robot.yaml --force 2000 --noise 50e-6 --out "
+      "plan.csv");
+  study::PlanRequest& request = planned->request;
+  plan->add_option("--model", planned->model, "robot.yaml; the tool's tip is where the load acts")
+      ->required();
+  plan->add_option("--out", planned->out, "recording to write: t, q_cmd, wrench")->required();
+  plan->add_option("--force", request.force, "of each load, N");
+  plan->add_option("--noise", request.noise, "of a measured coordinate, m");
+  plan->add_option("--precision", request.precision,
+                   "half a 95 % interval over the compliance, for every spring in the model");
+  plan->add_option("--least-height", request.least_height, "of the TCP, m");
+  plan->add_option("--most", request.most, "tests");
+  plan->add_option("--seed", request.seed, "of the postures to choose from");
+  add_sought(plan, &request.sought);
+  plan->add_flag("--json", planned->json, "one JSON object");
+  plan->callback([=] { *action = [=] { return run_plan(*planned); }; });
+  command->callback([=] {
+    if (!command->got_subcommand(plan)) {
+      *action = [=] { return run(*options); };
+    }
+  });
+}
+
+}  // namespace flexcomp::cli

@@ -1,0 +1,74 @@
+"""flexcomp identify as a process engineer drives it."""
+
+import csv
+import json
+import pathlib
+import random
+import unittest
+
+from command import KR270, Command
+
+TRUTH = 0.54e-6, 0.29e-6, 0.42e-6, 2.79e-6, 3.48e-6  # KR 270; joint 6 is not loaded at its flange
+
+
+class Identify(Command):
+    def plan(self, *more):
+        out = self.folder / "plan.csv"
+        said = json.loads(self.run_well("identify", "plan", "--model", KR270, "--force", "2000", "--noise",
+                                        "20e-6", "--precision", "0.1", "--out", out, "--json", *more))
+        return out, said
+
+    def measured(self, plan, noise=20e-6):
+        """The planned tests, simulated, with noise."""
+        clean = self.folder / "clean.csv"
+        self.run_well("simulate", "--model", KR270, "--path", plan, "--out", clean)
+        rows = list(csv.DictReader(clean.read_text().splitlines()))
+        draw = random.Random(1)
+        for row in rows:
+            for axis in "xyz":
+                row[axis] = repr(float(row[axis]) + draw.gauss(0, noise))
+        lines = [",".join(rows[0])] + [",".join(row.values()) for row in rows]
+        return self.file("measured.csv", "\n".join(lines) + "\n")
+
+    def test_planned_tests_tell_the_springs_to_the_precision(self):
+        plan, said = self.plan()
+        self.assertTrue(said["is_precise"])
+        self.assertIsNone(said["half_width_95"]["joint_6"])
+        self.assertEqual(2 * said["tests"], len(plan.read_text().splitlines()) - 1)
+        recording = self.measured(plan)
+        out = self.folder / "identified.yaml"
+        found = json.loads(self.run_well("identify", "--model", KR270, "--recording", recording,
+                                         "--out", out, "--json"))
+        for joint, truth in enumerate(TRUTH, 1):
+            spring = found["springs"][f"joint_{joint}"]
+            self.assertAlmostEqual(truth, spring["value"], delta=0.2 * truth)
+        self.assertIsNone(found["springs"]["joint_6"])
+        self.assertAlmostEqual(20e-6, found["noise"], delta=6e-6)
+        again = json.loads(self.run_well("identify", "--model", out, "--recording", recording, "--json"))
+        self.assertEqual(found["springs"]["joint_2"]["value"], again["springs"]["joint_2"]["value"])
+        self.assertNotEqual(KR270.read_text(), out.read_text())
+        said = self.run_well("identify", "--model", KR270, "--recording", recording)
+        self.assertIn("these tests do not tell it", said)
+
+    def test_a_wrong_reading_is_named_with_its_line(self):
+        # Of two readings of a posture, in lines 6 and 7, none is the wrong one by itself.
+        recording = pathlib.Path(self.measured(self.plan()[0]))
+        lines = recording.read_text().splitlines()
+        cells = lines[6].split(",")
+        at = lines[0].split(",").index("x")
+        cells[at] = repr(float(cells[at]) + 0.002)
+        lines[6] = ",".join(cells)
+        recording.write_text("\n".join(lines) + "\n")
+        self.assertRegex(self.run_well("identify", "--model", KR270, "--recording", recording),
+                         "measured.csv:[67]: off by")
+
+    def test_tests_that_say_nothing_are_refused(self):
+        self.assert_refused("identify", "--model", KR270, saying="--recording")
+        plan = self.plan()[0]
+        self.assert_refused("identify", "--model", KR270, "--recording", plan, saying="x, y, z")
+        self.assert_refused("identify", "plan", "--model", KR270, "--out", self.folder / "p.csv",
+                            "--noise", "0", saying="noise")
+
+
+if __name__ == "__main__":
+    unittest.main()
