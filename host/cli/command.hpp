@@ -19,6 +19,7 @@ enum ExitCode : int {
 using Action = std::function<int()>;
 
 /// Each adds one subcommand, which sets `action` when it is chosen.
+void add_place(CLI::App* app, Action* action);
 void add_plan(CLI::App* app, Action* action);
 void add_table(CLI::App* app, Action* action);
 void add_compensate(CLI::App* app, Action* action);

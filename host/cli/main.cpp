@@ -63,6 +63,7 @@ int parse_and_run(int argc, char** argv) {
       "Before there is a path:\n"
       "  flexcomp map …           how round this robot mills, where it stands best\n"
       "  flexcomp select …        which robots mill to which circularity at which force\n"
+      "  flexcomp place …         where a job is displaced least\n"
       "  flexcomp identify …      compliances from load tests, and which tests to make\n"
       "  flexcomp force …         the force of milling, and a path with it\n\n"
       "On the bus, with flexcompd:\n"
@@ -87,6 +88,7 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_form(&app, &action);
   flexcomp::cli::add_identify(&app, &action);
   flexcomp::cli::add_map(&app, &action);
+  flexcomp::cli::add_place(&app, &action);
   flexcomp::cli::add_select(&app, &action);
   flexcomp::cli::add_report(&app, &action);
   flexcomp::cli::add_configure(&app, &action);
