@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "cli/command.hpp"
+#include "cli/map_volume.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
 #include "error.hpp"
@@ -33,6 +34,8 @@ struct Options {
   double step = 0.05;
   int points = 72;
   std::vector<double> regions = {0.1, 0.2, 0.5};
+  std::vector<double> volume;
+  std::vector<double> tool_axes = {0, 0, -1};
   bool has_force = false;
   bool has_moment = false;
   bool first_order = false;
@@ -156,6 +159,22 @@ void print_summary(const model::Robot& robot, const Options& options, const Stud
   }
 }
 
+study::VolumeRequest volume_request(const Options& options) {
+  study::VolumeRequest request;
+  request.lower = {options.volume[0], options.volume[2], options.volume[4]};
+  request.upper = {options.volume[1], options.volume[3], options.volume[5]};
+  request.step = options.step;
+  request.circle = circle_of(options);
+  if (options.tool_axes.size() % 3 != 0) {
+    throw InputError("--tool-axes: expected three numbers for each direction");
+  }
+  for (std::size_t i = 0; i < options.tool_axes.size(); i += 3) {
+    request.tool_axes.emplace_back(options.tool_axes[i], options.tool_axes[i + 1],
+                                   options.tool_axes[i + 2]);
+  }
+  return request;
+}
+
 int run(const Options& options) {
   for (const double size : options.regions) {
     if (!(size > 0) || !std::isfinite(size)) {
@@ -163,6 +182,12 @@ int run(const Options& options) {
     }
   }
   const model::Robot robot = model::load_robot(options.model);
+  if (!options.volume.empty()) {
+    return map_volume(robot, volume_request(options), options.out, options.json);
+  }
+  if (study::ranks_from_environment().rank != 0) {
+    return kDone;  // a plane is done before processes could share it
+  }
   const Study study = study_of(robot, options);
   const Json summary = summary_json(robot, options, study);
   const std::string script =
@@ -199,7 +224,14 @@ void add_map(CLI::App* app, Action* action) {
       "  strict   wrist centre, the force of the study turning with the path (eq. 15 as written)\n"
       "  flange   flange (the model's TCP), 1104 N out of the circle, turning with the path\n"
       "  counter  wrist centre, first order, the force turning against the path\n"
-      "Example: flexcomp map --model robot.yaml --preset strict --out map");
+      "With --volume a box of space instead, the tool across the circles, along each of "
+      "--tool-axes:\n"
+      "volume.csv and summary.json. An interrupted sweep goes on where it ended; mpirun shares "
+      "one\n"
+      "between processes that see the same folder.\n"
+      "Example: flexcomp map --model robot.yaml --preset strict --out map\n"
+      "         mpirun flexcomp map --model robot.yaml --volume 1,2.5,-1,1,0.5,2 --step 0.1 --out "
+      "map");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command->add_option("--out", options->out, "folder to write to")->required();
   command->add_option("--preset", options->preset, "posture, point, force and its sense")
@@ -221,6 +253,12 @@ void add_map(CLI::App* app, Action* action) {
       ->add_option("--wrench-sense", options->sense,
                    "the wrench turns with the path or against it; otherwise the preset's")
       ->check(CLI::IsMember({"with", "against"}));
+  command->add_option("--volume", options->volume, "a box, m: from and to along x, y and z")
+      ->delimiter(',')
+      ->expected(6);
+  command
+      ->add_option("--tool-axes", options->tool_axes, "directions of the tool, three numbers each")
+      ->delimiter(',');
   command->add_flag("--no-limits", options->no_limits, "without joint limits");
   command->add_flag("--json", options->json, "print summary.json");
   command->callback([=] {

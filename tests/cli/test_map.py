@@ -2,9 +2,13 @@
 
 import csv
 import json
+import shutil
+import signal
+import subprocess
+import time
 import unittest
 
-from command import KR270, ROBOTS, Command
+from command import FLEXCOMP, KR270, ROBOTS, Command, flexcomp
 
 
 class Map(Command):
@@ -73,6 +77,69 @@ class Map(Command):
             with self.subTest(words=words):
                 self.assert_refused("map", "--model", KR270, "--out", self.folder / "map", *words,
                                     saying=saying)
+
+
+BOX = ("--volume", "1.2,2.0,-0.4,0.4,0.8,1.6", "--step", "0.4", "--points", "24", "--preset", "flange",
+       "--tool-axes", "0,0,-1,1,0,0")
+
+
+class Volume(Command):
+    def sweep(self, name, *more, launcher=()):
+        out = self.folder / name
+        words = [*launcher, str(FLEXCOMP), "map", "--model", str(KR270), "--out", str(out), *BOX, *more]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        self.assertEqual(0, done.returncode, done.stderr)
+        return out, done.stdout
+
+    def test_the_size_of_the_sweep_is_stated_first(self):
+        out, printed = self.sweep("volume")
+        self.assertTrue(printed.startswith("3 × 3 × 3 nodes, 2 tool axes: 54 circles of 24 points"))
+        self.assertEqual({"volume.csv", "summary.json"}, {path.name for path in out.iterdir()})
+
+    def test_a_circle_of_the_volume_is_as_round_as_one_planned_and_simulated(self):
+        rows = csv.DictReader((self.sweep("volume")[0] / "volume.csv").read_text().splitlines())
+        row = next(row for row in rows if (row["x"], row["y"], row["z"]) == ("1.6", "0", "1.2")
+                   and row["tool_z"] == "-1")
+        path, recording = self.folder / "path.csv", self.folder / "recording.csv"
+        self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xy", "--force",
+                      "1104,0,0", "--tool-axis=0,0,-1", "--points", "24", "--out", path)
+        self.run_well("simulate", "--model", KR270, "--path", path, "--out", recording)
+        circle = json.loads(self.run_well("circularity", recording, "--columns", "x,y", "--json"))
+        # The map is linear (eq. 15), the simulation is the equilibrium itself.
+        expected = circle["lsc"]["circularity"]
+        self.assertAlmostEqual(expected, float(row["circularity"]), delta=0.01 * expected)
+
+    def test_an_interrupted_sweep_goes_on_where_it_ended(self):
+        whole = (self.sweep("whole")[0] / "volume.csv").read_bytes()
+        out = self.folder / "broken"
+        words = [FLEXCOMP, "map", "--model", KR270, "--out", out, *BOX]
+        with subprocess.Popen(words, stdout=subprocess.DEVNULL) as running:
+            while running.poll() is None and not list(out.glob("unfinished-*/layer-00000?")):
+                time.sleep(0.001)
+            running.send_signal(signal.SIGINT)
+        self.assertFalse((out / "volume.csv").exists())
+        self.assertTrue(list(out.glob("unfinished-*/layer-00000?")))
+        self.sweep("broken")
+        self.assertEqual(whole, (out / "volume.csv").read_bytes())
+        self.assertEqual([], list(out.glob("unfinished-*")))
+
+    @unittest.skipUnless(shutil.which("mpirun"), "mpirun (Debian: openmpi-bin) is not installed")
+    def test_two_processes_give_the_same_bytes(self):
+        alone = (self.sweep("alone")[0] / "volume.csv").read_bytes()
+        launcher = ("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2")
+        out, printed = self.sweep("shared", launcher=launcher)
+        self.assertIn("2 processes", printed)
+        self.assertEqual(alone, (out / "volume.csv").read_bytes())
+
+    def test_boxes_that_make_no_sense_are_refused(self):
+        for words, saying in ((("--volume", "2,1,0,1,0,1"), "inside out"),
+                              (("--volume", "0,1,0,1,0,1", "--step", "1e-5"), "1e8"),
+                              (("--volume", "1,2,0,1,0,1", "--tool-axes", "0,0"), "--tool-axes"),
+                              (("--volume", "1,2,0,1,0,1", "--tool-axes", "0,0,0"), "direction")):
+            with self.subTest(words=words):
+                done = flexcomp("map", "--model", KR270, "--out", self.folder / "map", *words)
+                self.assertEqual(2, done.returncode)
+                self.assertIn(saying, done.stderr)
 
 
 if __name__ == "__main__":
