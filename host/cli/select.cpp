@@ -61,7 +61,7 @@ Entry entry_of(const std::string& word, const Options& options, study::MilledCir
   const study::CircularityMap map = study::map_circularity(
       at, options.step,
       [&](std::size_t done, std::size_t count) { progress.show(1000 * done / count); });
-  return {{robot.name, study::summarize(map).min, circle.force.norm(), payload * kGravity},
+  return {{robot.name, study::summarize(map).min, study::study_force(), payload * kGravity},
           study::best_square(map, options.square)};
 }
 

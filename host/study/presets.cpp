@@ -23,6 +23,8 @@ MilledCircle counter() {
 
 }  // namespace
 
+double study_force() { return MilledCircle{}.force.norm(); }
+
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
       {"strict", "the wrist centre, the force of the study turning with the path", strict()},

@@ -7,6 +7,9 @@
 
 namespace flexcomp::study {
 
+/// |F_C| of the study, N, which the figures of every preset stand for.
+double study_force();
+
 /// A reading of the study by Klimchik et al. (2017), which leaves tool, wrist, wrench sense and
 /// "middle" unsaid.
 struct Preset {
