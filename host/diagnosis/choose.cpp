@@ -293,8 +293,9 @@ class Chooser {
   }
 
   /// Withdraws what leaves most of the mismatch standing where it shows, and several findings that
-  /// fail together on what was held out there: that proves nothing.
-  void withdraw_unproved(Choice* choice) const {
+  /// fail together on what was held out there: that proves nothing. What is kept may have stood by
+  /// what is not: true where it is to be looked at anew.
+  bool withdraw_unproved(Choice* choice) const {
     std::vector<Chosen> kept;
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
       const Evidence& evidence = choice->findings[i].evidence;
@@ -312,10 +313,12 @@ class Chooser {
           explains ? choice->explained : std::max(choice->explained, evidence.explained);
       choice->mispredicts = choice->mispredicts || (explains && fails);
     }
-    if (kept.size() < choice->findings.size()) {
-      choice->fit = fit(*observations_, std::move(kept), kLastSteps);
-      prune(choice);
+    if (kept.size() == choice->findings.size()) {
+      return false;
     }
+    choice->fit = fit(*observations_, std::move(kept), kLastSteps);
+    prune(choice);
+    return true;
   }
 
   Finding judge(const Fit& whole, std::size_t index) const {
@@ -486,7 +489,8 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
   }
   choice.fit = fit(*observations, choice.fit.chosen, kLastSteps);
   chooser.prune(&choice);
-  chooser.withdraw_unproved(&choice);
+  while (chooser.withdraw_unproved(&choice)) {
+  }
   // Each time a finding, a parameter or a joint less.
   while (chooser.merge(&choice) || chooser.simplify(&choice)) {
   }
