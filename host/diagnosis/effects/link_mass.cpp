@@ -48,10 +48,14 @@ std::vector<Hypothesis> link_mass(const Observations& observations) {
       };
       all.push_back(hypothesis);
     }
+    // A moment that is more than the link's own (or much for what can be mounted on a small one) is
+    // no mass: a balancer pulls so.
+    const double most = std::max(
+        50.0, mass * observations.machine.robot.elastic.joints[index].center_of_mass.norm());
     hypothesis.parameters = {{"mass", "kg", -0.95 * mass, 2000, 10},
-                             {"mx", "kg·m", -1000, 1000, 1},
-                             {"my", "kg·m", -1000, 1000, 1},
-                             {"mz", "kg·m", -1000, 1000, 1}};
+                             {"mx", "kg·m", -most, most, 1},
+                             {"my", "kg·m", -most, most, 1},
+                             {"mz", "kg·m", -most, most, 1}};
     hypothesis.form = "mounted";
     hypothesis.linear = 4;
     hypothesis.apply = [index](const Values& values, Machine* machine) {
