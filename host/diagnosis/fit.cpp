@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "parallel/in_parallel.hpp"
 #include "error.hpp"
+#include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {

@@ -90,6 +90,7 @@ BestSquare best_square(const CircularityMap& map, double size) {
   }
   for (std::size_t column = 0; column < along_rows.front().size(); ++column) {
     std::vector<double> line;
+    line.reserve(along_rows.size());
     for (const std::vector<double>& row : along_rows) {
       line.push_back(row[column]);
     }

@@ -35,7 +35,7 @@ class CircleStudy {
  public:
   /// Throws InputError for a robot or a circle that has no such study.
   CircleStudy(const RobotModel<double, 6>& model, const MilledCircle& circle);
-  CircleStudy(CircleStudy&&) noexcept;
+  CircleStudy(CircleStudy&& other) noexcept;
   ~CircleStudy();
 
   /// m, for a circle about a centre; NaN where out of reach. The elbow is on the left of the line

@@ -191,8 +191,8 @@ const Vector3<double>& VolumeMap::tool_axis(std::size_t layer) const {
 Vector3<double> VolumeMap::node(std::size_t layer, std::size_t index) const {
   const auto columns = static_cast<std::size_t>(count_[0]);
   const auto heights = static_cast<std::size_t>(count_[2]);
-  const Vector3<double> steps(static_cast<double>(index % columns),
-                              static_cast<double>(index / columns),
+  const std::size_t row = index / columns;
+  const Vector3<double> steps(static_cast<double>(index % columns), static_cast<double>(row),
                               static_cast<double>(layer % heights));
   return request_.lower + request_.step * steps;
 }
