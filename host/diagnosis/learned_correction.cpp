@@ -10,9 +10,10 @@ constexpr int kSteps = 5;
 constexpr double kLargest = 0.02;  // rad, of a step: beyond it nothing is linear
 constexpr double kDamping = 1e-3;  // m, of the Jacobian's singular values
 
-/// Does an effect move the robot, and not only what is measured of it?
-bool moves_robot(const model::LearnedEffect& learned) {
-  return learned.effect != "base_frame" &&
+/// Does an effect move the robot, and not only what is measured of it, in a way that a command can
+/// undo? A vibration is none: commands that chase it feed it.
+bool can_be_undone(const model::LearnedEffect& learned) {
+  return learned.effect != "base_frame" && learned.effect != "resonance" &&
          (learned.effect != "time_offset" || learned.form == "wrench");
 }
 
@@ -49,25 +50,29 @@ LearnedCorrection correct_for_learned(const model::Robot& robot,
                                       const recording::Samples& wanted) {
   model::Robot moving = robot;
   moving.effects.erase(std::remove_if(moving.effects.begin(), moving.effects.end(),
-                                      [](const auto& learned) { return !moves_robot(learned); }),
+                                      [](const auto& learned) { return !can_be_undone(learned); }),
                        moving.effects.end());
   LearnedCorrection correction;
-  correction.q_cmd = *program.q_cmd;
+  recording::Samples q_cmd = *program.q_cmd;
   for (int step = 0; step <= kSteps; ++step) {
-    const Scene scene = scene_of(program, correction.q_cmd);
+    const Scene scene = scene_of(program, q_cmd);
     const Machine machine = machine_of(moving, {scene});
     const simulation::Simulation at = simulate(machine, scene);
     const Eigen::MatrixXd errors =
         with_terms(machine.terms, scene, at).channel[simulation::tcp_position] - wanted;
-    correction.after = errors.rowwise().norm().maxCoeff();
+    const double largest = errors.rowwise().norm().maxCoeff();
     if (step == 0) {
-      correction.before = correction.after;
+      correction.before = largest;
+    }
+    if (step == 0 || largest < correction.after) {
+      correction.after = largest;
+      correction.q_cmd = q_cmd;
     }
     if (step == kSteps) {
       break;
     }
     for (Eigen::Index row = 0; row < errors.rows(); ++row) {
-      correction.q_cmd.row(row) -=
+      q_cmd.row(row) -=
           angles_for(at.jacobian[static_cast<std::size_t>(row)], errors.row(row).transpose())
               .transpose();
     }

@@ -17,10 +17,11 @@ struct LearnedCorrection {
 ///
 /// `wanted`: n×3, m, where the TCP should pass (base frame); `program`: times (s), wrench on the
 /// tool as its sensor reads it, temperatures, and the commands q_cmd to begin with, which the core
-/// may have corrected already. What only the measurement showed (its clocks and its frame) is left
-/// aside. Positions are corrected, orientations stay: repeated Newton steps through the Jacobian of
-/// the bent robot, damped near singularities (Wampler 1986). Throws InputError as `machine_of`
-/// does.
+/// may have corrected already. What only the measurement showed (its clocks and its frame) and
+/// vibrations are left aside. Of the steps the best counts: it is never farther off, as the machine
+/// is believed to go, than without. Positions are corrected, orientations stay: repeated Newton
+/// steps through the Jacobian of the bent robot, damped near singularities (Wampler 1986). Throws
+/// InputError as `machine_of` does.
 LearnedCorrection correct_for_learned(const model::Robot& robot,
                                       const recording::Recording& program,
                                       const recording::Samples& wanted);
