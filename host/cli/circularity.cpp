@@ -13,7 +13,7 @@
 namespace flexcomp::cli {
 namespace {
 
-struct Options {
+struct CircularityOptions {
   std::string path;
   std::vector<std::string> columns;
   double filter = 0;
@@ -34,7 +34,7 @@ constexpr Method kMethods[] = {
 };
 
 /// The path, filtered if that is asked for.
-geometry::Points points_of(const recording::NumberTable& table, const Options& options) {
+geometry::Points points_of(const recording::NumberTable& table, const CircularityOptions& options) {
   const geometry::Points points = points_in(table, plane_columns(table, options.columns));
   try {
     return options.filter == 0 ? points : geometry::filtered(points, options.filter);
@@ -48,7 +48,7 @@ std::string filter_name(double cutoff) {
                     : std::string(", no filter");
 }
 
-int run(const Options& options) {
+int run(const CircularityOptions& options) {
   const recording::NumberTable table = recording::read_csv(options.path);
   const geometry::Points points = points_of(table, options);
   nlohmann::ordered_json json = {{"points", points.size()}};
@@ -80,7 +80,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_circularity(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CircularityOptions>();
   CLI::App* command = app->add_subcommand(
       "circularity",
       "How round a path is, about the four reference circles of ISO 12181-1, exactly.\n"

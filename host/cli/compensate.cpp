@@ -21,7 +21,7 @@ namespace {
 
 using Core = Compensator<double, 6>;
 
-struct Options {
+struct CompensateOptions {
   std::string model;
   std::string table;
   std::string path;
@@ -130,7 +130,7 @@ recording::Samples wanted_positions(const model::Robot& robot, const recording::
   return wanted;
 }
 
-int run(const Options& options) {
+int run(const CompensateOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   const TableFile file = read_table(options.table, robot);
   const recording::Recording path = recording::read_recording(options.path);
@@ -186,7 +186,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_compensate(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompensateOptions>();
   CLI::App* command = app->add_subcommand(
       "compensate",
       "Correct a program: the same rows, with q_cmd moved so that the TCP of the bent robot "

@@ -12,7 +12,7 @@
 namespace flexcomp::cli {
 namespace {
 
-struct Options {
+struct ConfigureOptions {
   std::string model;
   std::string table;
   std::string out;
@@ -29,7 +29,7 @@ std::string joint_speeds(const model::Robot& robot) {
   return text;
 }
 
-std::string configuration(const Options& options, const model::Robot& robot) {
+std::string configuration(const ConfigureOptions& options, const model::Robot& robot) {
   std::string text = fmt::format(
       "# Configuration of flexcompd for {}.\n"
       "# Every option of flexcompd --help may stand here; those left out have their defaults.\n\n"
@@ -48,7 +48,7 @@ std::string configuration(const Options& options, const model::Robot& robot) {
   return text;
 }
 
-int run(const Options& options) {
+int run(const ConfigureOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   if (!options.table.empty()) {
     read_table(options.table, robot);
@@ -63,7 +63,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_configure(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConfigureOptions>();
   CLI::App* command = app->add_subcommand(
       "configure",
       "A configuration file for flexcompd: the robot's fingerprint, how fast its joints can be, "

@@ -13,7 +13,7 @@ namespace {
 
 using recording::LoggedMessage;
 
-struct Options {
+struct ConvertOptions {
   std::vector<std::string> inputs;
   std::string out;
   std::string interface = "can0";
@@ -52,7 +52,8 @@ std::vector<LoggedMessage> read_log(const std::string& file, recording::Decoding
 }
 
 /// All logs in the first one's time, with what each alignment came to.
-std::vector<LoggedMessage> read_logs(const Options& options, recording::DecodingCounts* counts,
+std::vector<LoggedMessage> read_logs(const ConvertOptions& options,
+                                     recording::DecodingCounts* counts,
                                      std::vector<recording::ClockAlignment>* alignments) {
   std::vector<LoggedMessage> all = read_log(options.inputs[0], counts);
   for (std::size_t i = 1; i < options.inputs.size(); ++i) {
@@ -74,7 +75,7 @@ std::vector<LoggedMessage> read_logs(const Options& options, recording::Decoding
   return all;
 }
 
-void print(const Options& options, std::size_t rows, const recording::DecodingCounts& counts,
+void print(const ConvertOptions& options, std::size_t rows, const recording::DecodingCounts& counts,
            const std::vector<recording::ClockAlignment>& alignments, const std::string& left_out) {
   nlohmann::ordered_json clocks = nlohmann::ordered_json::array();
   for (const recording::ClockAlignment& alignment : alignments) {
@@ -106,7 +107,7 @@ void print(const Options& options, std::size_t rows, const recording::DecodingCo
   }
 }
 
-int log_to_csv(const Options& options) {
+int log_to_csv(const ConvertOptions& options) {
   recording::DecodingCounts counts;
   std::vector<recording::ClockAlignment> alignments;
   const std::vector<LoggedMessage> messages = read_logs(options, &counts, &alignments);
@@ -117,7 +118,7 @@ int log_to_csv(const Options& options) {
   return kDone;
 }
 
-void write_log(const Options& options, const std::vector<LoggedMessage>& messages) {
+void write_log(const ConvertOptions& options, const std::vector<LoggedMessage>& messages) {
   if (format_of(options.out) == Format::candump) {
     recording::write_candump_log(options.out,
                                  encode_frames(messages, options.interface, options.fd));
@@ -126,14 +127,14 @@ void write_log(const Options& options, const std::vector<LoggedMessage>& message
   }
 }
 
-int csv_to_log(const Options& options) {
+int csv_to_log(const ConvertOptions& options) {
   const recording::Recording rows = recording::read_recording(options.inputs[0]);
   write_log(options, to_messages(rows, std::llround(1e9 * options.start)));
   print(options, static_cast<std::size_t>(rows.size()), {}, {}, groups_without_message(rows));
   return kDone;
 }
 
-int log_to_log(const Options& options) {
+int log_to_log(const ConvertOptions& options) {
   recording::DecodingCounts counts;
   std::vector<recording::ClockAlignment> alignments;
   const std::vector<LoggedMessage> messages = read_logs(options, &counts, &alignments);
@@ -142,7 +143,7 @@ int log_to_log(const Options& options) {
   return kDone;
 }
 
-int run(const Options& options) {
+int run(const ConvertOptions& options) {
   const bool from_csv = format_of(options.inputs[0]) == Format::csv;
   if (from_csv && options.inputs.size() > 1) {
     throw InputError("expected one recording, or logs of buses");
@@ -162,7 +163,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_convert(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = app->add_subcommand(
       "convert",
       "Between recordings and logs of buses, by the end of the names: .csv, .log or .candump\n"

@@ -20,7 +20,7 @@ namespace {
 constexpr Eigen::Index kMostRows = 8000;
 constexpr Eigen::Index kMostSamples = 48000;
 
-struct Options {
+struct DiagnoseOptions {
   std::string model;
   std::vector<std::string> recordings;
   std::vector<std::string> holdouts;
@@ -59,7 +59,7 @@ void refuse_unlike(const recording::Recording& first, const recording::Recording
   }
 }
 
-std::vector<simulation::Scene> read_scenes(const Options& options,
+std::vector<simulation::Scene> read_scenes(const DiagnoseOptions& options,
                                            std::vector<diagnosis::Quality>* qualities) {
   std::vector<recording::Recording> recordings;
   for (const auto* files : {&options.recordings, &options.holdouts}) {
@@ -78,10 +78,6 @@ std::vector<simulation::Scene> read_scenes(const Options& options,
     refuse_unlike(recordings.front(), each, scenes.front(), scenes.back());
   }
   return scenes;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  files::write_file(file, [&](std::ostream& stream) { stream << text; });
 }
 
 /// What a person reads first, on the terminal.
@@ -106,7 +102,7 @@ void summarize(const diagnosis::Observations& observations, const diagnosis::Dia
   fmt::print("{}/report.html, diagnosis.json, updated_model.yaml\n", folder);
 }
 
-int run(const Options& options) {
+int run(const DiagnoseOptions& options) {
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
   }
@@ -129,8 +125,8 @@ int run(const Options& options) {
   const std::string html = diagnosis::to_html(observations, result, qualities);
   output_folder(options.out);
   const std::filesystem::path folder(options.out);
-  write_text(folder / "diagnosis.json", json);
-  write_text(folder / "report.html", html);
+  files::write_text(folder / "diagnosis.json", json);
+  files::write_text(folder / "report.html", html);
   model::write_robot(folder / "updated_model.yaml",
                      diagnosis::updated_robot(observations, result.choice.fit));
   summarize(observations, result, options.out);
@@ -140,7 +136,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_diagnose(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiagnoseOptions>();
   CLI::App* command = app->add_subcommand(
       "diagnose",
       "Where recordings and the simulation differ, and which physics the model lacks. Writes\n"

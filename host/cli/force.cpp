@@ -13,7 +13,7 @@
 namespace flexcomp::cli {
 namespace {
 
-struct Options {
+struct ForceOptions {
   study::EndMilling milling;
   study::Spindle spindle;
   std::array<double, 3> shear{};
@@ -25,7 +25,7 @@ struct Options {
   bool json = false;
 };
 
-study::EndMilling milling_of(const Options& options) {
+study::EndMilling milling_of(const ForceOptions& options) {
   study::EndMilling milling = options.milling;
   milling.coefficients = {options.shear[0], options.shear[1], options.shear[2],
                           options.edge[0],  options.edge[1],  options.edge[2]};
@@ -47,7 +47,7 @@ double peak_force(const study::EndMilling& milling) {
   return peak;
 }
 
-int run(const Options& options) {
+int run(const ForceOptions& options) {
   const study::EndMilling milling = milling_of(options);
   if (options.path.empty() != options.out.empty() ||
       options.path.empty() != options.model.empty()) {
@@ -82,7 +82,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_force(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ForceOptions>();
   CLI::App* command = app->add_subcommand(
       "force",
       "The force of milling with a cylindrical end mill, by the standard mechanistic model\n"

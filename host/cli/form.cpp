@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct FormOptions {
   std::string path;
   std::string other;
   std::vector<std::string> columns;
@@ -35,11 +35,11 @@ auto measured(const std::string& file, const Measure& measure) {
   }
 }
 
-void print(const Options& options, const Json& json, const std::string& text) {
+void print(const FormOptions& options, const Json& json, const std::string& text) {
   fmt::print("{}", options.json ? json.dump(2) + "\n" : text);
 }
 
-int run_straightness(const Options& options) {
+int run_straightness(const FormOptions& options) {
   const recording::NumberTable table = recording::read_csv(options.path);
   const geometry::Points points = points_in(table, plane_columns(table, options.columns));
   return measured(options.path, [&] {
@@ -57,7 +57,7 @@ int run_straightness(const Options& options) {
   });
 }
 
-int run_flatness(const Options& options) {
+int run_flatness(const FormOptions& options) {
   const recording::NumberTable table = recording::read_csv(options.path);
   const geometry::SpacePoints points = points_in_space(table);
   return measured(options.path, [&] {
@@ -76,7 +76,7 @@ int run_flatness(const Options& options) {
 }
 
 /// The points of one direction of a circular test, filtered if that is asked for.
-geometry::Points circle_points(const Options& options, const std::string& file) {
+geometry::Points circle_points(const FormOptions& options, const std::string& file) {
   const recording::NumberTable table = recording::read_csv(file);
   const geometry::Points points = points_in(table, plane_columns(table, options.columns));
   return measured(file, [&] {
@@ -84,7 +84,7 @@ geometry::Points circle_points(const Options& options, const std::string& file) 
   });
 }
 
-int run_circular(const Options& options) {
+int run_circular(const FormOptions& options) {
   const geometry::CircularTest test = geometry::circular_test(
       circle_points(options, options.path), circle_points(options, options.other), options.radius);
   const std::string filter =
@@ -118,7 +118,7 @@ int run_circular(const Options& options) {
 }  // namespace
 
 void add_form(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FormOptions>();
   CLI::App* form = app->add_subcommand(
       "form",
       "Straightness, flatness, and circles run both ways; circularity has its own command.");

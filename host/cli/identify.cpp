@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kUnlikely = 0.01;
 
-struct Options {
+struct IdentifyOptions {
   std::string model;
   std::string recording;
   std::string out;
@@ -27,7 +27,7 @@ struct Options {
   bool json = false;
 };
 
-struct PlanOptions {
+struct LoadTestPlanOptions {
   std::string model;
   std::string out;
   study::PlanRequest request;
@@ -99,7 +99,7 @@ void print(const study::Identification& found, const recording::Recording& recor
   }
 }
 
-int run(const Options& options) {
+int run(const IdentifyOptions& options) {
   if (options.model.empty() || options.recording.empty()) {
     throw InputError("identify: --model and --recording are required (see --help)");
   }
@@ -122,7 +122,7 @@ int run(const Options& options) {
   return kDone;
 }
 
-int run_plan(const PlanOptions& options) {
+int run_plan(const LoadTestPlanOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   Progress progress("planning", 1000);
   const study::LoadTestPlan plan = study::plan_load_tests(
@@ -163,7 +163,7 @@ void add_sought(CLI::App* command, study::SoughtSprings* sought) {
 }  // namespace
 
 void add_identify(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyOptions>();
   CLI::App* command = app->add_subcommand(
       "identify",
       "Compliances from static load tests: weighted least squares, 95 % intervals, what the tests\n"
@@ -182,7 +182,7 @@ void add_identify(CLI::App* app, Action* action) {
   add_sought(command, &options->sought);
   command->add_flag("--json", options->json, "one JSON object, SI units");
 
-  auto planned = std::make_shared<PlanOptions>();
+  auto planned = std::make_shared<LoadTestPlanOptions>();
   CLI::App* plan = command->add_subcommand(
       "plan",
       "Postures and loads that tell the springs to a stated precision with few tests (D-optimal),\n"

@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct MapOptions {
   std::string model;
   std::string out;
   std::string preset = "strict";
@@ -56,7 +56,7 @@ Vector3<double> vector(const std::array<double, 3>& values) {
   return {values[0], values[1], values[2]};
 }
 
-study::MilledCircle circle_of(const Options& options) {
+study::MilledCircle circle_of(const MapOptions& options) {
   study::MilledCircle circle = preset_named(options.preset).circle;
   circle.radius = options.radius;
   circle.points = options.points;
@@ -85,7 +85,7 @@ struct Study {
   double middle() const { return is_counter() ? study::counter_middle(arm, circle) : summary.mean; }
 };
 
-Study study_of(const model::Robot& robot, const Options& options) {
+Study study_of(const model::Robot& robot, const MapOptions& options) {
   Study study;
   study.circle = circle_of(options);
   const study::CircleStudy at(robot.elastic, study.circle);
@@ -101,7 +101,7 @@ Study study_of(const model::Robot& robot, const Options& options) {
   return study;
 }
 
-Json summary_json(const model::Robot& robot, const Options& options, const Study& study) {
+Json summary_json(const model::Robot& robot, const MapOptions& options, const Study& study) {
   const study::MilledCircle& circle = study.circle;
   Json regions = Json::array();
   for (const study::BestSquare& square : study.squares) {
@@ -145,7 +145,7 @@ void write_csv(const std::filesystem::path& file, const study::CircularityMap& m
   });
 }
 
-void print_summary(const model::Robot& robot, const Options& options, const Study& study) {
+void print_summary(const model::Robot& robot, const MapOptions& options, const Study& study) {
   const auto mm = [](double metres) { return 1e3 * metres; };
   fmt::print("{}, preset {}: {}\n", robot.name, options.preset,
              preset_named(options.preset).meaning);
@@ -159,7 +159,7 @@ void print_summary(const model::Robot& robot, const Options& options, const Stud
   }
 }
 
-study::VolumeRequest volume_request(const Options& options) {
+study::VolumeRequest volume_request(const MapOptions& options) {
   study::VolumeRequest request;
   request.lower = {options.volume[0], options.volume[2], options.volume[4]};
   request.upper = {options.volume[1], options.volume[3], options.volume[5]};
@@ -175,7 +175,7 @@ study::VolumeRequest volume_request(const Options& options) {
   return request;
 }
 
-int run(const Options& options) {
+int run(const MapOptions& options) {
   for (const double size : options.regions) {
     if (!(size > 0) || !std::isfinite(size)) {
       throw InputError("--region: expected sides above zero");
@@ -198,10 +198,9 @@ int run(const Options& options) {
   const std::string png = report::plot_png(script, 900, 860);
   const std::filesystem::path folder = output_folder(options.out);
   write_csv(folder / "map.csv", study.map);
-  files::write_file(folder / "map.svg", [&](std::ostream& out) { out << svg; });
-  files::write_file(folder / "map.png", [&](std::ostream& out) { out << png; });
-  files::write_file(folder / "summary.json",
-                    [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
+  files::write_text(folder / "map.svg", svg);
+  files::write_text(folder / "map.png", png);
+  files::write_text(folder / "summary.json", summary.dump(2) + "\n");
   if (options.json) {
     fmt::print("{}\n", summary.dump(2));
   } else {
@@ -213,7 +212,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_map(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MapOptions>();
   CLI::App* command = app->add_subcommand(
       "map",
       "How round circles become that the uncorrected robot mills, over the plane of joints 2 and "

@@ -109,8 +109,7 @@ int map_volume(const model::Robot& robot, const study::VolumeRequest& request,
   }
   const Json summary = summary_of(robot, map, layers);
   write_csv(out / "volume.csv", map, layers);
-  files::write_file(out / "summary.json",
-                    [&](std::ostream& stream) { stream << summary.dump(2) << '\n'; });
+  files::write_text(out / "summary.json", summary.dump(2) + "\n");
   std::error_code ignored;
   std::filesystem::remove_all(unfinished, ignored);
   if (json) {

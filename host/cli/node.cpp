@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer
 
-struct Options {
+struct NodeOptions {
   std::string bus;
   std::string table;
   double pause = 100e-6;
@@ -37,7 +37,7 @@ Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
   throw InputError(address + ": nobody answers");
 }
 
-int command(const Options& options, Command wanted) {
+int command(const NodeOptions& options, Command wanted) {
   const auto bus = simulation::open_plant_bus(options.bus);
   bus->send(CommandMessage{wanted});
   CommandReplyMessage reply = wait_for<CommandReplyMessage>(bus.get(), options.bus);
@@ -67,7 +67,7 @@ std::vector<std::uint32_t> read_words(const std::string& file, TableHeader* head
   return words;
 }
 
-int send_table(const Options& options) {
+int send_table(const NodeOptions& options) {
   TableHeader header{};
   const std::vector<std::uint32_t> words = read_words(options.table, &header);
   const auto bus = simulation::open_plant_bus(options.bus);
@@ -95,7 +95,7 @@ int send_table(const Options& options) {
   return reply.result == 0 ? kDone : kDoesNotHold;
 }
 
-void add_bus(CLI::App* command, Options* options) {
+void add_bus(CLI::App* command, NodeOptions* options) {
   command->add_option("--bus", options->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL")
       ->required();
 }
@@ -103,7 +103,7 @@ void add_bus(CLI::App* command, Options* options) {
 }  // namespace
 
 void add_node(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NodeOptions>();
   CLI::App* node = app->add_subcommand(
       "node",
       "Tell a compensator on the bus what to do. Exit code 1 if it refuses, with the reason.\n"

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PlaceOptions {
   std::string model;
   std::string path;
   std::string out;
@@ -26,7 +26,7 @@ Json displacement(const study::PlacedJob& job) {
   return {{"largest", job.largest}, {"rms", job.mean_square}};
 }
 
-int run(const Options& options) {
+int run(const PlaceOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   const recording::Recording path = recording::read_recording(options.path);
   study::PlacementRequest request = options.request;
@@ -62,7 +62,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_place(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlaceOptions>();
   CLI::App* command = app->add_subcommand(
       "place",
       "Where a job is displaced least: the path with its wrench is moved as a whole, and the tool\n"

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<double, 3> kStudyForce = {440, 1370, 635};
 constexpr std::array<double, 3> kStudyMoment = {0, 3, 10.5};
 
-struct Options {
+struct PlanOptions {
   std::string model;
   std::string out;
   std::array<double, 3> center{};
@@ -34,7 +34,7 @@ Vector3<double> vector(const std::array<double, 3>& values) {
 
 Vector3<double> unit_axis(char name) { return Vector3<double>::Unit(name - 'x'); }
 
-int run(const Options& options, bool has_tool_axis) {
+int run(const PlanOptions& options, bool has_tool_axis) {
   planning::CirclePlan plan = options.plan;
   plan.center = vector(options.center);
   plan.first_axis = unit_axis(options.plane[0]);
@@ -63,7 +63,7 @@ int run(const Options& options, bool has_tool_axis) {
 void add_plan(CLI::App* app, Action* action) {
   CLI::App* plan = app->add_subcommand("plan", "Make a path with its cutting force.");
   plan->require_subcommand(1);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanOptions>();
   CLI::App* command = plan->add_subcommand(
       "circle",
       "A milled circle: joint angles by inverse kinematics, tool orientation constant, and a "

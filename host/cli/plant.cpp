@@ -17,7 +17,7 @@
 namespace flexcomp::cli {
 namespace {
 
-struct Options {
+struct PlantOptions {
   std::string model;
   std::string path;
   std::string bus;
@@ -32,7 +32,7 @@ struct Options {
   bool json = false;
 };
 
-NodeConfig node_config(const Options& options, const model::Robot& robot) {
+NodeConfig node_config(const PlantOptions& options, const model::Robot& robot) {
   NodeConfig config = default_node_config();
   config.compensator.period = static_cast<float>(options.plant.period);
   config.compensator.gain = static_cast<float>(options.gain);
@@ -53,7 +53,7 @@ nlohmann::ordered_json summary(const simulation::PlantRun& run) {
           {"most_engagement", run.most_engagement}};
 }
 
-int run(const Options& options) {
+int run(const PlantOptions& options) {
   if (options.bus.empty() == options.table.empty()) {
     throw InputError("expected either --bus, or --table for a compensator inside this process");
   }
@@ -97,7 +97,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_plant(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlantOptions>();
   CLI::App* command = app->add_subcommand(
       "plant",
       "The flexible robot cutting a contour, on the other side of the bus: sends setpoints and "

@@ -14,7 +14,7 @@
 namespace flexcomp::cli {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string model;
   std::string table;
   std::string out;
@@ -35,7 +35,7 @@ report::NamedCircle read_circle(const std::string& argument,
   return {argument.substr(0, equals), points_in(table, axes)};
 }
 
-int run(const Options& options) {
+int run(const ReportOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   report::CircleReport page;
   page.robot = robot.name;
@@ -48,14 +48,14 @@ int run(const Options& options) {
     page.table = &table->table;
   }
   const std::string html = report::circle_report_html(page);
-  files::write_file(options.out, [&](std::ostream& stream) { stream << html; });
+  files::write_text(options.out, html);
   return kDone;
 }
 
 }  // namespace
 
 void add_report(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app->add_subcommand(
       "report",
       "Recorded circles side by side on one self-contained HTML page: circularity, the polar plot "

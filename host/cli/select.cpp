@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kGravity = 9.81;  // m/s²
 
-struct Options {
+struct SelectOptions {
   std::vector<std::string> robots;
   std::vector<double> forces = {500, 1000, 2000, 3000};
   std::vector<double> limits = {0.2e-3, 0.5e-3, 1e-3, 1.5e-3, 2e-3};
@@ -52,7 +52,7 @@ struct Entry {
   study::BestSquare place;
 };
 
-Entry entry_of(const std::string& word, const Options& options, study::MilledCircle circle) {
+Entry entry_of(const std::string& word, const SelectOptions& options, study::MilledCircle circle) {
   const auto [file, payload] = file_and_payload(word);
   const model::Robot robot = model::load_robot(file);
   circle.radius = options.radius;
@@ -65,7 +65,7 @@ Entry entry_of(const std::string& word, const Options& options, study::MilledCir
           study::best_square(map, options.square)};
 }
 
-void check(const Options& options) {
+void check(const SelectOptions& options) {
   const auto is_size = [](double value) { return value > 0 && std::isfinite(value); };
   if (!std::all_of(options.forces.begin(), options.forces.end(), is_size) ||
       !std::all_of(options.limits.begin(), options.limits.end(), is_size) ||
@@ -74,7 +74,7 @@ void check(const Options& options) {
   }
 }
 
-Json to_json(const Options& options, const std::vector<Entry>& entries) {
+Json to_json(const SelectOptions& options, const std::vector<Entry>& entries) {
   Json robots = Json::array();
   for (const Entry& entry : entries) {
     const study::BestSquare& place = entry.place;
@@ -107,7 +107,7 @@ Json to_json(const Options& options, const std::vector<Entry>& entries) {
           {"table", table}};
 }
 
-void print(const Options& options, const std::vector<Entry>& entries) {
+void print(const SelectOptions& options, const std::vector<Entry>& entries) {
   fmt::print("Robots that mill to a circularity at a force, without correction (preset {}):\n\n",
              options.preset);
   for (const double limit : options.limits) {
@@ -133,7 +133,7 @@ void print(const Options& options, const std::vector<Entry>& entries) {
   }
 }
 
-int run(const Options& options) {
+int run(const SelectOptions& options) {
   check(options);
   const auto& presets = study::presets();
   const auto preset = std::find_if(presets.begin(), presets.end(),
@@ -154,7 +154,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_select(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SelectOptions>();
   CLI::App* command = app->add_subcommand(
       "select",
       "Which robots mill a circle to which circularity at which force, without correction, and\n"

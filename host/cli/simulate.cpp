@@ -14,7 +14,7 @@
 namespace flexcomp::cli {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string model;
   std::string path;
   std::string recording;
@@ -43,7 +43,9 @@ recording::Recording expected(const model::Robot& robot, const recording::Record
   for (Eigen::Index row = 0; row < recording.size() && at < scene.rows(); ++row) {
     if (recording.time[row] == scene.time[at]) {
       for (std::size_t channel = 0; channel < values.size(); ++channel) {
-        values[channel].row(row) = prediction.channel[channel].row(at);
+        if (values[channel].cols() > 0) {
+          values[channel].row(row) = prediction.channel[channel].row(at);
+        }
       }
       ++at;
     }
@@ -60,7 +62,7 @@ recording::Recording expected(const model::Robot& robot, const recording::Record
   return shown;
 }
 
-int run_recording(const Options& options) {
+int run_recording(const SimulateOptions& options) {
   if (options.compliance_scale != 1) {
     throw InputError("--compliance-scale goes with --path, not with --recording");
   }
@@ -70,7 +72,7 @@ int run_recording(const Options& options) {
   return kDone;
 }
 
-int run_path(const Options& options) {
+int run_path(const SimulateOptions& options) {
   if (!(options.compliance_scale > 0)) {
     throw InputError("--compliance-scale: expected a number above zero");
   }
@@ -95,7 +97,7 @@ int run_path(const Options& options) {
   return kDone;
 }
 
-int run(const Options& options) {
+int run(const SimulateOptions& options) {
   if (options.path.empty() == options.recording.empty()) {
     throw InputError("expected either --path or --recording");
   }
@@ -105,7 +107,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App* app, Action* action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = app->add_subcommand(
       "simulate",
       "With --path, where the robot really goes: its springs bent by the wrench and, with gravity "

@@ -164,6 +164,10 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
   temporary.replace(target, path);
 }
 
+void write_text(const fs::path& path, const std::string& text) {
+  write_file(path, [&](std::ostream& out) { out << text; });
+}
+
 void remove_unfinished_file() noexcept {
   if (unfinished_file[0] != '\0') {
     ::unlink(unfinished_file.data());

@@ -20,6 +20,9 @@ std::string read_text(const std::filesystem::path& path);
 /// the temporary file is removed then, and also if `write` throws.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
+/// Writes text, or any bytes, as `write_file` does.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
 /// Removes the temporary file of a `write_file` that is under way. For signal handlers: it does
 /// nothing that is not allowed there.
 void remove_unfinished_file() noexcept;

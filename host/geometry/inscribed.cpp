@@ -1,41 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "geometry/convex_hull.hpp"
 #include "geometry/profile.hpp"
 
 namespace flexcomp::geometry {
 namespace {
-
-double turn_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Convex hull, counter-clockwise, as indices (Andrew's monotone chain).
-std::vector<std::size_t> convex_hull(const Profile& profile) {
-  std::vector<std::size_t> order(profile.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return profile[a].x() < profile[b].x() ||
-           (profile[a].x() == profile[b].x() && profile[a].y() < profile[b].y());
-  });
-  std::vector<std::size_t> hull;
-  const auto add_chain = [&](auto begin, auto end) {
-    const std::size_t base = hull.size();
-    for (auto it = begin; it != end; ++it) {
-      while (hull.size() >= base + 2 &&
-             turn_of(profile[hull[hull.size() - 1]] - profile[hull[hull.size() - 2]],
-                     profile[*it] - profile[hull[hull.size() - 1]]) <= 0) {
-        hull.pop_back();
-      }
-      hull.push_back(*it);
-    }
-    hull.pop_back();
-  };
-  add_chain(order.begin(), order.end());
-  add_chain(order.rbegin(), order.rend());
-  return hull;
-}
 
 /// An empty circle with its centre in the hull.
 struct EmptyCircle {
@@ -147,7 +117,7 @@ class EmptyCircleOfFew {
 
 Circularity maximum_inscribed_circularity(const Points& points) {
   const Profile profile(points);
-  const std::vector<std::size_t> hull = convex_hull(profile);
+  const std::vector<std::size_t> hull = convex_hull(profile.points());
   std::vector<std::size_t> few;
   add_missing(spread_points(profile, least_squares_center(profile), false), &few);
   for (;;) {

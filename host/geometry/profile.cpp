@@ -6,13 +6,10 @@
 #include <limits>
 
 #include "error.hpp"
+#include "geometry/convex_hull.hpp"
 
 namespace flexcomp::geometry {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Index of the point farthest from `from`.
 std::size_t farthest_from(const Points& points, const Eigen::Vector2d& from) {

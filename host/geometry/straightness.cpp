@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "error.hpp"
+#include "geometry/convex_hull.hpp"
 
 namespace flexcomp::geometry {
 namespace {
-
-double cross_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Where differences between the points are to be taken from; refuses what has no line.
 Eigen::Vector2d mean_of(const Points& points) {
@@ -40,37 +36,11 @@ Straightness about(const Points& points, const Eigen::Vector2d& point,
                     -std::numeric_limits<double>::infinity(),
                     {}};
   for (const Eigen::Vector2d& each : points) {
-    const double deviation = cross_of(direction, each - point);
+    const double deviation = cross(direction, each - point);
     line.low = std::min(line.low, deviation);
     line.high = std::max(line.high, deviation);
   }
   return line;
-}
-
-/// Corners of the convex hull as indices, counterclockwise (Andrew 1979).
-std::vector<std::size_t> convex_hull(const Points& points) {
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return points[a].x() < points[b].x() ||
-           (points[a].x() == points[b].x() && points[a].y() < points[b].y());
-  });
-  std::vector<std::size_t> hull;
-  const auto add_chain = [&](auto begin, auto end) {
-    const std::size_t kept = hull.size();
-    for (auto at = begin; at != end; ++at) {
-      while (hull.size() >= kept + 2 &&
-             cross_of(points[hull.back()] - points[hull[hull.size() - 2]],
-                      points[*at] - points[hull.back()]) <= 0) {
-        hull.pop_back();
-      }
-      hull.push_back(*at);
-    }
-    hull.pop_back();  // the next chain begins with it
-  };
-  add_chain(order.begin(), order.end());
-  add_chain(order.rbegin(), order.rend());
-  return hull;
 }
 
 }  // namespace
@@ -84,7 +54,7 @@ Straightness least_squares_straightness(const Points& points) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(moments);
   Straightness line = about(points, mean, axes.eigenvectors().col(1));
   const auto deviates_less = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return cross_of(line.direction, a - mean) < cross_of(line.direction, b - mean);
+    return cross(line.direction, a - mean) < cross(line.direction, b - mean);
   };
   const auto [least, most] = std::minmax_element(points.begin(), points.end(), deviates_less);
   line.support = {static_cast<std::size_t>(least - points.begin()),
@@ -107,7 +77,7 @@ Straightness minimum_zone_straightness(const Points& points) {
   std::size_t opposite = 1;
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector2d edge = (corner(i + 1) - corner(i)).normalized();
-    const auto height = [&](std::size_t k) { return cross_of(edge, corner(k) - corner(i)); };
+    const auto height = [&](std::size_t k) { return cross(edge, corner(k) - corner(i)); };
     // The farthest corner only moves on as the edge goes round.
     opposite = std::max(opposite, i + 1);
     while (opposite < i + n && height(opposite + 1) >= height(opposite)) {

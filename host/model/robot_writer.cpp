@@ -152,7 +152,7 @@ std::string relative_urdf(const std::filesystem::path& file, const Robot& robot)
 void write_robot(const std::filesystem::path& file, const Robot& robot) {
   refuse_impossible(robot);
   const std::string text = document(robot, relative_urdf(file, robot));
-  files::write_file(file, [&](std::ostream& stream) { stream << text; });
+  files::write_text(file, text);
 }
 
 }  // namespace flexcomp::model

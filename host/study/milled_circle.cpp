@@ -66,7 +66,8 @@ class CircleStudy::Implementation {
   double circularity(Planar center) const {
     const PlanarPath path = offsets_.shifted(center);
     Levers levers;
-    const PlanarPath where = circle_.is_first_order ? PlanarPath::constant(center, 1) : path;
+    const PlanarPath where =
+        circle_.is_first_order ? PlanarPath::constant(center, path.x.size()) : path;
     if (!place(where, 1, &levers) && !place(where, -1, &levers)) {
       return std::numeric_limits<double>::quiet_NaN();
     }
@@ -106,17 +107,10 @@ class CircleStudy::Implementation {
   PlanarPath planar_deflection(const Levers& levers) const {
     PlanarPath sum = scaled(directions_, 0);
     const auto add = [&](const PlanarPath& lever, double compliance) {
-      if (lever.x.size() == 1) {
-        const Values turn =
-            compliance * (lever.x[0] * force_.z - lever.z[0] * force_.x + circle_.moment[2]);
-        sum.x -= turn * lever.z[0];
-        sum.z += turn * lever.x[0];
-      } else {
-        const Values turn =
-            compliance * (lever.x * force_.z - lever.z * force_.x + circle_.moment[2]);
-        sum.x -= turn * lever.z;
-        sum.z += turn * lever.x;
-      }
+      const Values turn =
+          compliance * (lever.x * force_.z - lever.z * force_.x + circle_.moment[2]);
+      sum.x -= turn * lever.z;
+      sum.z += turn * lever.x;
     };
     add(levers.shoulder, arm.compliance[0]);
     add(levers.elbow, arm.compliance[1]);
@@ -130,8 +124,7 @@ class CircleStudy::Implementation {
   PlanarPath full_deflection(const PlanarPath& where, const Levers& levers) const {
     PlanarPath sum = scaled(directions_, 0);
     for (Eigen::Index i = 0; i < sum.x.size(); ++i) {
-      const Eigen::Index at = where.x.size() == 1 ? 0 : i;
-      const JointVector<double, 6> q = arm.angles(where[at] - levers.elbow[at], where[at]);
+      const JointVector<double, 6> q = arm.angles(where[i] - levers.elbow[i], where[i]);
       const Planar radial = directions_[i];
       const Planar turning = circle_.sense == WrenchSense::with_path ? radial : std::conj(radial);
       const Planar moment = turning * Planar(circle_.moment[0], circle_.moment[1]);

@@ -32,7 +32,7 @@ inline PlanarPath relative(const PlanarPath& a, const PlanarPath& b) {
 
 inline PlanarPath scaled(const PlanarPath& path, double by) { return {by * path.x, by * path.z}; }
 
-/// The levers of one posture or of all along a path.
+/// The levers at each point of a path.
 struct Levers {
   PlanarPath shoulder;  ///< from joint 2 to the tool point
   PlanarPath elbow;     ///< from joint 3

@@ -168,7 +168,7 @@ class Tables(PathCommand):
         path = self.plan()
         table = self.table(path)
         result = json.loads(self.run_well("table", "verify", table, "--model", KR270, "--path", path,
-                                          "--json"))
+                                          "--samples", "30000", "--json"))
         self.assertTrue(result["holds"])
         self.assertLessEqual(result["largest_position_error"], result["certified_position_error"])
         self.assertLessEqual(result["certified_position_error"], 1e-6 * 1.000001)
@@ -181,7 +181,7 @@ class Tables(PathCommand):
         struct.pack_into("<I", blob, 12, 0)
         struct.pack_into("<I", blob, 12, zlib.crc32(bytes(blob)))
         forged = self.file("forged.fct", bytes(blob))
-        done = flexcomp("table", "verify", forged, "--model", KR270)
+        done = flexcomp("table", "verify", forged, "--model", KR270, "--samples", "1000")
         self.assertEqual(1, done.returncode, done.stderr)
         self.assertIn("DOES NOT HOLD", done.stdout)
 

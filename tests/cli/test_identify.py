@@ -1,27 +1,37 @@
 """flexcomp identify as a process engineer drives it."""
 
 import csv
+import functools
 import json
 import pathlib
 import random
+import tempfile
 import unittest
 
-from command import KR270, Command
+from command import KR270, Command, flexcomp
 
 TRUTH = 0.54e-6, 0.29e-6, 0.42e-6, 2.79e-6, 3.48e-6  # KR 270; joint 6 is not loaded at its flange
 
 
-class Identify(Command):
-    def plan(self, *more):
-        out = self.folder / "plan.csv"
-        said = json.loads(self.run_well("identify", "plan", "--model", KR270, "--force", "2000", "--noise",
-                                        "20e-6", "--precision", "0.1", "--out", out, "--json", *more))
-        return out, said
+@functools.cache
+def planned_tests():
+    """The file that `flexcomp identify plan` writes, and what it says."""
+    with tempfile.TemporaryDirectory() as folder:
+        plan = pathlib.Path(folder) / "plan.csv"
+        done = flexcomp("identify", "plan", "--model", KR270, "--force", "2000", "--noise", "20e-6",
+                        "--precision", "0.1", "--out", plan, "--json")
+        return plan.read_text(), json.loads(done.stdout)
 
-    def measured(self, plan, noise=20e-6):
+
+class Identify(Command):
+    def setUp(self):
+        super().setUp()
+        self.plan = self.file("plan.csv", planned_tests()[0])
+
+    def measured(self, noise=20e-6):
         """The planned tests, simulated, with noise."""
         clean = self.folder / "clean.csv"
-        self.run_well("simulate", "--model", KR270, "--path", plan, "--out", clean)
+        self.run_well("simulate", "--model", KR270, "--path", self.plan, "--out", clean)
         rows = list(csv.DictReader(clean.read_text().splitlines()))
         draw = random.Random(1)
         for row in rows:
@@ -31,11 +41,11 @@ class Identify(Command):
         return self.file("measured.csv", "\n".join(lines) + "\n")
 
     def test_planned_tests_tell_the_springs_to_the_precision(self):
-        plan, said = self.plan()
+        _, said = planned_tests()
         self.assertTrue(said["is_precise"])
         self.assertIsNone(said["half_width_95"]["joint_6"])
-        self.assertEqual(2 * said["tests"], len(plan.read_text().splitlines()) - 1)
-        recording = self.measured(plan)
+        self.assertEqual(2 * said["tests"], len(self.plan.read_text().splitlines()) - 1)
+        recording = self.measured()
         out = self.folder / "identified.yaml"
         found = json.loads(self.run_well("identify", "--model", KR270, "--recording", recording,
                                          "--out", out, "--json"))
@@ -52,7 +62,7 @@ class Identify(Command):
 
     def test_a_wrong_reading_is_named_with_its_line(self):
         # Of two readings of a posture, in lines 6 and 7, none is the wrong one by itself.
-        recording = pathlib.Path(self.measured(self.plan()[0]))
+        recording = pathlib.Path(self.measured())
         lines = recording.read_text().splitlines()
         cells = lines[6].split(",")
         at = lines[0].split(",").index("x")
@@ -64,8 +74,7 @@ class Identify(Command):
 
     def test_tests_that_say_nothing_are_refused(self):
         self.assert_refused("identify", "--model", KR270, saying="--recording")
-        plan = self.plan()[0]
-        self.assert_refused("identify", "--model", KR270, "--recording", plan, saying="x, y, z")
+        self.assert_refused("identify", "--model", KR270, "--recording", self.plan, saying="x, y, z")
         self.assert_refused("identify", "plan", "--model", KR270, "--out", self.folder / "p.csv",
                             "--noise", "0", saying="noise")
 

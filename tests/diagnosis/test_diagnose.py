@@ -246,6 +246,7 @@ class Diagnose(unittest.TestCase):
         value = found["findings"][0]["parameters"]["delay"]["value"]
         self.assertAlmostEqual(value, delay, delta=2e-5)
 
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_a_load_on_a_robot_that_warms_may_as_well_be_its_last_link(self):
         heavy = "gravity: [0, 0, -9.81]"
         nominal = self.changed_model("gravity: [0, 0, 0]", heavy)

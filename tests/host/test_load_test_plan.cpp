@@ -47,7 +47,7 @@ void a_plan_reaches_the_precision() {
 
 void a_plan_is_at_least_twice_as_good_as_random_tests() {
   const RobotModel<double, 6> robot = some_robot();
-  for (const std::size_t most : {8, 20, 40}) {
+  for (const std::size_t most : {8U, 20U, 40U}) {
     PlanRequest request = some_request(1e-3);
     request.most = most;
     const LoadTestPlan plan = plan_of(robot, request);
