@@ -45,7 +45,7 @@ struct Objective {
         directions += direction;
         gradient -= 2 * error * direction;
         const Eigen::Matrix2d along = direction * direction.transpose();
-        hessian += 2 * (along - error / distance * (Eigen::Matrix2d::Identity() - along));
+        hessian += 2 * (along + error / distance * (Eigen::Matrix2d::Identity() - along));
       }
     }
     hessian -= 2 / count * directions * directions.transpose();
@@ -59,6 +59,7 @@ Eigen::Vector2d least_squares_center(const Profile& profile) {
   Eigen::Vector2d center = algebraic_center(profile);
   Objective at(profile, center);
   double damping = 0;
+  const double rounding = 1e-15 * profile.extent() * std::sqrt(static_cast<double>(profile.size()));
   for (int step = 0; step < kMaxSteps; ++step) {
     const double scale = at.hessian.trace();
     const Eigen::LLT<Eigen::Matrix2d> solver(at.hessian +
@@ -69,8 +70,9 @@ Eigen::Vector2d least_squares_center(const Profile& profile) {
     }
     const Eigen::Vector2d move = -solver.solve(at.gradient);
     const Objective next(profile, center + move);
-    // Near the optimum the sums differ by rounding alone; Newton's step is then to be trusted.
-    const bool better = next.value <= at.value * (1 + 1e-12);
+    // Near the optimum the sums differ by rounding alone, of distances as large as the extent;
+    // Newton's step is then to be trusted.
+    const bool better = next.value <= at.value + rounding * std::sqrt(at.value);
     if (!better) {
       damping = damping > 0 ? 4 * damping : 1e-3;
       continue;

@@ -1,20 +1,29 @@
 #include "study/milled_circle.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "error.hpp"
 #include "flexcomp/compliance.hpp"
-#include "geometry/circularity.hpp"
+#include "geometry/nearly_round.hpp"
 #include "study/planar_path.hpp"
 
 namespace flexcomp::study {
 namespace {
 
-/// Around a circle of radius one, from x to z.
-PlanarPath unit_circle(int points) {
-  const Values angle = Values::LinSpaced(points + 1, 0, 2 * M_PI).head(points);
-  return {angle.cos(), angle.sin()};
+/// Around a circle of radius one, from x to z, in stretches; the last one is filled up with its
+/// end.
+std::vector<PlanarPath> unit_circle(int points) {
+  std::vector<PlanarPath> stretches((static_cast<std::size_t>(points) - 1) / kStretch + 1);
+  for (int i = 0; i < static_cast<int>(stretches.size() * kStretch); ++i) {
+    const double angle = 2 * M_PI * std::min(i, points - 1) / points;
+    PlanarPath& stretch = stretches[static_cast<std::size_t>(i / kStretch)];
+    stretch.x[i % kStretch] = std::cos(angle);
+    stretch.z[i % kStretch] = std::sin(angle);
+  }
+  return stretches;
 }
 
 /// The robot that ends at the tool point.
@@ -54,39 +63,52 @@ class CircleStudy::Implementation {
         model_(ending_at(model, circle.point)),
         circle_(circle),
         is_planar_(has_joint_springs_alone(model)),
-        directions_(unit_circle(circle.points)),
-        offsets_(scaled(directions_, circle.radius)) {
-    PlanarPath turning = directions_;
-    if (circle.sense == WrenchSense::against_path) {
-      turning.z = -turning.z;
-    }
-    force_ = turning.turned({circle.force[0], circle.force[1]});
-  }
+        directions_(unit_circle(circle.points)) {}
 
   double circularity(Planar center) const {
-    const PlanarPath path = offsets_.shifted(center);
-    Levers levers;
-    const PlanarPath where =
-        circle_.is_first_order ? PlanarPath::constant(center, path.x.size()) : path;
-    if (!place(where, 1, &levers) && !place(where, -1, &levers)) {
-      return std::numeric_limits<double>::quiet_NaN();
+    Eigen::ArrayXd x(static_cast<Eigen::Index>(directions_.size()) * kStretch);
+    Eigen::ArrayXd z(x.size());
+    for (const double side : {1.0, -1.0}) {
+      if (mill(center, side, &x, &z)) {
+        return geometry::nearly_round_circularity(x.head(circle_.points), z.head(circle_.points));
+      }
     }
-    return form_error(offsets_ +
-                      (is_planar_ ? planar_deflection(levers) : full_deflection(where, levers)));
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
   PlanarArm arm;
 
  private:
-  /// The levers with the elbow on the left (1) or right (−1); false where that is out of reach.
+  /// The circle as it becomes, from where its centre should be, with the elbow on the left (1) or
+  /// right (−1); false where that is out of reach.
+  bool mill(Planar center, double side, Eigen::ArrayXd* x, Eigen::ArrayXd* z) const {
+    Eigen::Index at = 0;
+    for (const PlanarPath& direction : directions_) {
+      const PlanarPath path = direction.turned(circle_.radius);
+      const PlanarPath where =
+          circle_.is_first_order ? PlanarPath::constant(center) : path.shifted(center);
+      Levers levers;
+      if (!place(where, side, &levers)) {
+        return false;
+      }
+      const PlanarPath milled = path + (is_planar_ ? planar_deflection(direction, levers)
+                                                   : full_deflection(direction, where, levers));
+      x->segment<kStretch>(at) = milled.x;
+      z->segment<kStretch>(at) = milled.z;
+      at += kStretch;
+    }
+    return true;
+  }
+
+  /// The levers with the elbow on that side; false where that is out of reach.
   bool place(const PlanarPath& tool, double side, Levers* levers) const {
     const double upper = std::norm(arm.upper_arm);
     const double fore = std::norm(arm.forearm);
     levers->shoulder = tool.shifted(-arm.shoulder);
     const PlanarPath& v = levers->shoulder;
-    const Values square = v.x.square() + v.z.square();
-    const Values along = (upper - fore + square) / (2 * square);
-    const Values height = upper / square - along.square();
+    const Values inverse = (v.x.square() + v.z.square()).inverse();
+    const Values along = 0.5 + 0.5 * (upper - fore) * inverse;
+    const Values height = upper * inverse - along.square();
     if (!(height >= 0).all()) {
       return false;
     }
@@ -104,11 +126,17 @@ class CircleStudy::Implementation {
     return true;
   }
 
-  PlanarPath planar_deflection(const Levers& levers) const {
-    PlanarPath sum = scaled(directions_, 0);
+  /// How the wrench has turned where the tool is in that direction from the centre.
+  PlanarPath turning(const PlanarPath& direction) const {
+    return circle_.sense == WrenchSense::with_path ? direction
+                                                   : PlanarPath{direction.x, -direction.z};
+  }
+
+  PlanarPath planar_deflection(const PlanarPath& direction, const Levers& levers) const {
+    const PlanarPath force = turning(direction).turned({circle_.force[0], circle_.force[1]});
+    PlanarPath sum = PlanarPath::constant(0);
     const auto add = [&](const PlanarPath& lever, double compliance) {
-      const Values turn =
-          compliance * (lever.x * force_.z - lever.z * force_.x + circle_.moment[2]);
+      const Values turn = compliance * (lever.x * force.z - lever.z * force.x + circle_.moment[2]);
       sum.x -= turn * lever.z;
       sum.z += turn * lever.x;
     };
@@ -121,16 +149,17 @@ class CircleStudy::Implementation {
   }
 
   /// By the core, with every spring and weight.
-  PlanarPath full_deflection(const PlanarPath& where, const Levers& levers) const {
-    PlanarPath sum = scaled(directions_, 0);
-    for (Eigen::Index i = 0; i < sum.x.size(); ++i) {
+  PlanarPath full_deflection(const PlanarPath& direction, const PlanarPath& where,
+                             const Levers& levers) const {
+    const PlanarPath turned = turning(direction);
+    const PlanarPath force = turned.turned({circle_.force[0], circle_.force[1]});
+    const PlanarPath moment = turned.turned({circle_.moment[0], circle_.moment[1]});
+    PlanarPath sum;
+    for (Eigen::Index i = 0; i < kStretch; ++i) {
       const JointVector<double, 6> q = arm.angles(where[i] - levers.elbow[i], where[i]);
-      const Planar radial = directions_[i];
-      const Planar turning = circle_.sense == WrenchSense::with_path ? radial : std::conj(radial);
-      const Planar moment = turning * Planar(circle_.moment[0], circle_.moment[1]);
       Wrench<double> wrench;
-      wrench << force_.x[i], -circle_.force[2], force_.z[i], moment.real(), -circle_.moment[2],
-          moment.imag();
+      wrench << force.x[i], -circle_.force[2], force.z[i], moment.x[i], -circle_.moment[2],
+          moment.z[i];
       const Twist<double> twist = deflection(model_, q, wrench).tcp;
       sum.x[i] = twist[0];
       sum.z[i] = twist[2];
@@ -138,21 +167,10 @@ class CircleStudy::Implementation {
     return sum;
   }
 
-  static double form_error(const PlanarPath& path) {
-    geometry::Points points(static_cast<std::size_t>(path.x.size()));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      points[i] = {path.x[at], path.z[at]};
-    }
-    return geometry::least_squares_circularity(points).value();
-  }
-
   RobotModel<double, 6> model_;
   MilledCircle circle_;
   bool is_planar_;
-  PlanarPath directions_;
-  PlanarPath offsets_;  ///< of the path from its centre
-  PlanarPath force_;
+  std::vector<PlanarPath> directions_;  ///< from the centre to the tool, of length one
 };
 
 CircleStudy::CircleStudy(const RobotModel<double, 6>& model, const MilledCircle& circle) {

@@ -6,15 +6,18 @@
 
 namespace flexcomp::study {
 
-using Values = Eigen::ArrayXd;
+/// As many points of a path as are computed at a time: no memory is asked for, and the processor's
+/// vectors are full.
+constexpr Eigen::Index kStretch = 8;
+using Values = Eigen::Array<double, kStretch, 1>;
 
-/// Points or vectors of the plane, all along a path.
+/// Points or vectors of the plane, along a stretch of a path.
 struct PlanarPath {
   Values x;
   Values z;
 
-  static PlanarPath constant(Planar value, Eigen::Index count) {
-    return {Values::Constant(count, value.real()), Values::Constant(count, value.imag())};
+  static PlanarPath constant(Planar value) {
+    return {Values::Constant(value.real()), Values::Constant(value.imag())};
   }
   PlanarPath operator+(const PlanarPath& other) const { return {x + other.x, z + other.z}; }
   PlanarPath operator-(const PlanarPath& other) const { return {x - other.x, z - other.z}; }
@@ -30,9 +33,7 @@ inline PlanarPath relative(const PlanarPath& a, const PlanarPath& b) {
   return {a.x * b.x + a.z * b.z, a.z * b.x - a.x * b.z};
 }
 
-inline PlanarPath scaled(const PlanarPath& path, double by) { return {by * path.x, by * path.z}; }
-
-/// The levers at each point of a path.
+/// The levers at each point of a stretch.
 struct Levers {
   PlanarPath shoulder;  ///< from joint 2 to the tool point
   PlanarPath elbow;     ///< from joint 3
