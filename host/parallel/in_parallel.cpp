@@ -1,5 +1,7 @@
 #include "parallel/in_parallel.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -8,6 +10,19 @@
 #include <vector>
 
 namespace flexcomp {
+namespace {
+
+/// Cores that this process may use: fewer than the machine has where mpirun or a service manager
+/// has bound it to some.
+unsigned usable_cores() {
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) {
+    return static_cast<unsigned>(CPU_COUNT(&allowed));
+  }
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
+}  // namespace
 
 void in_parallel(std::size_t count, const std::function<void(std::size_t, std::size_t)>& progress,
                  const std::function<void(std::size_t)>& work) {
@@ -29,7 +44,7 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t, std::s
     }
   };
   std::vector<std::thread> helpers;
-  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) {
+  for (unsigned i = 1; i < usable_cores(); ++i) {
     helpers.emplace_back(run, false);
   }
   run(true);

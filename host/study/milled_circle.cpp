@@ -13,15 +13,21 @@
 namespace flexcomp::study {
 namespace {
 
-/// Around a circle of radius one, from x to z, in stretches; the last one is filled up with its
-/// end.
-std::vector<PlanarPath> unit_circle(int points) {
-  std::vector<PlanarPath> stretches((static_cast<std::size_t>(points) - 1) / kStretch + 1);
-  for (int i = 0; i < static_cast<int>(stretches.size() * kStretch); ++i) {
-    const double angle = 2 * M_PI * std::min(i, points - 1) / points;
-    PlanarPath& stretch = stretches[static_cast<std::size_t>(i / kStretch)];
-    stretch.x[i % kStretch] = std::cos(angle);
-    stretch.z[i % kStretch] = std::sin(angle);
+/// The circle in stretches; the last one is filled up with its end.
+std::vector<CircleStretch> stretches_of(const MilledCircle& circle) {
+  std::vector<CircleStretch> stretches((static_cast<std::size_t>(circle.points) - 1) / kStretch +
+                                       1);
+  for (std::size_t i = 0; i < stretches.size() * kStretch; ++i) {
+    const auto point =
+        static_cast<double>(std::min<std::size_t>(i, static_cast<std::size_t>(circle.points) - 1));
+    const Planar direction = std::polar(1.0, 2 * M_PI * point / circle.points);
+    const Planar turning =
+        circle.sense == WrenchSense::with_path ? direction : std::conj(direction);
+    CircleStretch& stretch = stretches[i / kStretch];
+    const auto lane = static_cast<Eigen::Index>(i % kStretch);
+    stretch.tool.set(lane, circle.radius * direction);
+    stretch.turning.set(lane, turning);
+    stretch.force.set(lane, turning * Planar(circle.force[0], circle.force[1]));
   }
   return stretches;
 }
@@ -63,36 +69,37 @@ class CircleStudy::Implementation {
         model_(ending_at(model, circle.point)),
         circle_(circle),
         is_planar_(has_joint_springs_alone(model)),
-        directions_(unit_circle(circle.points)) {}
+        stretches_(stretches_of(circle)) {}
 
   double circularity(Planar center) const {
-    Eigen::ArrayXd x(static_cast<Eigen::Index>(directions_.size()) * kStretch);
+    Eigen::ArrayXd x(static_cast<Eigen::Index>(stretches_.size()) * kStretch);
     Eigen::ArrayXd z(x.size());
-    for (const double side : {1.0, -1.0}) {
-      if (mill(center, side, &x, &z)) {
-        return geometry::nearly_round_circularity(x.head(circle_.points), z.head(circle_.points));
-      }
+    if (!mill(center, 1, &x, &z) && !(has_limits() && mill(center, -1, &x, &z))) {
+      return std::numeric_limits<double>::quiet_NaN();
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return geometry::nearly_round_circularity(x.head(circle_.points), z.head(circle_.points));
   }
 
   PlanarArm arm;
 
  private:
+  /// Only they can leave the elbow one side and not the other.
+  bool has_limits() const { return !arm.range_2.is_full() || !arm.range_3.is_full(); }
+
   /// The circle as it becomes, from where its centre should be, with the elbow on the left (1) or
   /// right (−1); false where that is out of reach.
   bool mill(Planar center, double side, Eigen::ArrayXd* x, Eigen::ArrayXd* z) const {
     Eigen::Index at = 0;
-    for (const PlanarPath& direction : directions_) {
-      const PlanarPath path = direction.turned(circle_.radius);
+    for (const CircleStretch& stretch : stretches_) {
       const PlanarPath where =
-          circle_.is_first_order ? PlanarPath::constant(center) : path.shifted(center);
+          circle_.is_first_order ? PlanarPath::constant(center) : stretch.tool.shifted(center);
       Levers levers;
       if (!place(where, side, &levers)) {
         return false;
       }
-      const PlanarPath milled = path + (is_planar_ ? planar_deflection(direction, levers)
-                                                   : full_deflection(direction, where, levers));
+      const PlanarPath milled =
+          stretch.tool + (is_planar_ ? planar_deflection(stretch.force, levers)
+                                     : full_deflection(stretch, where, levers));
       x->segment<kStretch>(at) = milled.x;
       z->segment<kStretch>(at) = milled.z;
       at += kStretch;
@@ -115,25 +122,20 @@ class CircleStudy::Implementation {
     const Values across = side * height.sqrt();
     const PlanarPath elbow = {along * v.x - across * v.z, along * v.z + across * v.x};
     levers->elbow = v - elbow;
-    const PlanarPath first = elbow.turned(std::conj(arm.upper_arm));
     const PlanarPath second = levers->elbow.turned(std::conj(arm.forearm));
-    const PlanarPath third = relative(second, first);
-    if (!arm.range_2.holds(first.x, first.z, upper) ||
-        !arm.range_3.holds(third.x, third.z, upper * fore)) {
-      return false;
+    if (arm.wrist_to_tool != Planar(0, 0)) {
+      levers->wrist = second.turned(arm.wrist_to_tool / fore);
     }
-    levers->wrist = second.turned(arm.wrist_to_tool / fore);
-    return true;
+    if (!has_limits()) {
+      return true;
+    }
+    const PlanarPath first = elbow.turned(std::conj(arm.upper_arm));
+    const PlanarPath third = relative(second, first);
+    return arm.range_2.holds(first.x, first.z, upper) &&
+           arm.range_3.holds(third.x, third.z, upper * fore);
   }
 
-  /// How the wrench has turned where the tool is in that direction from the centre.
-  PlanarPath turning(const PlanarPath& direction) const {
-    return circle_.sense == WrenchSense::with_path ? direction
-                                                   : PlanarPath{direction.x, -direction.z};
-  }
-
-  PlanarPath planar_deflection(const PlanarPath& direction, const Levers& levers) const {
-    const PlanarPath force = turning(direction).turned({circle_.force[0], circle_.force[1]});
+  PlanarPath planar_deflection(const PlanarPath& force, const Levers& levers) const {
     PlanarPath sum = PlanarPath::constant(0);
     const auto add = [&](const PlanarPath& lever, double compliance) {
       const Values turn = compliance * (lever.x * force.z - lever.z * force.x + circle_.moment[2]);
@@ -149,11 +151,10 @@ class CircleStudy::Implementation {
   }
 
   /// By the core, with every spring and weight.
-  PlanarPath full_deflection(const PlanarPath& direction, const PlanarPath& where,
+  PlanarPath full_deflection(const CircleStretch& stretch, const PlanarPath& where,
                              const Levers& levers) const {
-    const PlanarPath turned = turning(direction);
-    const PlanarPath force = turned.turned({circle_.force[0], circle_.force[1]});
-    const PlanarPath moment = turned.turned({circle_.moment[0], circle_.moment[1]});
+    const PlanarPath& force = stretch.force;
+    const PlanarPath moment = stretch.turning.turned({circle_.moment[0], circle_.moment[1]});
     PlanarPath sum;
     for (Eigen::Index i = 0; i < kStretch; ++i) {
       const JointVector<double, 6> q = arm.angles(where[i] - levers.elbow[i], where[i]);
@@ -161,8 +162,7 @@ class CircleStudy::Implementation {
       wrench << force.x[i], -circle_.force[2], force.z[i], moment.x[i], -circle_.moment[2],
           moment.z[i];
       const Twist<double> twist = deflection(model_, q, wrench).tcp;
-      sum.x[i] = twist[0];
-      sum.z[i] = twist[2];
+      sum.set(i, {twist[0], twist[2]});
     }
     return sum;
   }
@@ -170,7 +170,7 @@ class CircleStudy::Implementation {
   RobotModel<double, 6> model_;
   MilledCircle circle_;
   bool is_planar_;
-  std::vector<PlanarPath> directions_;  ///< from the centre to the tool, of length one
+  std::vector<CircleStretch> stretches_;
 };
 
 CircleStudy::CircleStudy(const RobotModel<double, 6>& model, const MilledCircle& circle) {

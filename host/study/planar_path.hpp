@@ -26,6 +26,10 @@ struct PlanarPath {
     return {by.real() * x - by.imag() * z, by.imag() * x + by.real() * z};
   }
   Planar operator[](Eigen::Index i) const { return {x[i], z[i]}; }
+  void set(Eigen::Index i, Planar value) {
+    x[i] = value.real();
+    z[i] = value.imag();
+  }
 };
 
 /// Each vector times the conjugate of the other's: its direction from there.
@@ -33,11 +37,18 @@ inline PlanarPath relative(const PlanarPath& a, const PlanarPath& b) {
   return {a.x * b.x + a.z * b.z, a.z * b.x - a.x * b.z};
 }
 
+/// A stretch of the circle, about its centre.
+struct CircleStretch {
+  PlanarPath tool;     ///< m
+  PlanarPath turning;  ///< of the wrench, as a unit vector
+  PlanarPath force;    ///< N
+};
+
 /// The levers at each point of a stretch.
 struct Levers {
   PlanarPath shoulder;  ///< from joint 2 to the tool point
   PlanarPath elbow;     ///< from joint 3
-  PlanarPath wrist;     ///< from joint 5
+  PlanarPath wrist;     ///< from joint 5; not set where that is the tool point
 };
 
 }  // namespace flexcomp::study
