@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
 #include "cli/command.hpp"
@@ -17,6 +18,7 @@
 #include "study/circularity_map.hpp"
 #include "study/map_picture.hpp"
 #include "study/presets.hpp"
+#include "study/section_map.hpp"
 
 namespace flexcomp::cli {
 namespace {
@@ -27,6 +29,7 @@ struct MapOptions {
   std::string model;
   std::string out;
   std::string preset = "strict";
+  std::string plane = "xz";
   std::string sense;
   std::array<double, 3> force{};
   std::array<double, 3> moment{};
@@ -74,26 +77,36 @@ study::MilledCircle circle_of(const MapOptions& options) {
 /// A map with all that is told of it.
 struct Study {
   study::MilledCircle circle;
-  study::PlanarArm arm;
+  std::optional<study::PlanarArm> arm;  ///< whose map it is, if it is of one
   study::CircularityMap map;
   study::MapSummary summary;
   std::vector<study::BestSquare> squares;
 
   bool is_counter() const {
-    return circle.is_first_order && circle.sense == study::WrenchSense::against_path;
+    return arm && circle.is_first_order && circle.sense == study::WrenchSense::against_path;
   }
-  double middle() const { return is_counter() ? study::counter_middle(arm, circle) : summary.mean; }
+  double middle() const {
+    return is_counter() ? study::counter_middle(*arm, circle) : summary.mean;
+  }
 };
 
 Study study_of(const model::Robot& robot, const MapOptions& options) {
   Study study;
   study.circle = circle_of(options);
-  const study::CircleStudy at(robot.elastic, study.circle);
-  study.arm = at.arm();
   Progress progress("mapping", 1000);
-  study.map = study::map_circularity(at, options.step, [&](std::size_t done, std::size_t count) {
+  const auto show = [&](std::size_t done, std::size_t count) {
     progress.show(1000 * done / count);
-  });
+  };
+  if (options.plane == "xz") {
+    const study::CircleStudy at(robot.elastic, study.circle);
+    study.arm = at.arm();
+    study.map = study::map_circularity(at, options.step, show);
+  } else {
+    study.circle.point = study::ToolPoint::tcp;
+    const Vector3<double> tool_axis =
+        options.plane == "xy" ? Vector3<double>(0, 0, -1) : Vector3<double>(1, 0, 0);
+    study.map = study::map_section(robot.elastic, study.circle, tool_axis, options.step, show);
+  }
   study.summary = study::summarize(study.map);
   for (const double size : options.regions) {
     study.squares.push_back(study::best_square(study.map, size));
@@ -113,6 +126,7 @@ Json summary_json(const model::Robot& robot, const MapOptions& options, const St
   return {{"schema", "flexcomp/map/1"},
           {"robot", robot.name},
           {"preset", options.preset},
+          {"plane", options.plane},
           {"radius", circle.radius},
           {"force", {circle.force[0], circle.force[1], circle.force[2]}},
           {"moment", {circle.moment[0], circle.moment[1], circle.moment[2]}},
@@ -190,10 +204,10 @@ int run(const MapOptions& options) {
   }
   const Study study = study_of(robot, options);
   const Json summary = summary_json(robot, options, study);
-  const std::string script =
-      study::map_script(study.map, study.arm, study.squares,
-                        fmt::format("{}: circularity of a milled circle, radius {:g} mm, preset {}",
-                                    robot.name, 1e3 * study.circle.radius, options.preset));
+  const std::string script = study::map_script(
+      study.map, study.arm, study.squares,
+      fmt::format("{}: circularity of a milled circle in {}, radius {:g} mm, preset {}", robot.name,
+                  options.plane, 1e3 * study.circle.radius, options.preset));
   const std::string svg = report::plot_svg(script, 900, 860);
   const std::string png = report::plot_png(script, 900, 860);
   const std::filesystem::path folder = output_folder(options.out);
@@ -252,6 +266,11 @@ void add_map(CLI::App* app, Action* action) {
       ->add_option("--wrench-sense", options->sense,
                    "the wrench turns with the path or against it; otherwise the preset's")
       ->check(CLI::IsMember({"with", "against"}));
+  command
+      ->add_option("--plane", options->plane,
+                   "that the circles lie in, their centres at y = 0. Other than xz: the TCP goes "
+                   "round, the tool stands across, pointing down (xy) or forward (yz)")
+      ->check(CLI::IsMember({"xz", "xy", "yz"}));
   command->add_option("--volume", options->volume, "a box, m: from and to along x, y and z")
       ->delimiter(',')
       ->expected(6);

@@ -35,15 +35,47 @@ double nearest_turn(double angle, double near, const Joint<double>& joint) {
   return turned;
 }
 
+/// A step of the joints, rad, after which the solver is at a solution or stuck where there is none.
+constexpr double kStuck = 1e-6;
+
 /// Metres and radians count alike.
 const Eigen::Matrix<double, 6, 1> kEqualWeights = Eigen::Matrix<double, 6, 1>::Ones();
+
+bool is_within_limits(const RobotModel<double, 6>& model, const Angles& q) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto joint = static_cast<Eigen::Index>(i);
+    if (!(q[joint] >= model.joints[i].lower && q[joint] <= model.joints[i].upper)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Newton's method, to the last digits; nothing if it does not begin close to a solution.
+std::optional<Angles> by_newton(const RobotModel<double, 6>& model, const Pose<double>& target,
+                                Angles q) {
+  constexpr int kMostSteps = 6;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Kinematics<double, 6> at = forward_kinematics<double, 6>(model, q);
+    const Twist<double> off = pose_difference(at.tcp, target);
+    if (off.cwiseAbs().maxCoeff() <= 1e-13) {
+      break;
+    }
+    q += joint_motion<double, 6>(geometric_jacobian<double, 6>(at), off);
+  }
+  const Pose<double> reached = forward_kinematics<double, 6>(model, q).tcp;
+  if (!(pose_difference(reached, target).cwiseAbs().maxCoeff() <= 1e-9)) {
+    return std::nullopt;
+  }
+  return q;
+}
 
 class Solver {
  public:
   explicit Solver(const RobotModel<double, 6>& model)
       : model_(model),
         chain_(kinematic_chain(model)),
-        solver_(chain_, kEqualWeights, 1e-10, 500, 1e-15) {}
+        solver_(chain_, kEqualWeights, 1e-10, 500, kStuck) {}
 
   std::optional<Angles> solve(const Pose<double>& target, const Angles& seed) {
     KDL::JntArray start(6);
@@ -54,31 +86,14 @@ class Solver {
     for (std::size_t i = 0; i < 6; ++i) {
       const auto joint = static_cast<Eigen::Index>(i);
       q[joint] = nearest_turn(found.data[joint], seed[joint], model_.joints[i]);
-      if (!(q[joint] >= model_.joints[i].lower && q[joint] <= model_.joints[i].upper)) {
-        return std::nullopt;
-      }
     }
-    return polished(target, q);
+    if (!is_within_limits(model_, q)) {
+      return std::nullopt;
+    }
+    return by_newton(model_, target, q);
   }
 
  private:
-  /// Newton's last digits; nothing if the solver had not come close.
-  std::optional<Angles> polished(const Pose<double>& target, Angles q) const {
-    for (int step = 0; step < 3; ++step) {
-      const Kinematics<double, 6> at = forward_kinematics<double, 6>(model_, q);
-      const Twist<double> off = pose_difference(at.tcp, target);
-      if (off.cwiseAbs().maxCoeff() <= 1e-13) {
-        break;
-      }
-      q += joint_motion<double, 6>(geometric_jacobian<double, 6>(at), off);
-    }
-    const Pose<double> reached = forward_kinematics<double, 6>(model_, q).tcp;
-    if (pose_difference(reached, target).cwiseAbs().maxCoeff() > 1e-9) {
-      return std::nullopt;
-    }
-    return q;
-  }
-
   const RobotModel<double, 6>& model_;
   KDL::Chain chain_;
   KDL::ChainIkSolverPos_LMA solver_;
@@ -99,6 +114,11 @@ double off_middle(const RobotModel<double, 6>& model, const Angles& q) {
 
 std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<double>& target,
                                  const Angles& seed) {
+  constexpr double kNear = 0.5;  // rad: farther than this Newton's method went elsewhere
+  const std::optional<Angles> q = by_newton(model, target, seed);
+  if (q && (*q - seed).cwiseAbs().maxCoeff() < kNear && is_within_limits(model, *q)) {
+    return q;
+  }
   return Solver(model).solve(target, seed);
 }
 

@@ -28,9 +28,7 @@ std::vector<double> sliding_worst(const std::vector<double>& values, std::size_t
 
 }  // namespace
 
-CircularityMap map_circularity(const CircleStudy& study, double step,
-                               const std::function<void(std::size_t, std::size_t)>& progress) {
-  const PlanarArm& arm = study.arm();
+CircularityMap empty_map(const PlanarArm& arm, double step) {
   const double reach = arm.reach[1];
   if (!(step > 0) || !(std::pow(2 * reach / step + 2, 2) < kMostNodes)) {
     throw InputError("the step of the map must be above zero and not so small: at most 1e8 nodes");
@@ -47,8 +45,15 @@ CircularityMap map_circularity(const CircleStudy& study, double step,
   map.first_row = first(arm.shoulder.imag());
   map.columns = count(arm.shoulder.real());
   map.rows = count(arm.shoulder.imag());
+  map.circularity.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows),
+                         std::numeric_limits<double>::quiet_NaN());
+  return map;
+}
+
+CircularityMap map_circularity(const CircleStudy& study, double step,
+                               const std::function<void(std::size_t, std::size_t)>& progress) {
+  CircularityMap map = empty_map(study.arm(), step);
   const auto columns = static_cast<std::size_t>(map.columns);
-  map.circularity.resize(columns * static_cast<std::size_t>(map.rows));
   in_parallel(static_cast<std::size_t>(map.rows), progress, [&](std::size_t row) {
     for (std::size_t column = 0; column < columns; ++column) {
       map.circularity[row * columns + column] =

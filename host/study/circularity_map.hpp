@@ -24,8 +24,12 @@ struct CircularityMap {
   }
 };
 
+/// Nodes wherever the arm could reach, nothing known of them (NaN). Throws InputError for a step
+/// that is not above zero or gives more than 10⁸ nodes.
+CircularityMap empty_map(const PlanarArm& arm, double step);
+
 /// The map of all that the arm reaches, on all cores. `progress` is told: rows done, of how many.
-/// Throws InputError for a step that is not above zero or gives more than 10⁸ nodes.
+/// Throws InputError as `empty_map` does.
 CircularityMap map_circularity(const CircleStudy& study, double step,
                                const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -57,13 +57,22 @@ std::string outlines(const std::vector<BestSquare>& squares) {
   return text;
 }
 
+/// How far the arm reaches, and from where.
+std::string reach(const PlanarArm& arm) {
+  return fmt::format(
+      "plots = plots . \", {0}+{2}*cos(t), {1}+{2}*sin(t) with lines dt 2 lc rgb '#666666' title "
+      "'reach without joint limits'\"\n"
+      "$joint << EOD\n{0} {1}\nEOD\nplots = plots . \", $joint with points pt 7 ps 1.3 lc rgb "
+      "'black' title 'axis of joint 2'\"\n",
+      arm.shoulder.real(), arm.shoulder.imag(), std::abs(arm.upper_arm) + std::abs(arm.forearm));
+}
+
 }  // namespace
 
-std::string map_script(const CircularityMap& map, const PlanarArm& arm,
+std::string map_script(const CircularityMap& map, const std::optional<PlanarArm>& arm,
                        const std::vector<BestSquare>& squares, const std::string& title) {
   const MapSummary summary = summarize(map);
   const double spacing = contour_spacing(kMillimetres * (summary.max - summary.min));
-  const double stretched = std::abs(arm.upper_arm) + std::abs(arm.forearm);
   return nodes(map) + fmt::format("set title \"{}\" noenhanced\n", title) +
          fmt::format(
              "set contour base\nunset surface\nset cntrparam levels incremental 0,{0:g},{1:g}\n"
@@ -79,18 +88,9 @@ std::string map_script(const CircularityMap& map, const PlanarArm& arm,
              "set xrange [{}:{}]\nset yrange [{}:{}]\nset cbrange [{}:{}]\n",
              spacing, map.x(0), map.x(map.columns - 1), map.z(0), map.z(map.rows - 1),
              kMillimetres * summary.min, kMillimetres * summary.max) +
-         fmt::format(
-             "plots = \"$map using 1:2:3 with image notitle\"\n"
-             "plots = plots . \", $contours with lines lw 1 lc rgb '#444444' notitle\"\n"
-             "plots = plots . \", {0}+{2}*cos(t), {1}+{2}*sin(t) with lines dt 2 lc rgb "
-             "'#666666' title 'reach without joint limits'\"\n",
-             arm.shoulder.real(), arm.shoulder.imag(), stretched) +
-         outlines(squares) +
-         fmt::format(
-             "$joint << EOD\n{} {}\nEOD\nplots = plots . \", $joint with points pt 7 ps 1.3 "
-             "lc rgb 'black' title 'axis of joint 2'\"\n",
-             arm.shoulder.real(), arm.shoulder.imag()) +
-         "eval 'plot ' . plots\n";
+         "plots = \"$map using 1:2:3 with image notitle\"\n"
+         "plots = plots . \", $contours with lines lw 1 lc rgb '#444444' notitle\"\n" +
+         outlines(squares) + (arm ? reach(*arm) : "") + "eval 'plot ' . plots\n";
 }
 
 }  // namespace flexcomp::study

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,9 +8,9 @@
 
 namespace flexcomp::study {
 
-/// A gnuplot script of a map: circularity by colour and contours, how far the arm could reach
-/// without joint limits, the robot's first joints, and the best squares.
-std::string map_script(const CircularityMap& map, const PlanarArm& arm,
+/// A gnuplot script of a map: circularity by colour and contours, the best squares, and, where the
+/// map is of one arm, how far that could reach without joint limits.
+std::string map_script(const CircularityMap& map, const std::optional<PlanarArm>& arm,
                        const std::vector<BestSquare>& squares, const std::string& title);
 
 }  // namespace flexcomp::study

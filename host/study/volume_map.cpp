@@ -20,6 +20,7 @@
 #include "geometry/circularity.hpp"
 #include "parallel/in_parallel.hpp"
 #include "planning/inverse_kinematics.hpp"
+#include "study/wrist_reach.hpp"
 
 namespace flexcomp::study {
 namespace {
@@ -47,7 +48,10 @@ class Miller {
  public:
   Miller(const RobotModel<double, 6>& model, const MilledCircle& circle,
          const Vector3<double>& tool_axis)
-      : model_(model), circle_(circle), plane_(plane_across(tool_axis)) {
+      : model_(model),
+        circle_(circle),
+        reach_(model, circle.has_limits),
+        plane_(plane_across(tool_axis)) {
     orientation_.col(2) = tool_axis;
     orientation_.col(0) = plane_.col(0);
     orientation_.col(1) = tool_axis.cross(plane_.col(0));
@@ -55,6 +59,9 @@ class Miller {
 
   /// m; NaN where out of reach.
   double circularity(const Vector3<double>& center) {
+    if (!may_reach(center)) {
+      return kNowhere;
+    }
     if (last_) {
       const double value = from(*last_, center);
       if (!std::isnan(value)) {
@@ -78,6 +85,18 @@ class Miller {
 
   Pose<double> first_pose(const Vector3<double>& center) const {
     return {orientation_, circle_.is_first_order ? center : center + offset(0)};
+  }
+
+  bool may_reach(const Vector3<double>& center) const {
+    if (circle_.is_first_order) {
+      return reach_.may_hold({orientation_, center});
+    }
+    for (int i = 0; i < circle_.points; ++i) {
+      if (!reach_.may_hold({orientation_, center + offset(i)})) {
+        return false;
+      }
+    }
+    return true;
   }
 
   double from(const Angles& start, const Vector3<double>& center) {
@@ -114,6 +133,7 @@ class Miller {
 
   const RobotModel<double, 6>& model_;
   const MilledCircle& circle_;
+  WristReach reach_;
   Matrix3<double> plane_;
   Matrix3<double> orientation_;
   std::optional<Angles> last_;

@@ -11,6 +11,10 @@ import unittest
 from command import FLEXCOMP, KR270, ROBOTS, Command, flexcomp
 
 
+def rows_of(file):
+    return list(csv.DictReader(file.read_text().splitlines()))
+
+
 class Map(Command):
     def map(self, *more, model=KR270):
         out = self.folder / "map"
@@ -27,7 +31,7 @@ class Map(Command):
                          {path.name for path in out.iterdir()})
         summary = json.loads((out / "summary.json").read_text())
         self.assertEqual(summary, json.loads(printed))
-        rows = list(csv.DictReader((out / "map.csv").read_text().splitlines()))
+        rows = rows_of(out / "map.csv")
         values = [float(row["circularity"]) for row in rows if row["circularity"]]
         self.assertEqual(summary["nodes_in_reach"], len(values))
         self.assertLess(len(values), len(rows))
@@ -58,6 +62,18 @@ class Map(Command):
             self.assertEqual(counter[key], mixed[key], key)
         free = self.summary("--no-limits", "--step", "0.2")
         self.assertGreater(free["nodes_in_reach"], self.summary("--step", "0.2")["nodes_in_reach"])
+
+    def test_circles_of_another_plane_are_those_of_a_volume(self):
+        words = "map", "--model", KR270, "--preset", "flange", "--points", "12", "--step", "0.4"
+        out, volume = self.folder / "map", self.folder / "volume"
+        said = json.loads(self.run_well(*words, "--plane", "xy", "--region", "0.3", "--out", out, "--json"))
+        self.assertEqual("xy", said["plane"])
+        self.assertLess(40, said["nodes_in_reach"])
+        self.run_well(*words, "--volume", "1.2,2,0,0,0.8,1.6", "--out", volume)
+        section = {(row["x"], row["z"]): row["circularity"] for row in rows_of(out / "map.csv")}
+        self.assertIn(("-2", "1.2"), section)  # the arm turned round
+        for row in rows_of(volume / "volume.csv"):
+            self.assertAlmostEqual(float(row["circularity"]), float(section[row["x"], row["z"]]), delta=1e-9)
 
     def test_a_square_that_fits_nowhere_has_no_place(self):
         for region in self.summary("--region", "3", "--step", "0.2")["regions"]:
@@ -97,7 +113,7 @@ class Volume(Command):
         self.assertEqual({"volume.csv", "summary.json"}, {path.name for path in out.iterdir()})
 
     def test_a_circle_of_the_volume_is_as_round_as_one_planned_and_simulated(self):
-        rows = csv.DictReader((self.sweep("volume")[0] / "volume.csv").read_text().splitlines())
+        rows = rows_of(self.sweep("volume")[0] / "volume.csv")
         row = next(row for row in rows if (row["x"], row["y"], row["z"]) == ("1.6", "0", "1.2")
                    and row["tool_z"] == "-1")
         path, recording = self.folder / "path.csv", self.folder / "recording.csv"
