@@ -6,6 +6,7 @@
 
 #include "flexcomp/compliance.hpp"
 #include "model/kdl.hpp"
+#include "planning/closed_form.hpp"
 
 namespace flexcomp::planning {
 namespace {
@@ -110,19 +111,8 @@ double off_middle(const RobotModel<double, 6>& model, const Angles& q) {
   return sum;
 }
 
-}  // namespace
-
-std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<double>& target,
-                                 const Angles& seed) {
-  constexpr double kNear = 0.5;  // rad: farther than this Newton's method went elsewhere
-  const std::optional<Angles> q = by_newton(model, target, seed);
-  if (q && (*q - seed).cwiseAbs().maxCoeff() < kNear && is_within_limits(model, *q)) {
-    return q;
-  }
-  return Solver(model).solve(target, seed);
-}
-
-std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<double>& target) {
+/// From many starts; it may miss some.
+std::vector<Angles> search(const RobotModel<double, 6>& model, const Pose<double>& target) {
   Solver solver(model);
   std::vector<Angles> solutions;
   const auto seed_angle = [&](std::size_t joint, double share) {
@@ -137,12 +127,7 @@ std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<dou
             Angles seed;
             seed << seed_angle(0, first), seed_angle(1, second), seed_angle(2, third), wrist,
                 seed_angle(4, fifth), wrist;
-            const std::optional<Angles> q = solver.solve(target, seed);
-            const bool is_new =
-                q && std::none_of(solutions.begin(), solutions.end(), [&](const Angles& other) {
-                  return (other - *q).cwiseAbs().maxCoeff() < 1e-6;
-                });
-            if (is_new) {
+            if (const std::optional<Angles> q = solver.solve(target, seed)) {
               solutions.push_back(*q);
             }
           }
@@ -150,9 +135,50 @@ std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<dou
       }
     }
   }
+  return solutions;
+}
+
+/// Those within the joint limits, each joint turned to the middle of its range as far as may be.
+std::vector<Angles> within_limits(const RobotModel<double, 6>& model, const Pose<double>& target,
+                                  const std::vector<Angles>& solutions) {
+  std::vector<Angles> within;
+  for (Angles q : solutions) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Joint<double>& joint = model.joints[i];
+      double& angle = q[static_cast<Eigen::Index>(i)];
+      angle = nearest_turn(angle, (joint.lower + joint.upper) / 2, joint);
+    }
+    const std::optional<Angles> exact = by_newton(model, target, q);
+    if (exact && is_within_limits(model, *exact)) {
+      within.push_back(*exact);
+    }
+  }
+  return within;
+}
+
+}  // namespace
+
+std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<double>& target,
+                                 const Angles& seed) {
+  constexpr double kNear = 0.5;  // rad: farther than this Newton's method went elsewhere
+  const std::optional<Angles> q = by_newton(model, target, seed);
+  if (q && (*q - seed).cwiseAbs().maxCoeff() < kNear && is_within_limits(model, *q)) {
+    return q;
+  }
+  return Solver(model).solve(target, seed);
+}
+
+std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<double>& target) {
+  const std::optional<std::vector<Angles>> closed = solve_closed_form(model, target);
+  std::vector<Angles> solutions =
+      closed ? within_limits(model, target, *closed) : search(model, target);
   std::sort(solutions.begin(), solutions.end(), [&](const Angles& a, const Angles& b) {
     return off_middle(model, a) < off_middle(model, b);
   });
+  const auto is_same = [](const Angles& a, const Angles& b) {
+    return (a - b).cwiseAbs().maxCoeff() < 1e-6;
+  };
+  solutions.erase(std::unique(solutions.begin(), solutions.end(), is_same), solutions.end());
   return solutions;
 }
 

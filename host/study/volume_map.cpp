@@ -20,7 +20,6 @@
 #include "geometry/circularity.hpp"
 #include "parallel/in_parallel.hpp"
 #include "planning/inverse_kinematics.hpp"
-#include "study/wrist_reach.hpp"
 
 namespace flexcomp::study {
 namespace {
@@ -43,31 +42,20 @@ Matrix3<double> plane_across(const Vector3<double>& tool_axis) {
   return frame;
 }
 
-/// Circles of one direction of the tool; remembers how the robot stood, to begin from there.
+/// Circles of one direction of the tool, each in the posture farthest from the joint limits that
+/// can mill all of it.
 class Miller {
  public:
   Miller(const RobotModel<double, 6>& model, const MilledCircle& circle,
          const Vector3<double>& tool_axis)
-      : model_(model),
-        circle_(circle),
-        reach_(model, circle.has_limits),
-        plane_(plane_across(tool_axis)) {
+      : model_(model), circle_(circle), plane_(plane_across(tool_axis)) {
     orientation_.col(2) = tool_axis;
     orientation_.col(0) = plane_.col(0);
     orientation_.col(1) = tool_axis.cross(plane_.col(0));
   }
 
   /// m; NaN where out of reach.
-  double circularity(const Vector3<double>& center) {
-    if (!may_reach(center)) {
-      return kNowhere;
-    }
-    if (last_) {
-      const double value = from(*last_, center);
-      if (!std::isnan(value)) {
-        return value;
-      }
-    }
+  double circularity(const Vector3<double>& center) const {
     for (const Angles& start : planning::solve_all(model_, first_pose(center))) {
       const double value = from(start, center);
       if (!std::isnan(value)) {
@@ -87,21 +75,9 @@ class Miller {
     return {orientation_, circle_.is_first_order ? center : center + offset(0)};
   }
 
-  bool may_reach(const Vector3<double>& center) const {
-    if (circle_.is_first_order) {
-      return reach_.may_hold({orientation_, center});
-    }
-    for (int i = 0; i < circle_.points; ++i) {
-      if (!reach_.may_hold({orientation_, center + offset(i)})) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  double from(const Angles& start, const Vector3<double>& center) {
+  double from(const Angles& start, const Vector3<double>& center) const {
     geometry::Points points;
-    std::optional<Angles> q = planning::solve_near(model_, first_pose(center), start);
+    std::optional<Angles> q = start;
     for (int i = 0; i < circle_.points; ++i) {
       if (i > 0 && !circle_.is_first_order) {
         const Angles before = *q;
@@ -113,7 +89,6 @@ class Miller {
       if (!q) {
         return kNowhere;
       }
-      last_ = i == 0 ? *q : *last_;
       const Vector3<double> bent =
           offset(i) + deflection<double, 6>(model_, *q, wrench(i)).tcp.template head<3>();
       points.emplace_back(plane_.col(0).dot(bent), plane_.col(1).dot(bent));
@@ -133,10 +108,8 @@ class Miller {
 
   const RobotModel<double, 6>& model_;
   const MilledCircle& circle_;
-  WristReach reach_;
   Matrix3<double> plane_;
   Matrix3<double> orientation_;
-  std::optional<Angles> last_;
 };
 
 std::filesystem::path layer_file(const std::filesystem::path& folder, std::size_t layer) {
@@ -218,7 +191,7 @@ Vector3<double> VolumeMap::node(std::size_t layer, std::size_t index) const {
 }
 
 std::vector<double> VolumeMap::layer(std::size_t layer) const {
-  Miller miller(model_, request_.circle, tool_axis(layer));
+  const Miller miller(model_, request_.circle, tool_axis(layer));
   std::vector<double> values(static_cast<std::size_t>(count_[0]) *
                              static_cast<std::size_t>(count_[1]));
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -100,9 +100,9 @@ BOX = ("--volume", "1.2,2.0,-0.4,0.4,0.8,1.6", "--step", "0.4", "--points", "24"
 
 
 class Volume(Command):
-    def sweep(self, name, *more, launcher=()):
+    def sweep(self, name, *more, box=BOX, launcher=()):
         out = self.folder / name
-        words = [*launcher, str(FLEXCOMP), "map", "--model", str(KR270), "--out", str(out), *BOX, *more]
+        words = [*launcher, str(FLEXCOMP), "map", "--model", str(KR270), "--out", str(out), *box, *more]
         done = subprocess.run(words, capture_output=True, text=True, check=False)
         self.assertEqual(0, done.returncode, done.stderr)
         return out, done.stdout
@@ -126,16 +126,17 @@ class Volume(Command):
         self.assertAlmostEqual(expected, float(row["circularity"]), delta=0.01 * expected)
 
     def test_an_interrupted_sweep_goes_on_where_it_ended(self):
-        whole = (self.sweep("whole")[0] / "volume.csv").read_bytes()
+        finer = [word if word != "0.4" else "0.1" for word in BOX]  # so that there is time to interrupt it
+        whole = (self.sweep("whole", box=finer)[0] / "volume.csv").read_bytes()
         out = self.folder / "broken"
-        words = [FLEXCOMP, "map", "--model", KR270, "--out", out, *BOX]
+        words = [FLEXCOMP, "map", "--model", KR270, "--out", out, *finer]
         with subprocess.Popen(words, stdout=subprocess.DEVNULL) as running:
             while running.poll() is None and not list(out.glob("unfinished-*/layer-00000?")):
                 time.sleep(0.001)
             running.send_signal(signal.SIGINT)
         self.assertFalse((out / "volume.csv").exists())
         self.assertTrue(list(out.glob("unfinished-*/layer-00000?")))
-        self.sweep("broken")
+        self.sweep("broken", box=finer)
         self.assertEqual(whole, (out / "volume.csv").read_bytes())
         self.assertEqual([], list(out.glob("unfinished-*")))
 
