@@ -126,9 +126,10 @@ class ZoneOfFew {
 
 Circularity minimum_zone_circularity(const Points& points) {
   const Profile profile(points);
-  std::vector<std::size_t> few = spread_points(profile, least_squares_center(profile), true);
   std::vector<std::size_t> unique;
-  add_missing(few, &unique);
+  add_missing(spread_points(profile, least_squares_center(profile), true), &unique);
+  // Of a short arc the spread points may be two, which fix no centre.
+  add_missing({profile.triangle().begin(), profile.triangle().end()}, &unique);
   for (;;) {
     const Zone zone = ZoneOfFew(profile, unique).solve();
     const Profile::Range range = profile.range(zone.center);

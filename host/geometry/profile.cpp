@@ -47,19 +47,25 @@ Profile::Profile(const Points& points) {
     throw InputError("the points lie too far apart to compute with");
   }
 
-  const Eigen::Vector2d a = points_[farthest_from(points_, points_.front())];
-  const Eigen::Vector2d b = points_[farthest_from(points_, a)];
+  const std::size_t one_end = farthest_from(points_, points_.front());
+  const std::size_t other_end = farthest_from(points_, points_[one_end]);
+  const Eigen::Vector2d a = points_[one_end];
+  const Eigen::Vector2d b = points_[other_end];
   const double length = (b - a).norm();
   // What the given coordinates can resolve.
   const double resolution = 4 * std::numeric_limits<double>::epsilon() *
                             std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   double height = 0;
+  std::size_t highest = 0;
   std::size_t elsewhere = 0;
-  for (const Eigen::Vector2d& point : points_) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Eigen::Vector2d& point = points_[i];
     const double off = length > 0 ? std::abs(cross(b - a, point - a)) / length : 0;
+    highest = off > height ? i : highest;
     height = std::max(height, off);
     elsewhere += (point - a).norm() > resolution && (point - b).norm() > resolution ? 1 : 0;
   }
+  triangle_ = {one_end, other_end, highest};
   if (elsewhere == 0) {
     throw InputError("fewer than three distinct points have no reference circle");
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "geometry/circularity.hpp"
 
 namespace flexcomp::geometry {
@@ -16,6 +18,9 @@ class Profile {
 
   /// Largest coordinate: the scale of the profile.
   double extent() const { return extent_; }
+
+  /// Three points that do not lie on a line, far from each other.
+  const std::array<std::size_t, 3>& triangle() const { return triangle_; }
 
   struct Range {
     std::size_t nearest;
@@ -35,6 +40,7 @@ class Profile {
   Eigen::Vector2d origin_;
   Points points_;
   double extent_ = 0;
+  std::array<std::size_t, 3> triangle_{};
 };
 
 /// Centre of the circle through three points; false if they lie on a line.

@@ -221,7 +221,8 @@ void minimum_zone_is_the_best_of_all_candidates() {
   std::mt19937 random(11);
   for (unsigned set = 0; set < 100; ++set) {
     const double noise = set % 4 == 0 ? 0.3 : 0.01;
-    const Points points = noisy_profile(8 + random() % 4, 1.0, noise, set);
+    const double arc = set % 3 == 0 ? 0.3 : 2 * kPi;
+    const Points points = noisy_profile(8 + random() % 4, 1.0, noise, set, arc);
     double best = std::numeric_limits<double>::infinity();
     for (const Vector2d& center : all_bisector_crossings(points)) {
       best = std::fmin(best, range_about(points, center));
@@ -342,6 +343,16 @@ void arcs_are_measured_as_well() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-5, 0.1, least_squares_circularity(points).r_min + 1e-5);
 }
 
+void points_of_a_short_arc_lie_in_a_zone_of_no_width() {
+  for (const double arc : {0.02, 0.2, 0.5, 0.8, 1.5}) {
+    for (const std::size_t count : {3U, 4U, 5U, 30U}) {
+      const Points points = profile(
+          count, 1.0, [](double) { return 0; }, arc);
+      TEST_ASSERT_DOUBLE_WITHIN(1e-11, 0, minimum_zone_circularity(points).value());
+    }
+  }
+}
+
 void a_million_points_are_no_trouble() {
   const Points points = noisy_profile(1000000, 0.1, 1e-5, 9);
   for (const Method method : kMethods) {
@@ -393,6 +404,7 @@ int main() {
   RUN_TEST(moving_turning_scaling_and_repeating_points_changes_nothing_else);
   RUN_TEST(the_order_of_the_zones_holds);
   RUN_TEST(arcs_are_measured_as_well);
+  RUN_TEST(points_of_a_short_arc_lie_in_a_zone_of_no_width);
   RUN_TEST(a_million_points_are_no_trouble);
   RUN_TEST(points_without_a_reference_circle_are_refused);
   return UNITY_END();
