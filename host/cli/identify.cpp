@@ -99,6 +99,18 @@ void print(const study::Identification& found, const recording::Recording& recor
   }
 }
 
+/// A spring that gives against its load is no spring.
+void refuse_below_zero(const study::Identification& found) {
+  for (const study::IdentifiedSpring& spring : found.springs) {
+    if (spring.is_told && spring.upper < 0) {
+      throw InputError(
+          "the robot would give against its load: the wrench must be that on the robot, at the "
+          "TCP, "
+          "in the base frame");
+    }
+  }
+}
+
 int run(const IdentifyOptions& options) {
   if (options.model.empty() || options.recording.empty()) {
     throw InputError("identify: --model and --recording are required (see --help)");
@@ -108,6 +120,7 @@ int run(const IdentifyOptions& options) {
   const study::Identification found = study::identify_springs(
       robot.elastic, recording, options.sought,
       {options.deviations[0], options.deviations[1], options.deviations[2]});
+  refuse_below_zero(found);
   if (!options.out.empty()) {
     for (std::size_t i = 0; i < found.springs.size(); ++i) {
       put(found.springs[i], i, options.sought, &robot);

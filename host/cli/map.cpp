@@ -161,8 +161,12 @@ void write_csv(const std::filesystem::path& file, const study::CircularityMap& m
 
 void print_summary(const model::Robot& robot, const MapOptions& options, const Study& study) {
   const auto mm = [](double metres) { return 1e3 * metres; };
-  fmt::print("{}, preset {}: {}\n", robot.name, options.preset,
-             preset_named(options.preset).meaning);
+  const study::MilledCircle& circle = study.circle;
+  fmt::print("{}, preset {}: circles in {} of the {}{}, {:g}, {:g}, {:g} N turning {} the path\n",
+             robot.name, options.preset, options.plane,
+             circle.point == study::ToolPoint::wrist ? "wrist centre" : "TCP",
+             circle.is_first_order ? " to first order" : "", circle.force[0], circle.force[1],
+             circle.force[2], circle.sense == study::WrenchSense::with_path ? "with" : "against");
   fmt::print("circularity (least squares), mm: min {:.3f}, max {:.3f}, middle {:.3f}\n",
              mm(study.summary.min), mm(study.summary.max), mm(study.middle()));
   for (const study::BestSquare& square : study.squares) {
@@ -206,8 +210,8 @@ int run(const MapOptions& options) {
   const Json summary = summary_json(robot, options, study);
   const std::string script = study::map_script(
       study.map, study.arm, study.squares,
-      fmt::format("{}: circularity of a milled circle in {}, radius {:g} mm, preset {}", robot.name,
-                  options.plane, 1e3 * study.circle.radius, options.preset));
+      fmt::format("{}: circularity of milled circles\\nin {}, radius {:g} mm, preset {}",
+                  robot.name, options.plane, 1e3 * study.circle.radius, options.preset));
   const std::string svg = report::plot_svg(script, 900, 860);
   const std::string png = report::plot_png(script, 900, 860);
   const std::filesystem::path folder = output_folder(options.out);
@@ -266,17 +270,19 @@ void add_map(CLI::App* app, Action* action) {
       ->add_option("--wrench-sense", options->sense,
                    "the wrench turns with the path or against it; otherwise the preset's")
       ->check(CLI::IsMember({"with", "against"}));
+  CLI::Option* plane = command->add_option("--plane", options->plane,
+                                           "that the circles lie in, their centres at y = 0. Other "
+                                           "than xz: the TCP goes round, the tool "
+                                           "stands across, pointing down (xy) or forward (yz)");
+  plane->check(CLI::IsMember({"xz", "xy", "yz"}));
+  CLI::Option* volume =
+      command->add_option("--volume", options->volume, "a box, m: from and to along x, y and z");
+  volume->delimiter(',')->expected(6)->excludes(plane);
   command
-      ->add_option("--plane", options->plane,
-                   "that the circles lie in, their centres at y = 0. Other than xz: the TCP goes "
-                   "round, the tool stands across, pointing down (xy) or forward (yz)")
-      ->check(CLI::IsMember({"xz", "xy", "yz"}));
-  command->add_option("--volume", options->volume, "a box, m: from and to along x, y and z")
+      ->add_option("--tool-axes", options->tool_axes,
+                   "with --volume: directions of the tool, three numbers each")
       ->delimiter(',')
-      ->expected(6);
-  command
-      ->add_option("--tool-axes", options->tool_axes, "directions of the tool, three numbers each")
-      ->delimiter(',');
+      ->needs(volume);
   command->add_flag("--no-limits", options->no_limits, "without joint limits");
   command->add_flag("--json", options->json, "print summary.json");
   command->callback([=] {

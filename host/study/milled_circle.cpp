@@ -58,6 +58,9 @@ void check(const MilledCircle& circle) {
   if (!circle.force.allFinite() || !circle.moment.allFinite()) {
     throw InputError("force and moment must be finite");
   }
+  if (circle.force.isZero(0) && circle.moment.isZero(0)) {
+    throw InputError("without force and moment every circle is round: expected one of them");
+  }
 }
 
 }  // namespace

@@ -27,10 +27,7 @@ double study_force() { return MilledCircle{}.force.norm(); }
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"strict", "the wrist centre, the force of the study turning with the path", strict()},
-      {"flange", "the flange, 1104 N out of the circle turning with the path", flange()},
-      {"counter", "the wrist centre, first order, the force turning against the path", counter()},
-  };
+      {"strict", strict()}, {"flange", flange()}, {"counter", counter()}};
   return all;
 }
 

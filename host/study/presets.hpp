@@ -14,7 +14,6 @@ double study_force();
 /// "middle" unsaid.
 struct Preset {
   std::string name;
-  std::string meaning;  ///< one line
   MilledCircle circle;
 };
 

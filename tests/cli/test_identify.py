@@ -72,6 +72,14 @@ class Identify(Command):
         self.assertRegex(self.run_well("identify", "--model", KR270, "--recording", recording),
                          "measured.csv:[67]: off by")
 
+    def test_a_force_of_the_wrong_sign_is_refused(self):
+        rows = list(csv.reader(pathlib.Path(self.measured()).read_text().splitlines()))
+        turned = [[cell if not name.startswith(("fx", "fy", "fz")) else repr(-float(cell))
+                   for name, cell in zip(rows[0], row)] for row in rows[1:]]
+        recording = self.file("turned.csv", "\n".join(",".join(row) for row in [rows[0], *turned]) + "\n")
+        self.assert_refused("identify", "--model", KR270, "--recording", recording,
+                            "--out", self.folder / "springs.yaml", saying="on the robot")
+
     def test_tests_that_say_nothing_are_refused(self):
         self.assert_refused("identify", "--model", KR270, saying="--recording")
         self.assert_refused("identify", "--model", KR270, "--recording", self.plan, saying="x, y, z")

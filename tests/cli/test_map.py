@@ -89,7 +89,10 @@ class Map(Command):
         for words, saying in ((("--step", "0"), "step"), (("--step", "1e-6"), "step"),
                               (("--radius", "-1"), "radius"), (("--radius", "9"), "reach"),
                               (("--points", "3"), "points"), (("--force", "1,nan,2"), "finite"),
-                              (("--region", "-1"), "--region"), (("--preset", "loose"), "--preset")):
+                              (("--region", "-1"), "--region"), (("--preset", "loose"), "--preset"),
+                              (("--force", "0,0,0", "--moment", "0,0,0"), "every circle is round"),
+                              (("--plane", "xy", "--volume", "1,2,0,1,0,1"), "--plane"),
+                              (("--tool-axes", "0,0,1"), "--volume")):
             with self.subTest(words=words):
                 self.assert_refused("map", "--model", KR270, "--out", self.folder / "map", *words,
                                     saying=saying)
