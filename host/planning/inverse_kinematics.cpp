@@ -161,7 +161,7 @@ std::vector<Angles> within_limits(const RobotModel<double, 6>& model, const Pose
 std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<double>& target,
                                  const Angles& seed) {
   constexpr double kNear = 0.5;  // rad: farther than this Newton's method went elsewhere
-  const std::optional<Angles> q = by_newton(model, target, seed);
+  std::optional<Angles> q = by_newton(model, target, seed);
   if (q && (*q - seed).cwiseAbs().maxCoeff() < kNear && is_within_limits(model, *q)) {
     return q;
   }
