@@ -169,6 +169,28 @@ class Sandboxing(unittest.TestCase):
         self.assertEqual("in\n", box.run(["echo", "in"], self.work, 10).output)
 
 
+class Contests(unittest.TestCase):
+    def setUp(self):
+        self.folder = scratch_folder(self)
+
+    def ended(self, **codes):
+        for name, code in codes.items():
+            (self.folder / name).mkdir()
+            said = {"code": code, "seconds": 1, "last_words": "" if code == 0 else "No module named sklearn"}
+            (self.folder / name / "contest.json").write_text(json.dumps(said))
+        return list(codes)
+
+    def test_rivals_that_ran_nowhere_void_the_campaign(self):
+        with self.assertRaisesRegex(protocol.Void, "No module named sklearn"):
+            protocol.check_contests(self.folder, self.ended(first=1, second=None))
+
+    def test_a_case_without_rivals_is_told(self):
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            protocol.check_contests(self.folder, self.ended(first=0, second=1))
+        self.assertEqual("Case second has no rivals: No module named sklearn\n", said.getvalue())
+
+
 class Campaign(unittest.TestCase):
     """The whole command on a made-up campaign, with programs that stand in for flexcomp."""
 

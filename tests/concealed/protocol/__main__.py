@@ -85,6 +85,19 @@ def _run_all(options, way, names, watcher):
             raise
 
 
+def check_contests(answers, names):
+    """The rivals must have run, or what they would have said is missing without a word."""
+    silent = {}
+    for name in names:
+        contest = json.loads((answers / name / "contest.json").read_text())
+        if contest["code"] != 0:
+            silent[name] = contest["last_words"] or "not done in time"
+    if len(silent) == len(names):
+        raise Void(f"the rivals ran in no case: {silent[names[0]]}")
+    for name, words in silent.items():
+        print(f"Case {name} has no rivals: {words}")
+
+
 def _check_files(truths, folder):
     for name, entry in truths.items():
         if cases.files(folder / name) != entry["files"]:
@@ -165,6 +178,8 @@ def _prove(options):
     _run_all(options, way, names, watcher)
     if watcher:
         watcher.close()
+    if way.rivals:
+        check_contests(options.out / "answers", names)
 
     truths = sealed.open()
     _check_files(truths, options.out / "cases")
