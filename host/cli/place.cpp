@@ -26,6 +26,14 @@ Json displacement(const study::PlacedJob& job) {
   return {{"largest", job.largest}, {"rms", job.mean_square}};
 }
 
+/// Would more room bring more?
+bool is_on_bound(const study::Placement& place, const study::PlacementRequest& request) {
+  constexpr double kClose = 1e-3;  // m
+  return ((request.most_shift - place.shift.cwiseAbs()).array() < kClose &&
+          request.most_shift.array() > kClose)
+      .any();
+}
+
 int run(const PlaceOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   const recording::Recording path = recording::read_recording(options.path);
@@ -42,6 +50,7 @@ int run(const PlaceOptions& options) {
     const Json json = {{"shift", {place.shift[0], place.shift[1], place.shift[2]}},
                        {"turn", place.turn},
                        {"spin", place.spin},
+                       {"on_bound", is_on_bound(place, request)},
                        {"before", displacement(before)},
                        {"after", displacement(after)}};
     fmt::print("{}\n", json.dump(2));
@@ -56,6 +65,9 @@ int run(const PlaceOptions& options) {
       "  placed     largest {:.4f}, root mean square {:.4f}\n",
       place.shift[0], place.shift[1], place.shift[2], place.turn, place.spin, 1e3 * before.largest,
       1e3 * before.mean_square, 1e3 * after.largest, 1e3 * after.mean_square);
+  if (is_on_bound(place, request)) {
+    fmt::print("the shift is as large as --most-shift lets it be: more might bring more\n");
+  }
   return kDone;
 }
 

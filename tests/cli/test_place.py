@@ -15,6 +15,10 @@ class Place(Command):
         said = json.loads(self.run_well("place", "--model", KR270, "--path", path, "--out", placed,
                                         "--evaluations", "300", "--points", "12", "--json"))
         self.assertLess(said["after"]["largest"], 0.8 * said["before"]["largest"])
+        self.assertTrue(said["on_bound"])  # nearer still would be better
+        printed = self.run_well("place", "--model", KR270, "--path", path, "--out", self.folder / "turned.csv",
+                                "--evaluations", "100", "--points", "12", "--most-shift", "0,0,0")
+        self.assertNotIn("--most-shift", printed)
         circularity = []
         for job in (path, placed):
             recording = self.folder / "recording.csv"
