@@ -46,21 +46,12 @@ struct MapOptions {
   bool json = false;
 };
 
-const study::Preset& preset_named(const std::string& name) {
-  for (const study::Preset& each : study::presets()) {
-    if (each.name == name) {
-      return each;
-    }
-  }
-  throw InputError(fmt::format("--preset: no preset {}", name));
-}
-
 Vector3<double> vector(const std::array<double, 3>& values) {
   return {values[0], values[1], values[2]};
 }
 
 study::MilledCircle circle_of(const MapOptions& options) {
-  study::MilledCircle circle = preset_named(options.preset).circle;
+  study::MilledCircle circle = study::preset(options.preset).circle;
   circle.radius = options.radius;
   circle.points = options.points;
   circle.force = options.has_force ? vector(options.force) : circle.force;

@@ -135,13 +135,11 @@ void print(const SelectOptions& options, const std::vector<Entry>& entries) {
 
 int run(const SelectOptions& options) {
   check(options);
-  const auto& presets = study::presets();
-  const auto preset = std::find_if(presets.begin(), presets.end(),
-                                   [&](const auto& each) { return each.name == options.preset; });
+  const study::MilledCircle& circle = study::preset(options.preset).circle;
   std::vector<Entry> entries;
   entries.reserve(options.robots.size());
   for (const std::string& word : options.robots) {
-    entries.push_back(entry_of(word, options, preset->circle));
+    entries.push_back(entry_of(word, options, circle));
   }
   if (options.json) {
     fmt::print("{}\n", to_json(options, entries).dump(2));

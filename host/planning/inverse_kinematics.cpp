@@ -111,7 +111,7 @@ double off_middle(const RobotModel<double, 6>& model, const Angles& q) {
   return sum;
 }
 
-/// From many starts; it may miss some.
+/// From many starts; it may miss some and find others more than once.
 std::vector<Angles> search(const RobotModel<double, 6>& model, const Pose<double>& target) {
   Solver solver(model);
   std::vector<Angles> solutions;
@@ -138,7 +138,8 @@ std::vector<Angles> search(const RobotModel<double, 6>& model, const Pose<double
   return solutions;
 }
 
-/// Those within the joint limits, each joint turned to the middle of its range as far as may be.
+/// Those within the joint limits, each once, each joint turned to the middle of its range as far as
+/// may be.
 std::vector<Angles> within_limits(const RobotModel<double, 6>& model, const Pose<double>& target,
                                   const std::vector<Angles>& solutions) {
   std::vector<Angles> within;
@@ -149,7 +150,11 @@ std::vector<Angles> within_limits(const RobotModel<double, 6>& model, const Pose
       angle = nearest_turn(angle, (joint.lower + joint.upper) / 2, joint);
     }
     const std::optional<Angles> exact = by_newton(model, target, q);
-    if (exact && is_within_limits(model, *exact)) {
+    const bool is_new =
+        exact && std::none_of(within.begin(), within.end(), [&](const Angles& other) {
+          return (other - *exact).cwiseAbs().maxCoeff() < 1e-6;
+        });
+    if (is_new && is_within_limits(model, *exact)) {
       within.push_back(*exact);
     }
   }
@@ -171,14 +176,10 @@ std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<
 std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<double>& target) {
   const std::optional<std::vector<Angles>> closed = solve_closed_form(model, target);
   std::vector<Angles> solutions =
-      closed ? within_limits(model, target, *closed) : search(model, target);
+      within_limits(model, target, closed ? *closed : search(model, target));
   std::sort(solutions.begin(), solutions.end(), [&](const Angles& a, const Angles& b) {
     return off_middle(model, a) < off_middle(model, b);
   });
-  const auto is_same = [](const Angles& a, const Angles& b) {
-    return (a - b).cwiseAbs().maxCoeff() < 1e-6;
-  };
-  solutions.erase(std::unique(solutions.begin(), solutions.end(), is_same), solutions.end());
   return solutions;
 }
 

@@ -50,6 +50,8 @@ bool has_joint_springs_alone(const RobotModel<double, 6>& model) {
   return !has_structure_springs(model) && !has_weight(model);
 }
 
+}  // namespace
+
 void check(const MilledCircle& circle) {
   if (!(circle.radius > 0) || !std::isfinite(circle.radius) || circle.points < 8 ||
       circle.points > 1000000) {
@@ -62,8 +64,6 @@ void check(const MilledCircle& circle) {
     throw InputError("without force and moment every circle is round: expected one of them");
   }
 }
-
-}  // namespace
 
 class CircleStudy::Implementation {
  public:

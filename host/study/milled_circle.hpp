@@ -25,6 +25,9 @@ struct MilledCircle {
   bool has_limits = true;       ///< within the joint limits
 };
 
+/// Throws InputError for a circle that cannot be milled, or that no load bends.
+void check(const MilledCircle& circle);
+
 /// The circularity (LSC) that milled circles have when the robot is not corrected, anywhere in its
 /// plane: p = p0 + R r + C(p) R w with C = J K⁻¹ Jᵀ (Klimchik et al. 2017, eq. 15).
 ///

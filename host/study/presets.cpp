@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "error.hpp"
+
 namespace flexcomp::study {
 namespace {
 
@@ -29,6 +31,15 @@ const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
       {"strict", strict()}, {"flange", flange()}, {"counter", counter()}};
   return all;
+}
+
+const Preset& preset(const std::string& name) {
+  for (const Preset& each : presets()) {
+    if (each.name == name) {
+      return each;
+    }
+  }
+  throw InputError("no preset " + name);
 }
 
 double counter_middle(const PlanarArm& arm, const MilledCircle& circle) {

@@ -23,6 +23,9 @@ struct Preset {
 /// 4 %.
 const std::vector<Preset>& presets();
 
+/// The one of that name. Throws InputError if there is none.
+const Preset& preset(const std::string& name);
+
 /// The "middle" circularity (m) of a preset's study: for `counter` the mean over the distance from
 /// joint 2 between the least and the largest that joint 3 allows, in closed form.
 double counter_middle(const PlanarArm& arm, const MilledCircle& circle);

@@ -157,11 +157,11 @@ VolumeMap::VolumeMap(RobotModel<double, 6> model, VolumeRequest request)
     }
     axis.normalize();
   }
-  const MilledCircle& circle = request_.circle;
-  if (request_.tool_axes.empty() || !(circle.radius > 0) || circle.points < 8) {
-    throw InputError("a volume needs tool axes, and circles a radius and 8 points or more");
+  if (request_.tool_axes.empty()) {
+    throw InputError("a volume needs tool axes");
   }
-  if (!circle.has_limits) {
+  check(request_.circle);
+  if (!request_.circle.has_limits) {
     for (Joint<double>& joint : model_.joints) {
       joint.lower = -M_PI;
       joint.upper = M_PI;

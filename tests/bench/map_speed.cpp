@@ -31,7 +31,7 @@ const RobotModel<double, 6>& robot() {
 
 /// The default of the study: preset strict, without joint limits.
 study::MilledCircle circle() {
-  study::MilledCircle strict = study::presets().front().circle;
+  study::MilledCircle strict = study::preset("strict").circle;
   strict.has_limits = false;
   return strict;
 }

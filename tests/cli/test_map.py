@@ -94,6 +94,7 @@ class Map(Command):
                               (("--points", "3"), "points"), (("--force", "1,nan,2"), "finite"),
                               (("--region", "-1"), "--region"), (("--preset", "loose"), "--preset"),
                               (("--force", "0,0,0", "--moment", "0,0,0"), "every circle is round"),
+                              (("--force", "0,0,0", "--moment", "0,0,0", "--plane", "xy"), "every circle is round"),
                               (("--plane", "xy", "--volume", "1,2,0,1,0,1"), "--plane"),
                               (("--tool-axes", "0,0,1"), "--volume")):
             with self.subTest(words=words):

@@ -19,14 +19,7 @@ model::Robot robot_named(const std::string& name) {
   return model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/" + name + "/robot.yaml");
 }
 
-const study::MilledCircle& preset(const std::string& name) {
-  for (const study::Preset& each : study::presets()) {
-    if (each.name == name) {
-      return each.circle;
-    }
-  }
-  throw InputError("no such preset");
-}
+const study::MilledCircle& preset(const std::string& name) { return study::preset(name).circle; }
 
 study::CircularityMap map_of(const std::string& robot, const study::MilledCircle& circle) {
   const study::CircleStudy of(robot_named(robot).elastic, circle);

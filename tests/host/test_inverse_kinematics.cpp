@@ -108,6 +108,22 @@ void a_robot_with_another_wrist_is_searched_instead() {
   }
 }
 
+void every_solution_is_given_once() {
+  const RobotModel<double, 6> robot = robot_named("kr270");
+  RobotModel<double, 6> searched = robot;
+  searched.joints[5].origin.position.y() += 0.05;
+  std::mt19937_64 draw(6);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    for (const RobotModel<double, 6>& each : {robot, searched}) {
+      std::vector<Angles> seen;
+      for (const Angles& q : planning::solve_all(each, pose_at(each, some_angles(each, &draw)))) {
+        TEST_ASSERT_FALSE(is_among(q, seen));
+        seen.push_back(q);
+      }
+    }
+  }
+}
+
 /// Another method: the search from many starts finds nothing that the closed form has not.
 void the_search_finds_no_more() {
   RobotModel<double, 6> robot = robot_named("kr500");
@@ -148,6 +164,7 @@ int main() {
   RUN_TEST(a_straight_wrist_is_solved_too);
   RUN_TEST(a_pose_out_of_reach_has_no_solution);
   RUN_TEST(a_robot_with_another_wrist_is_searched_instead);
+  RUN_TEST(every_solution_is_given_once);
   RUN_TEST(the_search_finds_no_more);
   RUN_TEST(near_a_posture_the_solution_of_that_branch_is_found);
   return UNITY_END();
