@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "linux/file_descriptor.hpp"
-#include "linux/ring.hpp"
 #include "node/node.hpp"
+#include "node/ring.hpp"
 
 namespace flexcomp {
 

@@ -8,6 +8,7 @@
 #include "linux/real_time_loop.hpp"
 #include "linux/real_time_thread.hpp"
 #include "linux/service.hpp"
+#include "linux/whole_file.hpp"
 
 namespace flexcomp {
 namespace {
@@ -33,7 +34,7 @@ std::optional<std::vector<char>> initial_table(const Options& options) {
   if (options.table.empty()) {
     return std::nullopt;
   }
-  std::optional<std::vector<char>> bytes = read_bytes(options.table);
+  std::optional<std::vector<char>> bytes = read_whole(options.table);
   if (!bytes) {
     throw std::runtime_error(options.table + ": cannot be read");
   }
@@ -61,11 +62,21 @@ void load_table(const Options& options, Slots* slots, Node* node) {
   if (used == Result::gain_too_high) {
     std::fprintf(stderr,
                  "flexcompd: refuses to arm: gain %.4g is above the largest safe gain %.4g\n",
-                 static_cast<double>(options.node.compensator.gain),
+                 static_cast<double>(options.settings.node.compensator.gain),
                  static_cast<double>(table.header().largest_gain));
   } else if (used != Result::ok) {
     std::fprintf(stderr, "flexcompd: refuses to arm: %s\n", describe(used));
   }
+}
+
+/// The settings as a microcontroller has them in its flash.
+int write_settings(const Options& options) {
+  if (!is_usable(options.settings.node)) {
+    throw std::runtime_error(describe(Result::bad_config));
+  }
+  const SettingsRecord record = to_record(options.settings);
+  write_whole(options.settings_out, &record, sizeof record);
+  return kDone;
 }
 
 int serve(const Options& options, std::function<std::optional<Options>()> reread) {
@@ -74,7 +85,7 @@ int serve(const Options& options, std::function<std::optional<Options>()> reread
   Slots slots(options.table_capacity);
   node->use_memory({slots.first.data(), slots.first.size()},
                    {slots.second.data(), slots.second.size()});
-  if (node->configure(options.node) != Result::ok) {
+  if (node->configure(options.settings.node) != Result::ok) {
     throw std::runtime_error(describe(Result::bad_config));
   }
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
@@ -97,6 +108,9 @@ int main(int argc, char** argv) {
     const auto options = flexcomp::read_options(argc, argv, &exit_code);
     if (!options) {
       return exit_code;
+    }
+    if (!options->settings_out.empty()) {
+      return flexcomp::write_settings(*options);
     }
     return flexcomp::serve(*options, [=] {
       int ignored = 0;

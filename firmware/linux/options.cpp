@@ -53,12 +53,13 @@ void add_links(CLI::App* app, Options* options) {
   app->add_option("--lcm", options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
   const std::map<std::string, Trigger> triggers = {
       {"setpoint", Trigger::setpoint}, {"clock", Trigger::clock}, {"lockstep", Trigger::lockstep}};
-  app->add_option("--trigger", options->trigger, "what makes a tick: setpoint, clock or lockstep")
+  app->add_option("--trigger", options->settings.trigger,
+                  "what makes a tick: setpoint, clock or lockstep")
       ->transform(CLI::CheckedTransformer(triggers, CLI::ignore_case));
-  app->add_option("--tolerated-losses", options->tolerated_losses,
+  app->add_option("--tolerated-losses", options->settings.tolerated_losses,
                   "messages in a row that may be lost without a break")
       ->check(CLI::Range(0, 6));
-  positive(app, "--heartbeat", &options->node.heartbeat_period,
+  positive(app, "--heartbeat", &options->settings.node.heartbeat_period,
            "s, from one heartbeat to the next");
 }
 
@@ -74,7 +75,7 @@ void add_table(CLI::App* app, Options* options, Typed* typed) {
 }
 
 void add_correction(CLI::App* app, Options* options, Typed* typed) {
-  auto& core = options->node.compensator;
+  auto& core = options->settings.node.compensator;
   positive(app, "--period", &core.period, "s, from one tick to the next");
   app->add_option("--gain", core.gain, "share of the deflection that is corrected")
       ->check(CLI::Range(0.0, 1.0));
@@ -84,8 +85,10 @@ void add_correction(CLI::App* app, Options* options, Typed* typed) {
   one_or_six(app, "--correction-rate", &typed->rate, "rad/s, of the correction");
   one_or_six(app, "--correction-acceleration", &typed->acceleration, "rad/s^2, of the correction");
   positive(app, "--deflection-limit", &core.deflection_limit, "m, largest correction at the TCP");
-  positive(app, "--deflection-warning", &options->node.deflection_warning, "m, predicted: remark");
-  positive(app, "--deflection-error", &options->node.deflection_error, "m, predicted: fault");
+  positive(app, "--deflection-warning", &options->settings.node.deflection_warning,
+           "m, predicted: remark");
+  positive(app, "--deflection-error", &options->settings.node.deflection_error,
+           "m, predicted: fault");
   positive(app, "--chart-margin", &core.chart_margin,
            "rad, outside the table, over which the correction fades");
   not_negative(app, "--hold-time", &core.hold_time, "s, a fault may last before fading out");
@@ -94,17 +97,20 @@ void add_correction(CLI::App* app, Options* options, Typed* typed) {
 }
 
 void add_plausibility(CLI::App* app, Options* options, Typed* typed) {
-  auto& core = options->node.compensator;
+  auto& core = options->settings.node.compensator;
   positive(app, "--force-range", &core.force_range, "N, largest plausible");
   positive(app, "--moment-range", &core.moment_range, "N m, largest plausible");
-  positive(app, "--force-rate", &options->node.wrench.force_rate, "N/s, largest plausible change");
-  positive(app, "--moment-rate", &options->node.wrench.moment_rate, "N m/s, largest plausible");
-  not_negative(app, "--wrench-stuck-time", &options->node.wrench.stuck_time,
+  positive(app, "--force-rate", &options->settings.node.wrench.force_rate,
+           "N/s, largest plausible change");
+  positive(app, "--moment-rate", &options->settings.node.wrench.moment_rate,
+           "N m/s, largest plausible");
+  not_negative(app, "--wrench-stuck-time", &options->settings.node.wrench.stuck_time,
                "s, the same wrench while the robot moves; 0: not checked");
   positive(app, "--setpoint-age-limit", &core.setpoint_age_limit, "s, beyond it one is stale");
   positive(app, "--wrench-age-limit", &core.wrench_age_limit, "s, beyond it one is stale");
   one_or_six(app, "--joint-speed", &typed->joint_speed, "rad/s, largest plausible");
-  positive(app, "--late-ticks", &options->node.late_ticks, "late ticks in a row that are a fault");
+  positive(app, "--late-ticks", &options->settings.node.late_ticks,
+           "late ticks in a row that are a fault");
 }
 
 void add_process(CLI::App* app, Options* options) {
@@ -112,6 +118,8 @@ void add_process(CLI::App* app, Options* options) {
       ->check(CLI::Range(0, 99));
   app->add_option("--statistics", options->statistics,
                   "file for the statistics, written at the end and on SIGUSR1");
+  app->add_option("--settings-out", options->settings_out,
+                  "write these settings to a file for a microcontroller's flash, and end");
 }
 
 /// `values` at a joint: its own, or the one for all.
@@ -139,14 +147,17 @@ void apply(const Typed& typed, Options* options) {
   require_one_or_six(typed.value, "--correction-limit");
   require_one_or_six(typed.rate, "--correction-rate");
   require_one_or_six(typed.acceleration, "--correction-acceleration");
-  auto& core = options->node.compensator;
+  auto& core = options->settings.node.compensator;
   for (std::size_t i = 0; i < core.limits.size(); ++i) {
     core.joint_speed[static_cast<Eigen::Index>(i)] = at(typed.joint_speed, i);
     core.limits[i] = {at(typed.value, i), at(typed.rate, i), at(typed.acceleration, i)};
   }
   core.model_hash = parse_hash(typed.model_hash);
-  options->node.require_identity = !typed.without_identity;
-  options->node.use_timestamps = options->trigger != Trigger::lockstep;
+  options->settings.node.require_identity = !typed.without_identity;
+  options->settings.node.use_timestamps = options->settings.trigger != Trigger::lockstep;
+  if (!options->settings_out.empty()) {
+    return;  // the microcontroller has its own bus
+  }
   if (options->can.empty() && options->lcm.empty()) {
     throw CLI::ValidationError("--can or --lcm", "expected at least one of them");
   }
@@ -156,7 +167,7 @@ void apply(const Typed& typed, Options* options) {
 
 std::optional<Options> read_options(int argc, const char* const* argv, int* exit_code) {
   Options options;
-  options.node = default_node_config();
+  options.settings.node = default_node_config();
   Typed typed;
   CLI::App app(kDescription);
   app.option_defaults()->always_capture_default();

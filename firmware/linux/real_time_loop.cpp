@@ -38,15 +38,15 @@ void watch(int epoll, int number) {
 
 RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
                            Channel<ToRealTime>* in, Channel<FromRealTime>* out)
-    : trigger_(options.trigger),
-      period_(std::llround(1e9 * static_cast<double>(options.node.compensator.period))),
+    : trigger_(options.settings.trigger),
+      period_(std::llround(1e9 * static_cast<double>(options.settings.node.compensator.period))),
       node_(node),
       can_(can),
-      link_(options.fd, options.tolerated_losses),
+      link_(options.fd, options.settings.tolerated_losses),
       sender_(can),
       use_lcm_(!options.lcm.empty()),
-      lcm_setpoint_(kLcmCounter, options.tolerated_losses),
-      lcm_wrench_(kLcmCounter, options.tolerated_losses),
+      lcm_setpoint_(kLcmCounter, options.settings.tolerated_losses),
+      lcm_wrench_(kLcmCounter, options.settings.tolerated_losses),
       in_(in),
       out_(out),
       epoll_(epoll_create1(EPOLL_CLOEXEC)),
@@ -118,7 +118,8 @@ void RealTimeLoop::take_messages(std::int64_t now) {
       take(sample, now);
     } else if (const auto* config = std::get_if<NodeConfig>(&item)) {
       const Result result = node_->configure(*config);
-      node_->announce_config(result);
+      node_->announce(result == Result::ok ? kConfigInUseCode : kConfigRefusedCode,
+                      static_cast<std::uint32_t>(result));
       out_->send(ConfigResult{result});
     } else if (const auto* verdict = std::get_if<Verdict>(&item)) {
       transfer_announced_ = false;

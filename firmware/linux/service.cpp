@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "linux/statistics_file.hpp"
+#include "linux/whole_file.hpp"
 
 namespace flexcomp {
 namespace {
@@ -19,18 +20,6 @@ sigset_t served_signals() {
     sigaddset(&set, signal);
   }
   return set;
-}
-
-/// Written aside and renamed, so that who reads it never sees half.
-void write_text(const std::string& path, const std::string& text) {
-  const std::string aside = path + ".new";
-  std::FILE* file = std::fopen(aside.c_str(), "w");
-  const bool written =
-      file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = file != nullptr && std::fclose(file) == 0;
-  if (!written || !closed || std::rename(aside.c_str(), path.c_str()) != 0) {
-    std::fprintf(stderr, "flexcompd: %s: cannot be written\n", path.c_str());
-  }
 }
 
 }  // namespace
@@ -80,7 +69,7 @@ void Service::on_signal() {
       to_real_time_->send(SnapshotRequest{});
     } else if (info.ssi_signo == SIGHUP) {
       if (const std::optional<Options> options = reread_()) {
-        to_real_time_->send(options->node);
+        to_real_time_->send(options->settings.node);
       }
     } else {
       to_real_time_->send(Stop{});
@@ -130,8 +119,14 @@ void Service::keep() const {
 
 void Service::report(const Snapshot& snapshot) const {
   std::fputs(statistics_summary(snapshot).c_str(), stderr);
-  if (!options_.statistics.empty()) {
-    write_text(options_.statistics, statistics_json(snapshot));
+  if (options_.statistics.empty()) {
+    return;
+  }
+  const std::string text = statistics_json(snapshot);
+  try {
+    write_whole(options_.statistics, text.data(), text.size());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "flexcompd: %s\n", error.what());
   }
 }
 

@@ -29,7 +29,4 @@ class SlotFiles {
   std::string directory_;
 };
 
-/// The whole of a file; nothing if it cannot be read.
-std::optional<std::vector<char>> read_bytes(const std::string& path);
-
 }  // namespace flexcomp

@@ -76,7 +76,7 @@ struct CorrectedMessage {
 struct HeartbeatMessage {
   std::uint32_t uptime = 0;  ///< s
   std::uint8_t state = 0;
-  std::uint8_t slot = 0;          ///< of the table in use: 1 or 2, 0 for none
+  std::uint8_t slot = 0;          ///< of the table in use: 1 or 2, 3 in fixed memory, 0 for none
   std::uint8_t table_result = 0;  ///< Result or Reply of the last table that was offered
   std::uint32_t latched_faults = 0;
   std::uint16_t node_latched_faults = 0;

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "node/seconds.hpp"
+
 namespace flexcomp {
 namespace {
 
-constexpr double kSecond = 1e9;        // ns
-constexpr double kEarliestTick = 0.5;  // of a period
-constexpr double kLatestTick = 1.5;    // of a period
+constexpr float kEarliestTick = 0.5F;  // of a period
+constexpr float kLatestTick = 1.5F;    // of a period
 constexpr std::uint8_t kStatisticNames = 64 + LatencyHistogram::kBins;
 
 std::uint16_t bit_if(bool condition, NodeBit bit) {
@@ -32,10 +33,6 @@ JointAngles from_core(const JointVector<float, 6>& angles) {
   return q;
 }
 
-float seconds(std::int64_t nanoseconds) {
-  return static_cast<float>(static_cast<double>(nanoseconds) / kSecond);
-}
-
 std::uint64_t stream_statistic(const StreamCounters& counters, unsigned which) {
   const std::array<std::uint32_t, 8> values = {
       counters.received,        counters.lost,          counters.repeated, counters.old,
@@ -43,18 +40,28 @@ std::uint64_t stream_statistic(const StreamCounters& counters, unsigned which) {
   return values[which];
 }
 
+/// Those beside the compensator's. A heartbeat's period is counted in ticks.
+bool own_numbers_are_usable(const NodeConfig& config) {
+  constexpr double kLongestHeartbeat = 3600;
+  return config.heartbeat_period > 0 && config.heartbeat_period <= kLongestHeartbeat &&
+         config.deflection_warning > 0 && config.deflection_error > 0 &&
+         config.wrench.force_rate > 0 && config.wrench.moment_rate > 0 &&
+         config.wrench.stuck_time >= 0 && config.late_ticks > 0;
+}
+
 }  // namespace
+
+bool is_usable(const NodeConfig& config) {
+  Node::Core core;
+  return own_numbers_are_usable(config) && core.configure(config.compensator) == Result::ok;
+}
 
 Result Node::configure(const NodeConfig& config) {
   if (core_.state() != State::off && core_.state() != State::latched) {
     return Result::not_ready;
   }
-  const bool numbers_are_usable = config.heartbeat_period > 0 && config.deflection_warning > 0 &&
-                                  config.deflection_error > 0 && config.wrench.force_rate > 0 &&
-                                  config.wrench.moment_rate > 0 && config.wrench.stuck_time >= 0 &&
-                                  config.late_ticks > 0;
   Core core;
-  if (!numbers_are_usable || core.configure(config.compensator) != Result::ok) {
+  if (!own_numbers_are_usable(config) || core.configure(config.compensator) != Result::ok) {
     return Result::bad_config;
   }
   core_ = core;
@@ -76,11 +83,11 @@ Result Node::put_to_use(const Table& table) {
   return result;
 }
 
-Result Node::start_with(std::size_t slot, const Table& table) {
+Result Node::start_with(std::size_t place, const Table& table) {
   const Result result = put_to_use(table);
   table_result_ = number(result);
   if (result == Result::ok) {
-    store_.use(slot, table.header().size);
+    store_.use(place, &table.header(), table.header().size);
   }
   return result;
 }
@@ -98,9 +105,8 @@ Result Node::conclude_transfer(Result opened, const Table& table) {
   return result;
 }
 
-void Node::announce_config(Result result) {
-  post(FaultMessage{result == Result::ok ? kConfigInUseCode : kConfigRefusedCode, true,
-                    number(result)});
+void Node::announce(std::uint16_t code, std::uint32_t detail) {
+  post(FaultMessage{code, true, detail});
 }
 
 void Node::post(const Message& message) {
@@ -230,8 +236,8 @@ void Node::reply(TransferStage stage, Reply result) {
 }
 
 void Node::check_period(std::int64_t now) {
-  const double elapsed = static_cast<double>(now - last_tick_) / kSecond;
-  const auto period = static_cast<double>(config_.compensator.period);
+  const float elapsed = seconds(now - last_tick_);
+  const float period = config_.compensator.period;
   clock_jumps_ += elapsed <= 0 ? 1U : 0U;
   const bool on_time = elapsed >= kEarliestTick * period && elapsed <= kLatestTick * period;
   if (ticks_ > 0 && !on_time) {
@@ -409,6 +415,8 @@ std::uint64_t Node::statistic(std::uint8_t name, bool* exists) const {
       return link_.foreign_frames;
     case StatisticName::dropped_frames:
       return link_.dropped_frames;
+    case StatisticName::stack_used:
+      return link_.stack_used;
     default:
       *exists = false;
       return 0;

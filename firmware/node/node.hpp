@@ -26,6 +26,9 @@ struct NodeConfig {
   bool use_timestamps = true;
 };
 
+/// Does a node take these numbers?
+bool is_usable(const NodeConfig& config);
+
 /// What of the outside a node needs to judge but cannot see in messages; set by who moves them.
 struct LinkState {
   bool bus_fault = false;          ///< bus off, or frames not taken
@@ -35,6 +38,7 @@ struct LinkState {
   StreamCounters wrench;
   std::uint32_t foreign_frames = 0;
   std::uint32_t dropped_frames = 0;  ///< own frames that could not be sent
+  std::uint32_t stack_used = 0;      ///< bytes, the most there was; 0: not known
 };
 
 /// The compensator on a bus, whatever the bus: takes messages, ticks, and gives messages. Owns the
@@ -51,9 +55,9 @@ class Node {
   /// To be called once, before anything else.
   void use_memory(TableSlot first, TableSlot second) { store_.use_memory(first, second); }
 
-  /// A table that has been opened, from slot 0 or 1 at start or from a completed transfer: put to
-  /// use between two ticks, or refused with a reason that `arm` repeats.
-  Result start_with(std::size_t slot, const Table& table);
+  /// A table that has been opened, at start from slot 0 or 1 or TableStore::kFixed, or from a
+  /// completed transfer: put to use between two ticks, or refused with a reason that `arm` repeats.
+  Result start_with(std::size_t place, const Table& table);
   Result conclude_transfer(Result opened, const Table& table);
   const void* received_table(std::size_t* size) const { return store_.received(size); }
 
@@ -73,8 +77,8 @@ class Node {
   /// The next message to send beside the corrected setpoint; false if there is none.
   bool next_message(Message* message);
 
-  /// Tells the bus how a change of configuration ended.
-  void announce_config(Result result);
+  /// Tells the bus of an event: a code of node_status.hpp and what belongs to it.
+  void announce(std::uint16_t code, std::uint32_t detail);
 
   /// Time from receiving a setpoint to sending its correction, ns.
   void record_latency(std::int64_t nanoseconds) { latency_.add(nanoseconds); }

@@ -34,5 +34,6 @@ constexpr std::uint16_t kTableInUseCode = 0x7201;        ///< detail: slot
 constexpr std::uint16_t kTableRefusedCode = 0x7202;      ///< detail: Result or Reply
 constexpr std::uint16_t kConfigInUseCode = 0x7203;
 constexpr std::uint16_t kConfigRefusedCode = 0x7204;  ///< detail: Result
+constexpr std::uint16_t kRestartCode = 0x7205;  ///< after a fault; detail: where the program was
 
 }  // namespace flexcomp

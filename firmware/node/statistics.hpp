@@ -15,6 +15,7 @@ enum class StatisticName : std::uint8_t {
   implausible_samples = 5,
   foreign_frames = 6,
   dropped_frames = 7,
+  stack_used = 8,  ///< bytes, the most there was; 0 where it is not known
   setpoint_received = 16,
   setpoint_lost = 17,
   setpoint_repeated = 18,

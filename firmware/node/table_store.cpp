@@ -63,18 +63,20 @@ const void* TableStore::received(std::size_t* size) const {
 
 void TableStore::conclude(bool use_it) {
   if (phase_ == Phase::complete && use_it) {
-    use(receiving_slot(), words_ * sizeof(std::uint32_t));
+    const std::size_t slot = receiving_slot();
+    use(slot, slots_[slot].words, words_ * sizeof(std::uint32_t));
   }
   phase_ = Phase::idle;
 }
 
-void TableStore::use(std::size_t slot, std::size_t size) {
-  active_ = slot;
-  restart_scrub(size);
+void TableStore::use(std::size_t place, const void* table, std::size_t size) {
+  active_ = place;
+  in_use_ = static_cast<const unsigned char*>(table);
+  scrub_size_ = size;
+  restart_scrub();
 }
 
-void TableStore::restart_scrub(std::size_t size) {
-  scrub_size_ = size;
+void TableStore::restart_scrub() {
   scrub_place_ = 0;
   scrub_crc_ = 0;
 }
@@ -83,10 +85,9 @@ bool TableStore::scrub() {
   if (active_ == kNone) {
     return true;
   }
-  const auto* bytes = reinterpret_cast<const unsigned char*>(slots_[active_].words);
   std::array<unsigned char, kScrubBytes> piece{};
   const std::size_t size = std::min(kScrubBytes, scrub_size_ - scrub_place_);
-  std::copy_n(bytes + scrub_place_, size, piece.begin());
+  std::copy_n(in_use_ + scrub_place_, size, piece.begin());
   if (scrub_place_ <= kCrcPlace && kCrcPlace < scrub_place_ + size) {
     // The CRC was made with its own word zero.
     std::fill_n(piece.begin() + (kCrcPlace - scrub_place_), sizeof(std::uint32_t),
@@ -98,9 +99,9 @@ bool TableStore::scrub() {
     return true;
   }
   std::uint32_t stored = 0;
-  std::memcpy(&stored, bytes + kCrcPlace, sizeof stored);
+  std::memcpy(&stored, in_use_ + kCrcPlace, sizeof stored);
   const bool intact = stored == scrub_crc_;
-  restart_scrub(scrub_size_);
+  restart_scrub();
   return intact;
 }
 

@@ -36,13 +36,14 @@ class TableStore {
   /// Ends the check of what was received. If it is to be used, its slot becomes the one in use.
   void conclude(bool use);
 
-  /// Puts a table that stands in a slot (0 or 1) to use, at start.
-  void use(std::size_t slot, std::size_t size);
+  /// Puts a table to use that stands in a slot (0 or 1) or in fixed memory, at start.
+  void use(std::size_t place, const void* table, std::size_t size);
 
   TableSlot slot(std::size_t index) const { return slots_[index]; }
-  /// 0 or 1, or kNone.
+  /// Where the table in use is: slot 0 or 1, kFixed or kNone.
   std::size_t active() const { return active_; }
-  static constexpr std::size_t kNone = 2;
+  static constexpr std::size_t kFixed = 2;  ///< memory that nothing is received into, such as flash
+  static constexpr std::size_t kNone = 3;
 
   /// Goes on with checking the CRC-32 of the table in use, a few bytes a call. False if a whole
   /// pass has found it damaged.
@@ -52,7 +53,7 @@ class TableStore {
   enum class Phase : std::uint8_t { idle, receiving, complete };
 
   std::size_t receiving_slot() const { return active_ == 0 ? 1 : 0; }
-  void restart_scrub(std::size_t size);
+  void restart_scrub();
 
   std::array<TableSlot, 2> slots_{};
   std::size_t active_ = kNone;
@@ -61,6 +62,7 @@ class TableStore {
   std::uint32_t crc_ = 0;    ///< that it was announced with
   std::uint32_t running_crc_ = 0;
   std::uint32_t received_ = 0;
+  const unsigned char* in_use_ = nullptr;
   std::size_t scrub_size_ = 0;
   std::size_t scrub_place_ = 0;
   std::uint32_t scrub_crc_ = 0;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "node/seconds.hpp"
+
 namespace flexcomp {
 
 bool WrenchMonitor::accept(const WrenchMessage& message, std::int64_t now) {
@@ -30,10 +32,9 @@ bool WrenchMonitor::accept(const WrenchMessage& message, std::int64_t now) {
 }
 
 bool WrenchMonitor::is_plausible(const std::array<double, 6>& wrench, std::int64_t now) const {
-  constexpr double kSecond = 1e9;
   // Samples in one tick carry no time between them; nothing changes within a tenth of a
   // millisecond.
-  const double elapsed = std::fmax(static_cast<double>(now - used_at_) / kSecond, 1e-4);
+  const double elapsed = std::fmax(static_cast<double>(seconds(now - used_at_)), 1e-4);
   for (std::size_t i = 0; i < wrench.size(); ++i) {
     const double rate = i < 3 ? config_.force_rate : config_.moment_rate;
     if (std::isfinite(wrench[i]) && std::fabs(wrench[i] - last_[i]) > rate * elapsed) {
@@ -49,8 +50,8 @@ void WrenchMonitor::observe_motion(bool moving, std::int64_t now) {
   }
   observed_at_ = now;
   if (config_.stuck_time > 0 && has_last_ && moving) {
-    const auto same_for = static_cast<double>(now - changed_at_ - still_time_);
-    stuck_ = same_for > 1e9 * config_.stuck_time;
+    const float same_for = seconds(now - changed_at_ - still_time_);
+    stuck_ = static_cast<double>(same_for) > config_.stuck_time;
   }
 }
 

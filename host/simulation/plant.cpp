@@ -12,6 +12,8 @@ constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer in lock-
 constexpr std::uint64_t kIdentityTicks = 50;       // from one announcement to the next
 constexpr double kReadyTime = 0.3;                 // s, of good inputs before arming
 constexpr double kArmingTime = 5;                  // s, to become active
+constexpr double kHoldTime = 0.05;                 // s, without an answer before fading out
+constexpr double kFadeTime = 0.5;                  // s
 
 JointAngles to_angles(const JointVector<double, 6>& q) {
   JointAngles angles{};
@@ -27,7 +29,8 @@ Plant::Plant(const RobotModel<double, 6>& model, Contour contour, const Process&
       robot_(model, process),
       options_(options),
       bus_(bus),
-      random_(options.seed) {}
+      random_(options.seed),
+      follower_(options.period, kHoldTime, kFadeTime) {}
 
 PlantRun Plant::run(const std::function<void(double)>& progress) {
   next_ = monotonic_now();
@@ -103,7 +106,7 @@ void Plant::follow_contour(const std::function<void(double)>& progress) {
 
 void Plant::tick(double time, double load) {
   const Contour::Point point = contour_.at(time);
-  state_ = robot_.stand(point.q + correction_, point, load);
+  state_ = robot_.stand(point.q + follower_.correction(), point, load);
   const Wrench<double> wrench = measured(state_.wrench);
   if (run_.ticks % kIdentityTicks == 0) {
     bus_->send(IdentityMessage{options_.model_hash, WrenchFrame::base});
@@ -112,7 +115,7 @@ void Plant::tick(double time, double load) {
   const std::int64_t now = monotonic_now();
   if (on_contour_) {
     record(time, point, wrench);
-    bus_->send(MeasuredJointsMessage{to_angles(point.q + correction_)});
+    bus_->send(MeasuredJointsMessage{to_angles(point.q + follower_.correction())});
     bus_->send(
         MeasuredPositionMessage{{state_.position.x(), state_.position.y(), state_.position.z()}});
   }
@@ -150,6 +153,7 @@ void Plant::exchange() {
     }
   }
   run_.unanswered += corrected_ == corrected_before ? 1U : 0U;
+  follower_.end_period();
 }
 
 void Plant::take(const Message& message) {
@@ -160,11 +164,11 @@ void Plant::take(const Message& message) {
       run_.status |= corrected->status;
       run_.node_status |= corrected->node_status;
     }
-    for (std::size_t i = 0; i < 6; ++i) {
-      const double correction = corrected->corrected[i] - corrected->uncorrected[i];
-      if (options_.compensate && std::isfinite(correction)) {
-        correction_[static_cast<Eigen::Index>(i)] = correction;
-      }
+    if (options_.compensate) {
+      using Angles = Eigen::Map<const JointVector<double, 6>>;
+      const auto state = static_cast<State>(corrected->state);
+      follower_.take(Angles(corrected->corrected.data()) - Angles(corrected->uncorrected.data()),
+                     state == State::off || state == State::latched);
     }
   } else if (const auto* reply = std::get_if<CommandReplyMessage>(&message)) {
     if (reply->command == Command::arm) {
@@ -186,7 +190,7 @@ Wrench<double> Plant::measured(const Wrench<double>& wrench) {
 
 void Plant::record(double time, const Contour::Point& point, const Wrench<double>& wrench) {
   Eigen::Matrix<double, 21, 1> row;
-  row << point.q, point.q + correction_, wrench, state_.position;
+  row << point.q, point.q + follower_.correction(), wrench, state_.position;
   time_.push_back(time);
   rows_.push_back(row);
 }

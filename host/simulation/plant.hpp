@@ -4,6 +4,7 @@
 #include <random>
 
 #include "recording/recording.hpp"
+#include "simulation/correction_follower.hpp"
 #include "simulation/milling.hpp"
 #include "simulation/plant_bus.hpp"
 
@@ -39,8 +40,7 @@ struct PlantRun {
 
 /// The plant on the bus: stands at the beginning of the contour, has the compensator armed, enters
 /// the cut, follows the contour, and leaves. Every period it sends what the robot's sensors say and
-/// the next setpoint, and moves by the correction that comes back: corrected less uncorrected, the
-/// last there was.
+/// the next setpoint, and moves by the correction that comes back (CorrectionFollower).
 class Plant {
  public:
   Plant(const RobotModel<double, 6>& model, Contour contour, const Process& process,
@@ -64,7 +64,7 @@ class Plant {
   PlantOptions options_;
   PlantBus* bus_;
   std::mt19937_64 random_;
-  JointVector<double, 6> correction_ = JointVector<double, 6>::Zero();
+  CorrectionFollower follower_;
   MillingRobot::State state_{};
   std::int64_t next_ = 0;  ///< ns, when the next setpoint is due
   std::uint64_t corrected_ = 0;

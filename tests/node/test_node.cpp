@@ -174,7 +174,7 @@ void a_report_gives_every_statistic() {
   bus.bring_up();
   bus.command(Command::report);
   bus.machine(60);
-  TEST_ASSERT_EQUAL(8 + 8 + 8 + LatencyHistogram::kBins, bus.statistics.size());
+  TEST_ASSERT_EQUAL(9 + 8 + 8 + LatencyHistogram::kBins, bus.statistics.size());
   for (const StatisticMessage& statistic : bus.statistics) {
     if (statistic.name == static_cast<std::uint8_t>(StatisticName::setpoint_lost)) {
       TEST_ASSERT_EQUAL(0, statistic.value);

@@ -6,7 +6,8 @@
 
 namespace flexcomp {
 
-/// Queue from one thread to one other, without locks. Fixed memory; `Size` is a power of two.
+/// Queue from one thread (or interrupt) to one other, without locks. Fixed memory; `Size` is a
+/// power of two.
 template <typename Item, std::size_t Size>
 class Ring {
   static_assert((Size & (Size - 1)) == 0, "a power of two");
@@ -21,6 +22,11 @@ class Ring {
     items_[end % Size] = item;
     end_.store(end + 1, std::memory_order_release);
     return true;
+  }
+
+  /// How many more items fit, as the one that pushes sees it.
+  std::size_t room() const {
+    return Size - (end_.load(std::memory_order_relaxed) - begin_.load(std::memory_order_acquire));
   }
 
   /// False if it is empty.

@@ -1,0 +1,149 @@
+#include "node/slcan_node.hpp"
+
+#include <cmath>
+
+#include "node/default_config.hpp"
+
+namespace flexcomp {
+namespace {
+
+constexpr int kBytesAStep = 1024;
+constexpr int kMessagesATick = 4;  // beside the corrected setpoint
+constexpr std::uint32_t kLinesToRecover = 64;
+constexpr std::uint8_t kDone = '\r';
+constexpr std::uint8_t kError = '\a';
+
+}  // namespace
+
+Result SlcanNode::start(const NodeSettings& settings, TableSlot first, TableSlot second) {
+  node_.use_memory(first, second);
+  const Result result = node_.configure(settings.node);
+  const NodeConfig config = result == Result::ok ? settings.node : default_node_config();
+  if (result != Result::ok) {
+    node_.configure(config);  // without a model hash: it takes no table
+    node_.announce(kConfigRefusedCode, static_cast<std::uint32_t>(result));
+  }
+  link_ = CanLink(false, settings.tolerated_losses);
+  trigger_ = settings.trigger;
+  period_ = static_cast<std::uint32_t>(1e9F * std::fmin(config.compensator.period, 4.0F) + 0.5F);
+  return result;
+}
+
+void SlcanNode::step(std::int64_t now) {
+  exchange_tables();
+  take_bytes(now);
+  const std::int64_t since = now - ticked_at_;
+  const bool due = (trigger_ == Trigger::clock && since >= period_) ||
+                   (trigger_ == Trigger::setpoint && since >= period_ + period_ / 2);
+  if (due) {
+    tick(now);
+  }
+}
+
+void SlcanNode::take_bytes(std::int64_t now) {
+  std::uint8_t byte = 0;
+  for (int i = 0; i < kBytesAStep && received_->pop(&byte); ++i) {
+    switch (reader_.take(byte)) {
+      case SlcanReader::Event::frame:
+        if (link_.receive(reader_.frame(), &node_,
+                          trigger_ == Trigger::lockstep ? steps_ * period_ : now)) {
+          on_setpoint(now);
+        }
+        break;
+      case SlcanReader::Event::foreign:
+      case SlcanReader::Event::corrupt:
+        ++other_lines_;
+        break;
+      case SlcanReader::Event::command:
+        to_send_->push(kDone);
+        break;
+      case SlcanReader::Event::unknown:
+        ++other_lines_;
+        to_send_->push(kError);
+        break;
+      case SlcanReader::Event::nothing:
+        break;
+    }
+  }
+}
+
+void SlcanNode::on_setpoint(std::int64_t now) {
+  if (trigger_ == Trigger::lockstep) {
+    ++steps_;
+    tick(steps_ * period_);
+  } else if (trigger_ == Trigger::setpoint && now - ticked_at_ >= period_ / 2) {
+    tick(now);
+  }
+}
+
+LinkState SlcanNode::link_state() const {
+  LinkState state = link_.state();
+  state.bus_fault = lines_to_recover_ > 0;
+  state.foreign_frames += other_lines_;
+  state.dropped_frames = dropped_frames_;
+  state.stack_used = stack_used_.load(std::memory_order_relaxed);
+  return state;
+}
+
+void SlcanNode::tick(std::int64_t now) {
+  ticked_at_ = now;
+  if (node_.take_reset()) {
+    link_.forget_conflicts();
+  }
+  node_.set_link(link_state());
+  send(node_.tick(now));
+  Message message;
+  for (int i = 0; i < kMessagesATick && node_.next_message(&message); ++i) {
+    send(message);
+  }
+}
+
+void SlcanNode::send(const Message& message) {
+  const FrameList list = link_.encode(message);
+  for (std::size_t i = 0; i < list.count; ++i) {
+    send(to_slcan(list.frames[i]));
+  }
+}
+
+/// A whole line or none of it: half a line would spoil the next.
+void SlcanNode::send(const SlcanLine& line) {
+  if (to_send_->room() < line.size) {
+    ++dropped_frames_;
+    lines_to_recover_ = kLinesToRecover;
+    return;
+  }
+  lines_to_recover_ -= lines_to_recover_ > 0 ? 1U : 0U;
+  for (std::size_t i = 0; i < line.size; ++i) {
+    to_send_->push(static_cast<std::uint8_t>(line.text[i]));
+  }
+}
+
+void SlcanNode::exchange_tables() {
+  const Check check = check_.load(std::memory_order_acquire);
+  if (check == Check::done) {
+    node_.conclude_transfer(opened_, checked_);
+    check_.store(Check::none, std::memory_order_relaxed);
+  } else if (check == Check::none) {
+    unchecked_ = node_.received_table(&unchecked_size_);
+    if (unchecked_ != nullptr) {
+      check_.store(Check::wanted, std::memory_order_release);
+    }
+  }
+}
+
+bool SlcanNode::table_to_check(const void** data, std::size_t* size) const {
+  if (check_.load(std::memory_order_acquire) != Check::wanted) {
+    return false;
+  }
+  *data = unchecked_;
+  *size = unchecked_size_;
+  return true;
+}
+
+void SlcanNode::table_checked(Result opened, const Table& table) {
+  opened_ = opened;
+  checked_ = table;
+  check_.store(Check::done, std::memory_order_release);
+}
+
+}  // namespace flexcomp

@@ -1,0 +1,285 @@
+#include <string>
+
+#include "core/crc32.hpp"
+#include "node/node_on_a_bus.hpp"
+#include "node/slcan_node.hpp"
+
+using namespace flexcomp;
+using flexcomp::test::kTurn;
+using flexcomp::test::usual_config;
+using flexcomp::test::usual_table;
+
+namespace {
+
+constexpr std::int64_t kStep = 1'000'000;  // ns
+
+NodeSettings settings(Trigger trigger) {
+  NodeSettings settings;
+  settings.node = usual_config();
+  settings.trigger = trigger;
+  settings.node.use_timestamps = trigger != Trigger::lockstep;
+  return settings;
+}
+
+/// A node on a serial line, the other end of the line, and a clock of milliseconds.
+class SerialBench {
+ public:
+  explicit SerialBench(const NodeSettings& settings) : second(1 << 14) {
+    started = node.start(settings, {second.data(), second.size() / 2},
+                         {second.data() + second.size() / 2, second.size() / 2});
+    Table table;
+    TEST_ASSERT_EQUAL(Result::ok,
+                      Table::open(usual_table().data(), 4 * usual_table().size(), &table));
+    node.node()->start_with(TableStore::kFixed, table);
+  }
+
+  void type(const std::string& text) {
+    for (const char c : text) {
+      TEST_ASSERT_TRUE(received.push(static_cast<std::uint8_t>(c)));
+    }
+  }
+
+  void send(const Message& message) {
+    const FrameList list = encoder.encode(message);
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const SlcanLine line = to_slcan(list.frames[i]);
+      type(std::string(line.text.data(), line.size));
+    }
+  }
+
+  void send_setpoint() {
+    phase += kTurn / 3000;
+    const JointVector<double, 6> q = test::loop_angles<double>(phase);
+    SetpointMessage setpoint;
+    std::copy_n(q.data(), 6, setpoint.q.begin());
+    const double noise = 3 * std::sin(1000 * phase);
+    send(WrenchMessage{kNoTime, {440 + noise, 1370 - noise, 635, 0, 3, 10.5}, false});
+    send(setpoint);
+  }
+
+  void step(int steps = 1) {
+    for (int i = 0; i < steps; ++i) {
+      now += kStep;
+      node.step(now);
+      take_answers();
+    }
+  }
+
+  /// Setpoints every 4 ms.
+  void machine(int periods) {
+    for (int i = 0; i < periods; ++i) {
+      send_setpoint();
+      step(4);
+    }
+  }
+
+  void bring_up() {
+    send(IdentityMessage{usual_config().compensator.model_hash, WrenchFrame::base});
+    machine(20);
+    send(CommandMessage{Command::arm});
+    machine(60);
+    TEST_ASSERT_EQUAL(State::active, node.node()->state());
+  }
+
+  Node* inner() { return node.node(); }
+
+  std::vector<std::uint32_t> second;
+  SlcanNode::Bytes received;
+  SlcanNode::Bytes to_send;
+  SlcanNode node{&received, &to_send};
+  CanEncoder encoder;
+  Result started = Result::ok;
+  std::int64_t now = 0;
+  double phase = 0;
+  bool listening = true;
+  int corrected = 0;  ///< how many came
+  CorrectedMessage last;
+  TransferReplyMessage transfer_reply;
+  HeartbeatMessage heartbeat;
+  std::vector<FaultMessage> faults;
+  std::string other;  ///< text that is no frame
+
+ private:
+  void take_answers() {
+    std::uint8_t byte = 0;
+    while (listening && to_send.pop(&byte)) {
+      const SlcanReader::Event event = reader.take(byte);
+      if (event == SlcanReader::Event::frame) {
+        take(decoder.decode(reader.frame(), now));
+      } else if (byte == '\a') {
+        other += static_cast<char>(byte);
+      }
+    }
+  }
+
+  void take(const Message& message) {
+    if (const auto* answer = std::get_if<CorrectedMessage>(&message)) {
+      ++corrected;
+      last = *answer;
+    } else if (const auto* reply = std::get_if<TransferReplyMessage>(&message)) {
+      transfer_reply = *reply;
+    } else if (const auto* beat = std::get_if<HeartbeatMessage>(&message)) {
+      heartbeat = *beat;
+    } else if (const auto* fault = std::get_if<FaultMessage>(&message)) {
+      faults.push_back(*fault);
+    }
+  }
+
+  SlcanReader reader;
+  CanDecoder decoder;
+};
+
+void it_corrects_what_comes_over_the_line() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.bring_up();
+  TEST_ASSERT_TRUE(bench.last.corrected != bench.last.uncorrected);
+  TEST_ASSERT_EQUAL(State::active, bench.last.state);
+  TEST_ASSERT_EQUAL_MESSAGE(3, bench.heartbeat.slot, "the table is in fixed memory");
+}
+
+void every_setpoint_is_answered_in_its_step_and_makes_one_tick() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.machine(10);
+  const int before = bench.corrected;
+  for (int i = 0; i < 100; ++i) {
+    bench.send_setpoint();
+    bench.step(1);
+    TEST_ASSERT_EQUAL(before + i + 1, bench.corrected);
+    bench.step(3);
+  }
+  TEST_ASSERT_EQUAL(before + 100, bench.corrected);
+  TEST_ASSERT_EQUAL(0, bench.inner()->late_ticks());
+}
+
+void by_the_clock_it_ticks_every_period_whatever_comes() {
+  SerialBench bench(settings(Trigger::clock));
+  bench.step(400);
+  TEST_ASSERT_EQUAL(100, bench.inner()->ticks());
+  bench.machine(100);
+  TEST_ASSERT_EQUAL(200, bench.inner()->ticks());
+  TEST_ASSERT_EQUAL(0, bench.inner()->late_ticks());
+}
+
+void in_lockstep_it_ticks_for_every_setpoint_however_fast() {
+  SerialBench bench(settings(Trigger::lockstep));
+  bench.step(1000);
+  TEST_ASSERT_EQUAL(0, bench.inner()->ticks());
+  for (int i = 0; i < 50; ++i) {
+    bench.send_setpoint();
+    bench.send_setpoint();
+    bench.step(1);
+  }
+  TEST_ASSERT_EQUAL(100, bench.inner()->ticks());
+  TEST_ASSERT_EQUAL(0, bench.inner()->late_ticks());
+}
+
+void a_silent_line_makes_it_fade_out_and_latch() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.bring_up();
+  bench.step(1000);
+  TEST_ASSERT_EQUAL(State::latched, bench.last.state);
+  TEST_ASSERT_TRUE(bench.last.corrected == bench.last.uncorrected);
+}
+
+void spoilt_text_counts_and_makes_it_fade_out_and_latch() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.bring_up();
+  for (int i = 0; i < 1000; ++i) {
+    bench.type("t1008zz\r\x80\xFF#garbage\r");
+    bench.step(1);
+  }
+  TEST_ASSERT_EQUAL(State::latched, bench.last.state);
+  bool exists = false;
+  TEST_ASSERT_TRUE(bench.inner()->statistic(
+                       static_cast<std::uint8_t>(StatisticName::foreign_frames), &exists) > 1900);
+}
+
+void a_line_that_takes_nothing_is_a_bus_fault_that_ends() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.bring_up();
+  bench.listening = false;
+  bench.machine(200);
+  bool exists = false;
+  TEST_ASSERT_TRUE(bench.inner()->statistic(
+                       static_cast<std::uint8_t>(StatisticName::dropped_frames), &exists) > 0);
+  TEST_ASSERT_EQUAL(State::latched, bench.inner()->state());
+  bench.listening = true;
+  bench.machine(50);
+  TEST_ASSERT_EQUAL_HEX(0, bench.last.node_status & kNodeFaultBits);
+  bench.send(CommandMessage{Command::reset});
+  bench.machine(20);
+  bench.send(CommandMessage{Command::arm});
+  bench.machine(60);
+  TEST_ASSERT_EQUAL(State::active, bench.inner()->state());
+}
+
+void a_table_that_comes_over_the_line_is_checked_by_the_main_program_and_used() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.machine(20);
+  const std::vector<std::uint32_t> table = test::loop_table(test::kr270<float>());
+  const std::uint32_t crc = crc32(table.data(), 4 * table.size());
+  bench.send(TransferBeginMessage{static_cast<std::uint32_t>(4 * table.size()), crc});
+  bench.step(1);
+  for (std::uint32_t i = 0; i < table.size(); ++i) {
+    bench.send(TransferDataMessage{i, 1, {table[i]}});
+    bench.step(1);
+  }
+  bench.send(TransferEndMessage{crc});
+  bench.step(2);
+  const void* data = nullptr;
+  std::size_t size = 0;
+  TEST_ASSERT_TRUE(bench.node.table_to_check(&data, &size));
+  TEST_ASSERT_EQUAL(4 * table.size(), size);
+  Table opened;
+  const Result result = Table::open(data, size, &opened);
+  bench.node.table_checked(result, opened);
+  bench.machine(60);
+  TEST_ASSERT_FALSE(bench.node.table_to_check(&data, &size));
+  TEST_ASSERT_EQUAL(TransferStage::end, bench.transfer_reply.stage);
+  TEST_ASSERT_EQUAL(0, bench.transfer_reply.result);
+  TEST_ASSERT_EQUAL(1, bench.heartbeat.slot);
+}
+
+void commands_to_an_adapter_are_answered() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.type("C\rS6\rO\r");
+  bench.type("nonsense\r");
+  bench.listening = false;
+  bench.step(1);
+  std::string answers;
+  std::uint8_t byte = 0;
+  while (bench.to_send.pop(&byte)) {
+    answers += static_cast<char>(byte);
+  }
+  TEST_ASSERT_EQUAL_STRING("\r\r\r\a", answers.substr(0, 4).c_str());
+}
+
+void without_usable_settings_it_says_so_and_cannot_be_armed() {
+  NodeSettings broken = settings(Trigger::setpoint);
+  broken.node.compensator.period = std::nanf("");
+  SerialBench bench(broken);
+  TEST_ASSERT_EQUAL(Result::bad_config, bench.started);
+  bench.send(IdentityMessage{usual_config().compensator.model_hash, WrenchFrame::base});
+  bench.machine(20);
+  bench.send(CommandMessage{Command::arm});
+  bench.machine(20);
+  TEST_ASSERT_EQUAL(State::off, bench.inner()->state());
+  TEST_ASSERT_EQUAL_HEX(kConfigRefusedCode, bench.faults.at(0).code);
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(it_corrects_what_comes_over_the_line);
+  RUN_TEST(every_setpoint_is_answered_in_its_step_and_makes_one_tick);
+  RUN_TEST(by_the_clock_it_ticks_every_period_whatever_comes);
+  RUN_TEST(in_lockstep_it_ticks_for_every_setpoint_however_fast);
+  RUN_TEST(a_silent_line_makes_it_fade_out_and_latch);
+  RUN_TEST(spoilt_text_counts_and_makes_it_fade_out_and_latch);
+  RUN_TEST(a_line_that_takes_nothing_is_a_bus_fault_that_ends);
+  RUN_TEST(a_table_that_comes_over_the_line_is_checked_by_the_main_program_and_used);
+  RUN_TEST(commands_to_an_adapter_are_answered);
+  RUN_TEST(without_usable_settings_it_says_so_and_cannot_be_armed);
+  return UNITY_END();
+}
