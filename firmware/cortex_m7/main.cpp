@@ -24,7 +24,7 @@ constexpr std::uint32_t kWatchdogTime = 50;    // ms
 
 SlcanNode::Bytes received;
 SlcanNode::Bytes to_send;
-SlcanNode node(&received, &to_send);
+SlcanNode* node = nullptr;
 std::atomic<std::uint32_t> steps{0};
 
 /// What survives a reset of the processor.
@@ -54,7 +54,7 @@ extern std::uint32_t __slots_end[];
 void tick() {
   static std::int64_t now = 0;
   now += kStepTime;
-  node.step(now);
+  node->step(now);
   board::wake_sender();
   steps.store(steps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }
@@ -97,13 +97,13 @@ void use_table_in_flash() {
       static_cast<std::size_t>(__table_end - __table_start) * sizeof(std::uint32_t);
   Table table;
   if (header->size <= room && Table::open(header, header->size, &table) == Result::ok) {
-    node.node()->start_with(TableStore::kFixed, table);
+    node->node()->start_with(TableStore::kFixed, table);
   }
 }
 
 void report_last_words() {
   if (last_words.valid == LastWords::kValid) {
-    node.node()->announce(flexcomp::kRestartCode, last_words.report.program_counter);
+    node->node()->announce(flexcomp::kRestartCode, last_words.report.program_counter);
   }
   last_words.valid = 0;
 }
@@ -121,10 +121,10 @@ void start_steps() {
 void check_table() {
   const void* data = nullptr;
   std::size_t size = 0;
-  if (node.table_to_check(&data, &size)) {
+  if (node->table_to_check(&data, &size)) {
     Table table;
     const Result opened = Table::open(data, size, &table);
-    node.table_checked(opened, table);
+    node->table_checked(opened, table);
   }
 }
 
@@ -133,11 +133,12 @@ void check_table() {
 int main() {
   flexcomp::cortex_m7::prepare_stack();
   NodeSettings settings;
-  settings.node = {};
   const std::size_t room =
       static_cast<std::size_t>(__settings_end - __settings_start) * sizeof(std::uint32_t);
-  read_record(__settings_start, room, &settings);  // node.start says if there were none
-  node.start(settings, slot(__first_slot, __second_slot), slot(__second_slot, __slots_end));
+  read_record(__settings_start, room, &settings);  // else they stay such that no node takes them
+  static SlcanNode the_node(settings, &received, &to_send, slot(__first_slot, __second_slot),
+                            slot(__second_slot, __slots_end));
+  node = &the_node;
   use_table_in_flash();
   report_last_words();
   board::start(&received, &to_send);
@@ -145,7 +146,7 @@ int main() {
   board::start_watchdog(kWatchdogTime);
   for (std::uint32_t seen = 0;;) {
     check_table();
-    node.set_stack_used(flexcomp::cortex_m7::stack_used());
+    node->set_stack_used(flexcomp::cortex_m7::stack_used());
     const std::uint32_t done = steps.load(std::memory_order_relaxed);
     if (done != seen) {
       board::feed_watchdog();

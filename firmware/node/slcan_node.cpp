@@ -13,20 +13,27 @@ constexpr std::uint32_t kLinesToRecover = 64;
 constexpr std::uint8_t kDone = '\r';
 constexpr std::uint8_t kError = '\a';
 
+std::int64_t in_nanoseconds(float period) {
+  constexpr float kLongest = 4.0F;  // s
+  return static_cast<std::uint32_t>(1e9F * std::fmin(period, kLongest) + 0.5F);
+}
+
 }  // namespace
 
-Result SlcanNode::start(const NodeSettings& settings, TableSlot first, TableSlot second) {
+SlcanNode::SlcanNode(const NodeSettings& settings, Bytes* received, Bytes* to_send, TableSlot first,
+                     TableSlot second)
+    : received_(received),
+      to_send_(to_send),
+      link_(false, settings.tolerated_losses),
+      trigger_(settings.trigger),
+      period_(in_nanoseconds(settings.node.compensator.period)) {
   node_.use_memory(first, second);
-  const Result result = node_.configure(settings.node);
-  const NodeConfig config = result == Result::ok ? settings.node : default_node_config();
-  if (result != Result::ok) {
-    node_.configure(config);  // without a model hash: it takes no table
-    node_.announce(kConfigRefusedCode, static_cast<std::uint32_t>(result));
+  if (node_.configure(settings.node) != Result::ok) {
+    const NodeConfig config = default_node_config();  // without a model hash: it takes no table
+    node_.configure(config);
+    period_ = in_nanoseconds(config.compensator.period);
+    node_.announce(kConfigRefusedCode, static_cast<std::uint32_t>(Result::bad_config));
   }
-  link_ = CanLink(false, settings.tolerated_losses);
-  trigger_ = settings.trigger;
-  period_ = static_cast<std::uint32_t>(1e9F * std::fmin(config.compensator.period, 4.0F) + 0.5F);
-  return result;
 }
 
 void SlcanNode::step(std::int64_t now) {

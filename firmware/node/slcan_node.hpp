@@ -19,12 +19,10 @@ class SlcanNode {
  public:
   using Bytes = Ring<std::uint8_t, 8192>;
 
-  /// Both outlive the node.
-  SlcanNode(Bytes* received, Bytes* to_send) : received_(received), to_send_(to_send) {}
-
-  /// Settings, and memory for tables that come over the bus. To be called once, before `step`.
-  /// Returns ok or bad_config; the node then runs, and says that it cannot be armed.
-  Result start(const NodeSettings& settings, TableSlot first, TableSlot second);
+  /// `received`, `to_send` and the memory for tables that come over the bus outlive the node. With
+  /// settings that no node takes it runs all the same, says so on the bus, and cannot be armed.
+  SlcanNode(const NodeSettings& settings, Bytes* received, Bytes* to_send, TableSlot first,
+            TableSlot second);
 
   Node* node() { return &node_; }
 
@@ -53,9 +51,9 @@ class SlcanNode {
   Bytes* to_send_;
   Node node_;
   SlcanReader reader_;
-  CanLink link_{false, 0};
-  Trigger trigger_ = Trigger::clock;
-  std::int64_t period_ = 1'000'000;  ///< ns
+  CanLink link_;
+  Trigger trigger_;
+  std::int64_t period_;  ///< ns
   std::int64_t ticked_at_ = 0;
   std::int64_t steps_ = 0;         ///< of lock-step
   std::uint32_t other_lines_ = 0;  ///< frames of other kinds, and what is none

@@ -11,6 +11,7 @@ import subprocess
 import tempfile
 import time
 import unittest
+import zlib
 
 import can
 import cantools
@@ -20,7 +21,7 @@ SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
 BIN = pathlib.Path(os.environ["FLEXCOMP_BIN"])
 ROBOTS = SOURCE / "host" / "robots"
 DBC = SOURCE / "firmware" / "messages" / "flexcomp.dbc"
-BUS = "vcan0"
+BUS = os.environ.get("FLEXCOMP_BUS", "vcan0")
 LCM = "udpm://239.255.76.67:7667?ttl=0"
 STATES = {"off": 0, "fading_in": 1, "active": 2, "holding": 3, "fading_out": 4, "latched": 5}
 
@@ -247,6 +248,32 @@ class Feeder:
         self.client.command("arm")
         replies = [signals for name, signals in decoded(self.run(1.0)) if name == "CommandReply"]
         return replies[0]["reply"]
+
+
+def table_frames(client, data, words=None):
+    """A whole transfer of a table, or its begin and the first words."""
+    crc = zlib.crc32(data)
+    count = words if words is not None else len(data) // 4
+    frames = client.frames("TransferBegin", size=len(data), table_crc=crc)
+    for i in range(count):
+        word = int.from_bytes(data[4 * i:4 * i + 4], "little")
+        frames += client.frames("TransferData", word_index=i, word=word)
+    return frames + (client.frames("TransferEnd", table_crc=crc) if words is None else [])
+
+
+def transfer(feeder, frames):
+    """Sends them between setpoints; what was received, and the replies in it."""
+    received = feeder.run(1.0, frames)
+    received += feeder.run(0.5)
+    return received, [signals for name, signals in decoded(received) if name == "TransferReply"]
+
+
+def other_table(job):
+    """The same program, certified for more force: another table, for the same robot."""
+    path = job.folder / "other.fct"
+    flexcomp("table", "--model", job.model, "--path", job.path, "--tolerance", 2e-6, "--force", 3000,
+             "--out", path)
+    return path.read_bytes()
 
 
 def corrections(received):

@@ -7,12 +7,11 @@ import signal
 import subprocess
 import time
 import unittest
-import zlib
 
 import can
 
 from bench_on_a_bus import (BIN, BUS, STATES, Feeder, Flexcompd, HilTest, Job, candump, corrections, decode,
-                            decoded, flexcomp, states)
+                            decoded, flexcomp, other_table, states, table_frames, transfer)
 
 HERE = pathlib.Path(__file__).parent
 
@@ -205,36 +204,13 @@ class Life(Process):
 
 
 class Tables(Process):
-    def frames_of(self, data, words=None):
-        """A whole transfer, or its begin and the first words."""
-        crc = zlib.crc32(data)
-        count = words if words is not None else len(data) // 4
-        frames = self.peer.frames("TransferBegin", size=len(data), table_crc=crc)
-        for i in range(count):
-            word = int.from_bytes(data[4 * i:4 * i + 4], "little")
-            frames += self.peer.frames("TransferData", word_index=i, word=word)
-        return frames + (self.peer.frames("TransferEnd", table_crc=crc) if words is None else [])
-
-    def transfer(self, frames):
-        """Sends them between setpoints; what was received, and the replies in it."""
-        received = self.feeder.run(1.0, frames)
-        received += self.feeder.run(0.5)
-        return received, [signals for name, signals in decoded(received) if name == "TransferReply"]
-
-    def other_table(self):
-        """The same program, certified for more force: another table, for the same robot."""
-        path = self.folder / "other.fct"
-        flexcomp("table", "--model", self.job.model, "--path", self.job.path, "--tolerance", 2e-6,
-                 "--force", 3000, "--out", path)
-        return path.read_bytes()
-
     def test_a_table_over_the_bus_is_swapped_in_while_correcting_and_kept(self):
         state = self.folder / "state"
         state.mkdir()
         with Flexcompd(self.job, "--state-directory", state) as node:
-            frames = self.frames_of(self.other_table())
+            frames = table_frames(self.peer, other_table(self.job))
             self.bring_up()
-            received, replies = self.transfer(frames)
+            received, replies = transfer(self.feeder, frames)
             self.assertEqual([0, 0], [reply["result"] for reply in replies])
             self.assert_limits(received, self.job.period)
             # Writing the table to the disk may stop a whole guest for a moment: held, but no more.
@@ -243,7 +219,7 @@ class Tables(Process):
             beats = [signals["slot"] for name, signals in decoded(received) if name == "Heartbeat"]
             self.assertEqual(2, beats[-1])
             self.assertEqual(0, node.stop())
-        self.assertIn(self.other_table(), [file.read_bytes() for file in state.iterdir()])
+        self.assertIn(other_table(self.job), [file.read_bytes() for file in state.iterdir()])
         self.job.table.unlink()
         with Flexcompd(self.job, "--state-directory", state) as node:
             self.assertEqual(0, self.feeder.arm())
@@ -251,11 +227,11 @@ class Tables(Process):
 
     def test_a_damaged_table_is_refused_and_the_one_in_use_stays(self):
         with Flexcompd(self.job) as node:
-            data = bytearray(self.other_table())
+            data = bytearray(other_table(self.job))
             data[500] ^= 1
-            frames = self.frames_of(bytes(data))
+            frames = table_frames(self.peer, bytes(data))
             self.bring_up()
-            received, replies = self.transfer(frames)
+            received, replies = transfer(self.feeder, frames)
             self.assertEqual(12, replies[-1]["result"])
             self.assertEqual({STATES["active"]}, set(states(received)))
             node.stop()
@@ -264,7 +240,7 @@ class Tables(Process):
         state = self.folder / "state"
         state.mkdir()
         with Flexcompd(self.job, "--state-directory", state) as node:
-            self.transfer(self.frames_of(self.other_table(), words=200))
+            transfer(self.feeder, table_frames(self.peer, other_table(self.job), words=200))
             node.process.kill()
         with Flexcompd(self.job, "--state-directory", state) as node:
             self.assertEqual(0, self.feeder.arm())
@@ -274,7 +250,7 @@ class Tables(Process):
         state = self.folder / "state"
         state.mkdir()
         (state / "table-a.fct").write_bytes(self.job.table.read_bytes())
-        (state / "table-b.fct").write_bytes(self.other_table()[:-8])
+        (state / "table-b.fct").write_bytes(other_table(self.job)[:-8])
         (state / "active").write_text("table-b.fct")
         self.job.table.unlink()
         with Flexcompd(self.job, "--state-directory", state) as node:

@@ -1,0 +1,190 @@
+"""What is done to flexcompd, done to the firmware on an emulated board. Runs in the guest that has the
+board's serial line; asks `test_cortex_m7` outside for what happens to the board."""
+
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import time
+import unittest
+
+from bench_on_a_bus import (BIN, BUS, STATES, Feeder, HilTest, Job, corrections, decoded, flexcomp,
+                            other_table, states, table_frames, transfer)
+from test_circle import LARGEST_SHARE, mill
+
+HERE = pathlib.Path(__file__).parent
+OUTSIDE = pathlib.Path(os.environ["FLEXCOMP_BOARD"])
+IN_FIXED_MEMORY = 3
+
+
+def ask(order, **values):
+    """Has something done to the board."""
+    request = OUTSIDE / "request"
+    aside = OUTSIDE / "request.new"
+    aside.write_text(json.dumps({"order": order} | {name: str(value) for name, value in values.items()}))
+    aside.rename(request)
+    while request.exists():
+        time.sleep(0.02)
+
+
+def setUpModule():
+    global interface
+    interface = subprocess.Popen([sys.executable, HERE / "serial_can.py"])
+    command = ["ip", "link", "set", BUS, "up", "txqueuelen", "1000"]
+    while subprocess.run(command, stderr=subprocess.DEVNULL).returncode != 0:
+        time.sleep(0.1)
+
+
+def tearDownModule():
+    interface.kill()
+
+
+class Firmware(HilTest):
+    def start(self, job, *options):
+        settings = self.folder / "settings.bin"
+        subprocess.run([BIN / "flexcompd", "--config", job.config, *options, "--settings-out", settings],
+                       check=True)
+        ask("start", settings=settings, table=job.table)
+
+
+class InLockstep(Firmware):
+    def test_it_keeps_the_circle_as_round_as_flexcompd_does(self):
+        job = Job(self.folder, "kr270", 0.1)
+        self.start(job, "--trigger", "lockstep")
+        before = mill(job, self.folder / "without.csv", "--table", job.table, "--without-compensation")
+        after = mill(job, self.folder / "with.csv", "--bus", f"can:{BUS}", "--lockstep")
+        print(f"{1e3 * before:.4f} mm without, {1e3 * after:.4f} mm with, {100 * after / before:.1f} %")
+        self.assertLessEqual(after / before, LARGEST_SHARE)
+
+
+class InRealTime(Firmware):
+    """Periods of 20 ms: the line goes through a guest and back."""
+
+    PERIOD = 0.02
+
+    def setUp(self):
+        super().setUp()
+        self.job = Job(self.folder, period=self.PERIOD)
+        with open(self.job.config, "a") as config:
+            config.write("setpoint-age-limit = 0.25\nwrench-age-limit = 0.25\nlate-ticks = 50\n")
+        self.start(self.job)
+        self.peer = self.client()
+        self.feeder = Feeder(self.job, self.peer)
+
+    def bring_up(self):
+        self.feeder.forget()
+        self.feeder.run(1.2)  # the robot is named every second
+        self.peer.command("arm")
+        received = self.feeder.run(1.5)
+        replies = [signals["reply"] for name, signals in decoded(received) if name == "CommandReply"]
+        self.assertEqual([0], replies)
+        self.assertEqual(STATES["active"], states(received)[-1])
+        return received
+
+    def test_it_speaks_as_flexcompd_does_with_its_table_in_flash(self):
+        received = self.bring_up()
+        self.peer.command("report")
+        received += self.feeder.run(1.0)
+        names = {name for name, _ in decoded(received)}
+        self.assertLessEqual({"CorrectedA", "UncorrectedC", "Status", "Latched", "Heartbeat", "TableLow",
+                              "TableHigh", "Statistic", "CommandReply"}, names)
+        beats = [signals["slot"] for name, signals in decoded(received) if name == "Heartbeat"]
+        self.assertEqual({IN_FIXED_MEMORY}, set(beats))
+        self.assert_limits(received, self.PERIOD)
+        stack = [signals["value"] for name, signals in decoded(received)
+                 if name == "Statistic" and signals["name"] == 8]
+        print(f"stack: {stack[0]} bytes at most")
+        self.assertGreater(stack[0], 500)
+        self.assertLessEqual(stack[0], 4096)
+
+    def test_a_table_over_the_bus_is_swapped_in_while_correcting(self):
+        frames = table_frames(self.peer, other_table(self.job))
+        self.bring_up()
+        received, replies = transfer(self.feeder, frames)
+        self.assertEqual([0, 0], [reply["result"] for reply in replies])
+        self.assert_limits(received, self.PERIOD)
+        self.assertEqual(STATES["active"], states(received)[-1])
+        beats = [signals["slot"] for name, signals in decoded(received) if name == "Heartbeat"]
+        self.assertEqual(1, beats[-1])
+
+    def test_a_damaged_table_is_refused_and_the_one_in_use_stays(self):
+        data = bytearray(other_table(self.job))
+        data[500] ^= 1
+        frames = table_frames(self.peer, bytes(data))
+        self.bring_up()
+        received, replies = transfer(self.feeder, frames)
+        self.assertEqual(12, replies[-1]["result"])
+        self.assertEqual(STATES["active"], states(received)[-1])
+
+    def assert_latched_until_reset_and_armed(self):
+        received = self.feeder.run(1.0)
+        self.assertEqual({STATES["latched"]}, set(states(received)[-20:]))
+        self.assert_zero(received)
+        self.peer.command("reset")
+        self.bring_up()
+
+    def test_a_line_that_is_cut_makes_it_fade_out(self):
+        self.bring_up()
+        ask("cut")
+        self.assertEqual([], corrections(self.feeder.run(1.5)[20:]))
+        ask("mend")
+        self.assert_latched_until_reset_and_armed()
+
+    def test_text_that_is_spoilt_makes_it_fade_out(self):
+        self.bring_up()
+        ask("corrupt")
+        self.feeder.run(1.5)
+        ask("mend")
+        self.assert_latched_until_reset_and_armed()
+
+    def test_a_reset_of_the_processor_leaves_it_off_until_it_is_armed(self):
+        self.bring_up()
+        ask("reset")
+        self.feeder.forget()
+        received = self.feeder.run(1.0)
+        self.assertEqual({STATES["off"]}, set(states(received)))
+        self.assertEqual({0.0}, {round(value, 9) for row in corrections(received) for value in row})
+        self.bring_up()
+
+
+class ThePlant(Firmware):
+    """The robot moves by corrections that cease in the midst of the contour."""
+
+    PERIOD = 0.02
+
+    def mill_while(self, order):
+        """What the robot's second joint was moved by, in rad, while `order` happens to the board."""
+        job = Job(self.folder, "kr270", 0.1, period=self.PERIOD)
+        with open(job.config, "a") as config:
+            config.write("setpoint-age-limit = 0.25\nwrench-age-limit = 0.25\nlate-ticks = 50\n")
+        self.start(job)
+        run = self.folder / "run.csv"
+        plant = subprocess.Popen([BIN / "flexcomp", "plant", "--model", job.model, "--path", job.path,
+                                  "--period", str(self.PERIOD), "--bus", f"can:{BUS}", "--out", run],
+                                 stdout=subprocess.DEVNULL)
+        time.sleep(6)  # it stands, arms and enters the cut for less than three; the contour takes six
+        ask(order)
+        self.assertEqual(0, plant.wait(timeout=60))
+        with open(run, newline="") as file:
+            return [float(row["q_meas_2"]) - float(row["q_cmd_2"]) for row in csv.DictReader(file)]
+
+    def assert_held_faded_and_zero(self, moved):
+        largest = max(map(abs, moved))
+        self.assertGreater(largest, 1e-5)
+        self.assertEqual(0, moved[-1])
+        steps = [abs(b - a) for a, b in zip(moved, moved[1:])]
+        self.assertLess(max(steps), 0.15 * largest, "no jump")
+        first_zero = next(i for i, value in enumerate(moved) if value == 0)
+        self.assertEqual({0}, set(moved[first_zero:]), "zero until armed again")
+
+    def test_when_the_line_is_cut_it_holds_and_fades_and_stays_at_zero(self):
+        self.assert_held_faded_and_zero(self.mill_while("cut"))
+
+    def test_when_the_processor_is_reset_it_holds_and_fades_and_stays_at_zero(self):
+        self.assert_held_faded_and_zero(self.mill_while("reset"))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,24 @@
+"""A CAN interface slcan0 from the serial line /dev/ttyS0, until it is killed.
+
+Not slcand on the line itself: user-mode Linux does not tell slcan when its serial line has taken a
+frame, and so slcan would send one only."""
+
+import os
+import select
+import subprocess
+import tty
+
+
+def main():
+    near, far = os.openpty()
+    line = os.open("/dev/ttyS0", os.O_RDWR | os.O_NOCTTY)
+    for end in (near, far, line):
+        tty.setraw(end)
+    with subprocess.Popen(["slcand", "-F", "-o", "-s6", "-t", "hw", os.ttyname(far), "slcan0"]):
+        while True:
+            for end in select.select([near, line], [], [])[0]:
+                os.write(line if end == near else near, os.read(end, 4096))
+
+
+if __name__ == "__main__":
+    main()
