@@ -184,18 +184,19 @@ void Compensator<Scalar, Joints>::filter(const Wrench<Scalar>& wrench) {
 /// Looks up, deflects, inverts and limits: sets the full correction that would be right now.
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::aim(Output* output) {
-  const TableEntry<Scalar, Joints> entry = look_up<Scalar, Joints>(table_, setpoint_, &cursor_);
-  const TableResponse<Scalar, Joints> response = respond<Scalar, Joints>(table_, entry, wrench_);
+  Scalar outside = 0;
+  const TableResponse<Scalar, Joints> response =
+      look_up_response<Scalar, Joints>(table_, setpoint_, wrench_, &cursor_, &outside);
   if (!response.deflection.allFinite() || !response.correction.allFinite()) {
     return kNotComputable;
   }
-  if (entry.outside > config_.chart_margin) {
+  if (outside > config_.chart_margin) {
     return kOutsideChart;
   }
   std::uint32_t remarks = 0;
   Scalar scale = config_.gain;
-  if (entry.outside > Scalar(0)) {
-    scale *= Scalar(1) - entry.outside / config_.chart_margin;
+  if (outside > Scalar(0)) {
+    scale *= Scalar(1) - outside / config_.chart_margin;
     remarks |= kChartEdge;
   }
   const Scalar shift = scale * response.deflection.template head<3>().norm();

@@ -24,7 +24,6 @@ struct SegmentPlace {
 
 template <typename Scalar, int Joints>
 SegmentPlace<Scalar> place_on_segment(const float* from, const float* to,
-                                      const RecordLayout& layout,
                                       const JointVector<Scalar, Joints>& q);
 
 /// Blend of the two records that bound a segment. `outside` is the largest difference (rad) of a
@@ -37,5 +36,12 @@ TableEntry<Scalar, Joints> blend_segment(const float* from, const float* to,
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up_path(const Table& table, const JointVector<Scalar, Joints>& q,
                                         TableCursor* cursor);
+
+/// `respond` of `look_up_path`, without the entry between them.
+template <typename Scalar, int Joints>
+TableResponse<Scalar, Joints> respond_on_path(const Table& table,
+                                              const JointVector<Scalar, Joints>& q,
+                                              const Wrench<Scalar>& wrench, TableCursor* cursor,
+                                              Scalar* outside);
 
 }  // namespace flexcomp

@@ -136,7 +136,7 @@ class PathTableBuilder {
     const Scalar between = step * step / Scalar(8);
     for (std::uint32_t i = 0; i <= steps && check->holds; ++i) {
       const Angles q = start + (static_cast<Scalar>(i) * step) * motion;
-      const Scalar t = place_on_segment<Scalar, Joints>(from, to, layout, q).blend();
+      const Scalar t = place_on_segment<Scalar, Joints>(from, to, q).blend();
       const TableEntry<Scalar, Joints> entry =
           blend_segment<Scalar, Joints>(from, to, layout, t, q);
       TableError<Scalar> error = entry_error(model_, exact_entry(model_, q), entry, bound_);
@@ -154,8 +154,8 @@ class PathTableBuilder {
   Scalar smallest_span(const float* from, const float* to, const Angles& start,
                        const Angles& end) const {
     const RecordLayout& layout = writer_.layout();
-    const auto first = place_on_segment<Scalar, Joints>(from, to, layout, start);
-    const auto second = place_on_segment<Scalar, Joints>(from, to, layout, end);
+    const auto first = place_on_segment<Scalar, Joints>(from, to, start);
+    const auto second = place_on_segment<Scalar, Joints>(from, to, end);
     const Scalar span = std::min(first.gone + first.left, second.gone + second.left);
     const Scalar chord = (Eigen::Map<const JointVector<float, Joints>>(to + layout.angles) -
                           Eigen::Map<const JointVector<float, Joints>>(from + layout.angles))

@@ -121,11 +121,35 @@ TableResponse<Scalar, Joints> respond(const Table& table, const TableEntry<Scala
   return response;
 }
 
+/// A function of its own, so that path tables need not make room for an entry.
+template <typename Scalar, int Joints>
+[[gnu::noinline]] static TableResponse<Scalar, Joints> respond_on_grid(
+    const Table& table, const JointVector<Scalar, Joints>& q, const Wrench<Scalar>& wrench,
+    Scalar* outside) {
+  const TableEntry<Scalar, Joints> entry = look_up_grid<Scalar, Joints>(table, q);
+  *outside = entry.outside;
+  return respond<Scalar, Joints>(table, entry, wrench);
+}
+
+template <typename Scalar, int Joints>
+TableResponse<Scalar, Joints> look_up_response(const Table& table,
+                                               const JointVector<Scalar, Joints>& q,
+                                               const Wrench<Scalar>& wrench, TableCursor* cursor,
+                                               Scalar* outside) {
+  if (table.chart() == Chart::path) {
+    return respond_on_path<Scalar, Joints>(table, q, wrench, cursor, outside);
+  }
+  return respond_on_grid<Scalar, Joints>(table, q, wrench, outside);
+}
+
 #define FLEXCOMP_TABLE(Scalar, Joints)                                                            \
   template TableEntry<Scalar, Joints> look_up(const Table&, const JointVector<Scalar, Joints>&,   \
                                               TableCursor*);                                      \
   template TableResponse<Scalar, Joints> respond(const Table&, const TableEntry<Scalar, Joints>&, \
-                                                 const Wrench<Scalar>&);
+                                                 const Wrench<Scalar>&);                          \
+  template TableResponse<Scalar, Joints> look_up_response(                                        \
+      const Table&, const JointVector<Scalar, Joints>&, const Wrench<Scalar>&, TableCursor*,      \
+      Scalar*);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE)
 
 }  // namespace flexcomp

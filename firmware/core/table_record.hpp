@@ -29,7 +29,7 @@ struct RecordLayout {
   bool has_structure;
 };
 
-inline RecordLayout record_layout(Chart chart, bool weight, bool structure) {
+constexpr RecordLayout record_layout(Chart chart, bool weight, bool structure) {
   std::uint32_t next = 0;
   const auto take = [&next](std::uint32_t floats) {
     const std::uint32_t at = next;

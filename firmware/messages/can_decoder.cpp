@@ -100,7 +100,7 @@ bool CanDecoder::add_part(const FrameLayout& layout, const CanFrame& frame, std:
   if (!stream.accept(counter, 0, now)) {
     return false;
   }
-  set.accepted = set.parts;
+  std::copy_n(set.parts.begin(), layout.parts, set.accepted.begin());
   return true;
 }
 

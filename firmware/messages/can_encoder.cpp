@@ -349,7 +349,13 @@ void CanEncoder::put(const CommandReplyMessage& message) {
   encode_command_reply(message, next_counter(FrameGroup::command_reply), &list_);
 }
 
-FrameList CanEncoder::encode(const Message& message) {
+const FrameList& CanEncoder::encode(const CorrectedMessage& message) {
+  list_.count = 0;
+  put(message);
+  return list_;
+}
+
+const FrameList& CanEncoder::encode(const Message& message) {
   list_.count = 0;
   std::visit([this](const auto& content) { put(content); }, message);
   return list_;

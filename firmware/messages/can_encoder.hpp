@@ -20,8 +20,10 @@ class CanEncoder {
   /// `fd`: use the FD layout where there is one, else classic frames only.
   explicit CanEncoder(bool fd = false) : fd_(fd) {}
 
-  /// No frames for std::monostate and for a data message with more words than the layout has.
-  FrameList encode(const Message& message);
+  /// No frames for std::monostate and for a data message with more words than the layout has. What
+  /// is returned is overwritten by the next call.
+  const FrameList& encode(const Message& message);
+  const FrameList& encode(const CorrectedMessage& message);
 
  private:
   std::uint8_t next_counter(FrameGroup group) {

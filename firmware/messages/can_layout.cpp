@@ -52,30 +52,27 @@ constexpr std::array<FrameLayout, 35> kLayouts = {
 
 #undef FRAME
 
-constexpr bool is_sorted() {
-  for (std::size_t i = 1; i < kLayouts.size(); ++i) {
-    if (kLayouts[i - 1].id >= kLayouts[i].id) {
-      return false;
-    }
+constexpr std::uint32_t kMostId = FLEXCOMP_CAN_COMMAND_REPLY_FRAME_ID;
+constexpr std::uint8_t kNone = 0xFF;
+
+/// For each identifier the place of its layout.
+constexpr std::array<std::uint8_t, kMostId + 1> make_index() {
+  std::array<std::uint8_t, kMostId + 1> index{};
+  for (std::uint8_t& place : index) {
+    place = kNone;
   }
-  return true;
+  for (std::size_t i = 0; i < kLayouts.size(); ++i) {
+    index[kLayouts[i].id] = static_cast<std::uint8_t>(i);
+  }
+  return index;
 }
-static_assert(is_sorted(), "find_layout searches by halves");
+
+constexpr std::array<std::uint8_t, kMostId + 1> kIndex = make_index();
 
 }  // namespace
 
 const FrameLayout* find_layout(std::uint32_t id) {
-  std::size_t begin = 0;
-  std::size_t end = kLayouts.size();
-  while (begin < end) {
-    const std::size_t middle = (begin + end) / 2;
-    if (kLayouts[middle].id < id) {
-      begin = middle + 1;
-    } else {
-      end = middle;
-    }
-  }
-  return begin < kLayouts.size() && kLayouts[begin].id == id ? &kLayouts[begin] : nullptr;
+  return id <= kMostId && kIndex[id] != kNone ? &kLayouts[kIndex[id]] : nullptr;
 }
 
 }  // namespace flexcomp

@@ -15,7 +15,11 @@ class CanLink {
   /// Hands a frame to the node. True if it completed a setpoint.
   bool receive(const CanFrame& frame, Node* node, std::int64_t now);
 
-  FrameList encode(const Message& message) { return encoder_.encode(message); }
+  /// As CanEncoder: overwritten by the next call.
+  template <typename SomeMessage>
+  const FrameList& encode(const SomeMessage& message) {
+    return encoder_.encode(message);
+  }
 
   /// What the streams show. To be forgotten on Node::take_reset: conflicts.
   LinkState state() const;

@@ -22,15 +22,11 @@ std::uint8_t number(Result result) { return static_cast<std::uint8_t>(result); }
 std::uint8_t number(Reply reply) { return static_cast<std::uint8_t>(reply); }
 
 JointVector<float, 6> to_core(const JointAngles& q) {
-  JointVector<float, 6> angles;
-  std::transform(q.begin(), q.end(), angles.data(), [](double x) { return static_cast<float>(x); });
-  return angles;
+  return Eigen::Map<const JointVector<double, 6>>(q.data()).cast<float>();
 }
 
 JointAngles from_core(const JointVector<float, 6>& angles) {
-  JointAngles q{};
-  std::copy_n(angles.data(), q.size(), q.begin());
-  return q;
+  return {angles[0], angles[1], angles[2], angles[3], angles[4], angles[5]};
 }
 
 std::uint64_t stream_statistic(const StreamCounters& counters, unsigned which) {
@@ -38,6 +34,10 @@ std::uint64_t stream_statistic(const StreamCounters& counters, unsigned which) {
       counters.received,        counters.lost,          counters.repeated, counters.old,
       counters.out_of_sequence, counters.contradicting, counters.corrupt,  counters.incomplete};
   return values[which];
+}
+
+std::uint32_t losses_in(const StreamCounters& stream) {
+  return stream.lost + stream.corrupt + stream.incomplete;
 }
 
 /// Those beside the compensator's. A heartbeat's period is counted in ticks.
@@ -259,13 +259,9 @@ std::uint16_t Node::judge(std::int64_t now) {
   sticky_ |= bit_if(link_.wrench_conflict, kWrenchConflict);
   const bool identity_fits = identity_.model_hash == config_.compensator.model_hash &&
                              identity_.wrench_frame == WrenchFrame::base;
-  const bool lost = link_.setpoint.lost != link_before_.setpoint.lost ||
-                    link_.wrench.lost != link_before_.wrench.lost ||
-                    link_.setpoint.corrupt != link_before_.setpoint.corrupt ||
-                    link_.wrench.corrupt != link_before_.wrench.corrupt ||
-                    link_.setpoint.incomplete != link_before_.setpoint.incomplete ||
-                    link_.wrench.incomplete != link_before_.wrench.incomplete;
-  link_before_ = link_;
+  const std::uint32_t losses = losses_in(link_.setpoint) + losses_in(link_.wrench);
+  const bool lost = losses != losses_before_;
+  losses_before_ = losses;
   return static_cast<std::uint16_t>(
       sticky_ | bit_if(wrench_monitor_.is_stuck(), kWrenchStuck) |
       bit_if(config_.require_identity && has_identity_ && !identity_fits, kIdentityMismatch) |
@@ -312,17 +308,16 @@ CorrectedMessage Node::tick(std::int64_t now) {
   beat(out);
   ++ticks_;
 
-  CorrectedMessage message;
-  message.timestamp = setpoint_.timestamp;
-  message.corrected = from_core(out.setpoint);
-  message.uncorrected = from_core(out.setpoint - out.correction);
+  CorrectedMessage message{setpoint_.timestamp,
+                           from_core(out.setpoint),
+                           from_core(out.setpoint - out.correction),
+                           out.status,
+                           node_status,
+                           static_cast<std::uint8_t>(out.state)};
   if ((out.status & kNoSetpoint) != 0) {
     message.corrected.fill(std::numeric_limits<double>::quiet_NaN());
     message.uncorrected.fill(std::numeric_limits<double>::quiet_NaN());
   }
-  message.status = out.status;
-  message.node_status = node_status;
-  message.state = static_cast<std::uint8_t>(out.state);
   return message;
 }
 
@@ -337,6 +332,9 @@ void Node::announce_faults(std::uint32_t status, std::uint16_t node_status) {
 void Node::announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
                             std::uint32_t* inhibited) {
   const std::uint32_t changed = (bits ^ *announced) & ~*inhibited;
+  if (changed == 0) {
+    return;
+  }
   for (std::uint16_t i = 0; i < 16; ++i) {
     const std::uint32_t bit = 1U << i;
     if ((changed & bit) != 0) {

@@ -140,7 +140,7 @@ class Node {
   bool has_identity_ = false;
 
   LinkState link_;
-  LinkState link_before_;
+  std::uint32_t losses_before_ = 0;
   bool reset_requested_ = false;
   std::uint16_t sticky_ = 0;  ///< faults that last until reset
   std::uint16_t node_latched_ = 0;

@@ -1,5 +1,5 @@
-/// Prints how many instructions the parts of a tick take, over ordinary and hostile inputs: a line
-/// for each part, `name median worst`.
+/// Counts the instructions of a tick and of its parts on the target; prints a line for each:
+/// `name ordinary worst`, the median over ordinary machining and the most over hostile inputs.
 #include <algorithm>
 #include <cstdio>
 #include <random>
@@ -14,114 +14,287 @@ using flexcomp::test::NodeOnABus;
 
 namespace {
 
-void print(const char* name, std::vector<std::uint32_t> counts) {
-  std::sort(counts.begin(), counts.end());
-  std::printf("%s %lu %lu\n", name, static_cast<unsigned long>(counts[counts.size() / 2]),
-              static_cast<unsigned long>(counts.back()));
+constexpr int kTicks = 1000;
+constexpr int kHostileTicks = 3000;
+
+class Counts {
+ public:
+  void add_ordinary(std::uint32_t count) {
+    ordinary_.push_back(count);
+    add_hostile(count);
+  }
+  void add_hostile(std::uint32_t count) { worst_ = std::max(worst_, count); }
+
+  void print(const char* name) {
+    std::nth_element(ordinary_.begin(), ordinary_.begin() + kTicks / 2, ordinary_.end());
+    std::printf("%s %lu %lu\n", name, static_cast<unsigned long>(ordinary_[kTicks / 2]),
+                static_cast<unsigned long>(worst_));
+  }
+
+ private:
+  std::vector<std::uint32_t> ordinary_;
+  std::uint32_t worst_ = 0;
+};
+
+/// On the straight pieces that a table of `loop_angles` is made for.
+JointVector<float, 6> on_program(double share) {
+  constexpr int kPieces = 120;
+  const double place = kPieces * share;
+  const double piece = std::floor(place);
+  const auto a = test::loop_angles<float>(kTurn * piece / kPieces);
+  const auto b = test::loop_angles<float>(kTurn * (piece + 1) / kPieces);
+  return a + static_cast<float>(place - piece) * (b - a);
 }
 
-Wrench<float> some_wrench() {
-  Wrench<float> w;
-  w << 440, 1370, 635, 0, 3, 10.5F;
-  return w;
+Wrench<float> ordinary_wrench() {
+  Wrench<float> wrench;
+  wrench << 440, 1370, 635, 0, 3, 10.5F;
+  return wrench;
 }
 
-void core_parts(const InstructionCounter& counter) {
+std::vector<std::uint32_t> grid_table() {
+  std::vector<std::uint32_t> words(1 << 18);
+  std::size_t size = 0;
+  const GridRange<float> ranges[4] = {{-1.3F, -1.1F}, {1.2F, 1.4F}, {0.15F, 0.45F}, {0.7F, 0.9F}};
+  TEST_ASSERT_EQUAL(Result::ok, (build_grid_table<float, 6>(
+                                    test::kr270<float>(), ranges, {2000, 50, 1e-3F, 1e-3F, 0},
+                                    words.data(), 4 * words.size(), &size)));
+  words.resize(size / 4);
+  return words;
+}
+
+void count_table(const InstructionCounter& counter, const char* name,
+                 const std::vector<std::uint32_t>& words) {
   Table table;
-  const auto& words = test::usual_table();
-  Table::open(words.data(), 4 * words.size(), &table);
-  TableCursor cursor;
-  std::vector<std::uint32_t> look, response, both;
-  for (int i = 0; i < 3000; ++i) {
-    const auto q = test::loop_angles<float>(kTurn * i / 3000);
-    TableEntry<float, 6> entry;
-    TableCursor copy = cursor;
-    look.push_back(counter.count([&] { entry = look_up<float, 6>(table, q, &cursor); }));
-    TableResponse<float, 6> out;
-    const auto w = some_wrench();
-    response.push_back(counter.count([&] { out = respond<float, 6>(table, entry, w); }));
-    both.push_back(counter.count(
-        [&] { out = respond<float, 6>(table, look_up<float, 6>(table, q, &copy), w); }));
-  }
-  print("lookup", look);
-  print("respond", response);
-  print("lookup+respond", both);
-  Guard<float> guard;
-  guard.configure({0.01F, 0.1F, 5.0F}, 0.004F);
-  std::vector<std::uint32_t> guards;
+  TEST_ASSERT_EQUAL(Result::ok, Table::open(words.data(), 4 * words.size(), &table));
+  const Wrench<float> wrench = ordinary_wrench();
   std::mt19937 random(1);
-  std::uniform_real_distribution<float> u(-0.02F, 0.02F);
-  for (int i = 0; i < 3000; ++i) {
-    const float target = u(random);
-    guards.push_back(counter.count([&] { guard.advance(target); }));
+  std::uniform_real_distribution<float> off(-0.05F, 0.05F);
+  TableCursor cursor;
+  Counts counts;
+  const auto count = [&](const JointVector<float, 6>& q) {
+    float outside = 0;
+    TableResponse<float, 6> response;
+    return counter.count(
+        [&] { response = look_up_response<float, 6>(table, q, wrench, &cursor, &outside); });
+  };
+  for (int i = 0; i < kTicks; ++i) {
+    counts.add_ordinary(count(on_program(static_cast<double>(i) / kTicks)));
   }
-  print("guard", guards);
+  for (int i = 0; i < kHostileTicks; ++i) {
+    JointVector<float, 6> q = on_program(static_cast<double>(random() % kTicks) / kTicks);
+    if (i % 2 == 0) {
+      q[static_cast<Eigen::Index>(random() % 6)] += off(random);
+    }
+    counts.add_hostile(count(q));
+  }
+  counts.print(name);
 }
 
-void compensator_tick(const InstructionCounter& counter) {
+void count_direct_evaluation(const InstructionCounter& counter) {
+  const RobotModel<float, 6> model = test::kr270<float>();
+  const Wrench<float> wrench = ordinary_wrench();
+  Counts counts;
+  for (int i = 0; i < kTicks; ++i) {
+    const JointVector<float, 6> q = on_program(static_cast<double>(i) / kTicks);
+    Deflection<float, 6> result;
+    counts.add_ordinary(counter.count([&] { result = deflection<float, 6>(model, q, wrench); }));
+  }
+  counts.print("direct_deflection");
+}
+
+void count_limits(const InstructionCounter& counter) {
+  std::array<Guard<float>, 6> guards;
+  for (Guard<float>& guard : guards) {
+    guard.configure({0.01F, 0.1F, 5.0F}, 0.004F);
+  }
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> anywhere(-0.02F, 0.02F);
+  Counts counts;
+  const auto count = [&](float target) {
+    return counter.count([&] {
+      for (Guard<float>& guard : guards) {
+        guard.advance(target);
+      }
+    });
+  };
+  for (int i = 0; i < kTicks; ++i) {
+    counts.add_ordinary(count(0.001F * std::sin(0.01F * static_cast<float>(i))));
+  }
+  for (int i = 0; i < kHostileTicks; ++i) {
+    counts.add_hostile(count(anywhere(random)));
+  }
+  counts.print("limits_six_joints");
+}
+
+void count_compensator(const InstructionCounter& counter, const char* name,
+                       const std::vector<std::uint32_t>& words) {
   Compensator<float, 6> core;
   core.configure(test::usual_config().compensator);
   Table table;
-  const auto& words = test::usual_table();
   Table::open(words.data(), 4 * words.size(), &table);
   core.set_table(table);
-  std::vector<std::uint32_t> ticks;
-  for (int i = 0; i < 3000; ++i) {
-    CompensatorInput<float, 6> in{test::loop_angles<float>(kTurn * i / 3000), 0.001F, some_wrench(),
-                                  0.001F};
-    CompensatorOutput<float, 6> out;
-    const auto n = counter.count([&] { out = core.tick(in); });
-    if (i == 20) core.arm();
-    if (i > 200) ticks.push_back(n);
+  CompensatorInput<float, 6> input{on_program(0), 0.001F, ordinary_wrench(), 0.001F};
+  for (int i = 0; i < 100; ++i) {
+    core.tick(input);
+    core.arm();
   }
-  print("core tick", ticks);
+  TEST_ASSERT_EQUAL(State::active, core.state());
+  Counts counts;
+  const auto count = [&] {
+    CompensatorOutput<float, 6> output;
+    return counter.count([&] { output = core.tick(input); });
+  };
+  for (int i = 0; i < kTicks; ++i) {
+    input.setpoint = on_program(static_cast<double>(i) / kTicks);
+    counts.add_ordinary(count());
+  }
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> share(-1, 1);
+  for (int i = 0; i < kHostileTicks; ++i) {
+    input.setpoint = on_program(static_cast<double>(i % kTicks) / kTicks);
+    input.wrench = ordinary_wrench() * share(random);
+    const auto joint = static_cast<Eigen::Index>(random() % 6);
+    switch (random() % 12) {
+      case 0:
+        input.setpoint[joint] = std::numeric_limits<float>::quiet_NaN();
+        break;
+      case 1:
+        input.setpoint[joint] += 0.02F * share(random);
+        break;
+      case 2:
+        input.wrench[joint] = 1e30F * share(random);
+        break;
+      case 3:
+        input.setpoint_age = 10 * std::abs(share(random));
+        break;
+      default:
+        input.setpoint_age = 0.001F;
+        break;
+    }
+    core.reset();
+    core.arm();
+    counts.add_hostile(count());
+  }
+  counts.print(name);
 }
 
-void node_tick(const InstructionCounter& counter) {
-  NodeOnABus bus;
-  bus.bring_up();
-  CanEncoder encoder;
-  std::vector<std::uint32_t> decode, tick, encode, all;
-  for (int i = 0; i < 3000; ++i) {
-    const FrameList wrench = bus.encode(bus.next_wrench());
-    const FrameList setpoint = bus.encode(bus.next_setpoint());
-    bus.now += 4'000'000;
-    const auto d = counter.count([&] {
-      bus.put(wrench);
-      bus.put(setpoint);
+/// The node with its frames: decode, tick, encode, and the whole.
+class WholeTick {
+ public:
+  explicit WholeTick(const InstructionCounter& counter) : counter_(counter) { bus_.bring_up(); }
+
+  void count_ordinary() {
+    for (int i = 0; i < kTicks; ++i) {
+      const Parts parts = tick();
+      decode_.add_ordinary(parts.decode);
+      tick_.add_ordinary(parts.tick);
+      encode_.add_ordinary(parts.encode);
+      whole_.add_ordinary(parts.decode + parts.tick + parts.encode);
+    }
+  }
+
+  void count_hostile() {
+    for (int i = 0; i < kHostileTicks; ++i) {
+      attack_ = static_cast<int>(random_() % 16);
+      const Parts parts = tick();
+      decode_.add_hostile(parts.decode);
+      tick_.add_hostile(parts.tick);
+      encode_.add_hostile(parts.encode);
+      whole_.add_hostile(parts.decode + parts.tick + parts.encode);
+    }
+  }
+
+  void print() {
+    decode_.print("decode");
+    tick_.print("node_tick");
+    encode_.print("encode");
+    whole_.print("whole_tick");
+  }
+
+ private:
+  struct Parts {
+    std::uint32_t decode;
+    std::uint32_t tick;
+    std::uint32_t encode;
+  };
+
+  Parts tick() {
+    FrameList wrench = bus_.encode(spoilt(bus_.next_wrench()));
+    FrameList setpoint = bus_.encode(spoilt(bus_.next_setpoint()));
+    spoil(&setpoint);
+    spoil(&wrench);
+    bus_.now += 4'000'000;
+    Parts parts{};
+    parts.decode = counter_.count([&] {
+      bus_.put(wrench);
+      bus_.put(setpoint);
     });
     CorrectedMessage corrected;
-    const auto t = counter.count([&] {
-      bus.node.set_link(bus.link.state());
-      corrected = bus.node.tick(bus.now);
+    parts.tick = counter_.count([&] {
+      bus_.node.set_link(bus_.link.state());
+      corrected = bus_.node.tick(bus_.now);
     });
-    FrameList out;
-    const auto e = counter.count([&] { out = encoder.encode(corrected); });
-    Message m;
-    while (bus.node.next_message(&m)) {
-    }
-    decode.push_back(d);
-    tick.push_back(t);
-    encode.push_back(e);
-    all.push_back(d + t + e);
+    parts.encode = counter_.count([&] {
+      encoder_.encode(corrected);
+      Message message;
+      for (int i = 0; i < 4 && bus_.node.next_message(&message); ++i) {
+        encoder_.encode(message);
+      }
+    });
+    return parts;
   }
-  print("decode", decode);
-  print("node tick", tick);
-  print("encode", encode);
-  print("all", all);
-}
+
+  SetpointMessage spoilt(SetpointMessage message) {
+    double* q = &message.q[random_() % 6];
+    *q = attack_ == 1 ? std::numeric_limits<double>::quiet_NaN() : *q + (attack_ == 2 ? 0.03 : 0);
+    return message;
+  }
+
+  WrenchMessage spoilt(WrenchMessage message) {
+    message.saturated = attack_ == 3;
+    message.wrench[random_() % 6] *= attack_ == 4 ? 3 : 1;
+    return message;
+  }
+
+  void spoil(FrameList* list) {
+    CanFrame& frame = list->frames[random_() % list->count];
+    if (attack_ == 5) {
+      frame.data[3] ^= 0x10U;
+    } else if (attack_ == 6) {
+      list->count = 1;
+    } else if (attack_ == 7) {
+      frame = bus_.encode(CommandMessage{Command::reset}).frames[0];
+    } else if (attack_ == 8) {
+      frame = bus_.encode(CommandMessage{Command::arm}).frames[0];
+    }
+  }
+
+  const InstructionCounter& counter_;
+  NodeOnABus bus_;
+  CanEncoder encoder_;
+  std::mt19937 random_{3};
+  int attack_ = 0;
+  Counts decode_;
+  Counts tick_;
+  Counts encode_;
+  Counts whole_;
+};
 
 }  // namespace
 
 int main() {
   const InstructionCounter counter;
-  std::vector<std::uint32_t> nothing;
-  for (int i = 0; i < 100; ++i) {
-    nothing.push_back(counter.count([] {}));
-  }
-  print("nothing", nothing);
-  core_parts(counter);
-  compensator_tick(counter);
-  node_tick(counter);
+  const std::vector<std::uint32_t> grid = grid_table();
+  count_table(counter, "path_lookup_and_deflection", test::usual_table());
+  count_table(counter, "grid_lookup_and_deflection", grid);
+  count_direct_evaluation(counter);
+  count_limits(counter);
+  count_compensator(counter, "compensator_path_table", test::usual_table());
+  count_compensator(counter, "compensator_grid_table", grid);
+  WholeTick whole(counter);
+  whole.count_ordinary();
+  whole.count_hostile();
+  whole.print();
   return 0;
 }
