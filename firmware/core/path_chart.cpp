@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "instantiate.hpp"
 
@@ -17,6 +18,7 @@ Scalar past_plane(const float* angles, const float* normal, const JointVector<Sc
   return sum;
 }
 
+/// Largest distance of a joint from the chord; where huge numbers leave none, infinitely far.
 template <typename Scalar, int Joints>
 Scalar off_chord(const float* from, const float* to, Scalar t,
                  const JointVector<Scalar, Joints>& q) {
@@ -26,6 +28,7 @@ Scalar off_chord(const float* from, const float* to, Scalar t,
     const auto b = static_cast<Scalar>(to[i]);
     const Scalar off = std::abs(q[i] - (a + t * (b - a)));
     largest = off > largest ? off : largest;
+    largest = std::isnan(off) ? std::numeric_limits<Scalar>::infinity() : largest;
   }
   return largest;
 }

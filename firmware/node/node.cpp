@@ -10,6 +10,7 @@ namespace {
 constexpr double kSecond = 1e9;        // ns
 constexpr double kEarliestTick = 0.5;  // of a period
 constexpr double kLatestTick = 1.5;    // of a period
+constexpr double kMostTicksToHeartbeat = 1e9;
 constexpr std::uint8_t kStatisticNames = 64 + LatencyHistogram::kBins;
 
 std::uint16_t bit_if(bool condition, NodeBit bit) {
@@ -49,10 +50,13 @@ Result Node::configure(const NodeConfig& config) {
   if (core_.state() != State::off && core_.state() != State::latched) {
     return Result::not_ready;
   }
-  const bool numbers_are_usable = config.heartbeat_period > 0 && config.deflection_warning > 0 &&
-                                  config.deflection_error > 0 && config.wrench.force_rate > 0 &&
-                                  config.wrench.moment_rate > 0 && config.wrench.stuck_time >= 0 &&
-                                  config.late_ticks > 0;
+  const double ticks_to_heartbeat =
+      config.heartbeat_period / static_cast<double>(config.compensator.period);
+  const bool numbers_are_usable = config.heartbeat_period > 0 &&
+                                  ticks_to_heartbeat <= kMostTicksToHeartbeat &&
+                                  config.deflection_warning > 0 && config.deflection_error > 0 &&
+                                  config.wrench.force_rate > 0 && config.wrench.moment_rate > 0 &&
+                                  config.wrench.stuck_time >= 0 && config.late_ticks > 0;
   Core core;
   if (!numbers_are_usable || core.configure(config.compensator) != Result::ok) {
     return Result::bad_config;

@@ -75,6 +75,34 @@ void bytes_after_the_end_are_noticed() {
   TEST_ASSERT_EQUAL(Result::table_corrupt, open(words, 4 * words.size()));
 }
 
+/// CRC-32 bit by bit, as IEEE 802.3 words it, of little-endian words.
+std::uint32_t crc32_of(const std::vector<std::uint32_t>& words) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const std::uint32_t word : words) {
+    crc ^= word;
+    for (int bit = 0; bit < 32; ++bit) {
+      crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+    }
+  }
+  return ~crc;
+}
+
+/// A width that is not a number would let a program stray any distance from the path, and such a
+/// largest gain any gain pass.
+void a_number_that_is_not_finite_is_refused_even_with_the_right_checksum() {
+  const std::vector<std::uint32_t> right = small_table();
+  const std::size_t first_number = offsetof(TableHeader, grid_lower) / 4;
+  for (const std::uint32_t wrong : {0x7FC00000U, 0x7F800000U, 0xFF800000U}) {
+    for (std::size_t i = first_number; i < right.size(); ++i) {
+      std::vector<std::uint32_t> words = right;
+      words[i] = wrong;
+      words[3] = 0;
+      words[3] = crc32_of(words);
+      TEST_ASSERT_EQUAL(Result::table_corrupt, open(words, 4 * words.size()));
+    }
+  }
+}
+
 void other_files_and_versions_are_told_apart() {
   std::vector<std::uint32_t> words = small_table();
   words[1] = kTableVersion + 1;
@@ -102,6 +130,7 @@ int main() {
   RUN_TEST(every_wrong_byte_is_noticed);
   RUN_TEST(every_truncation_is_noticed);
   RUN_TEST(bytes_after_the_end_are_noticed);
+  RUN_TEST(a_number_that_is_not_finite_is_refused_even_with_the_right_checksum);
   RUN_TEST(other_files_and_versions_are_told_apart);
   RUN_TEST(a_table_must_be_aligned_and_there);
   return UNITY_END();

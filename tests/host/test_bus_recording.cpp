@@ -132,6 +132,14 @@ void a_damaged_or_truncated_event_log_is_refused_by_its_byte() {
   put(folder / "b.lcmlog", damaged);
   const std::string text = complaint([&] { read_lcm_log(folder / "b.lcmlog"); });
   TEST_ASSERT_TRUE(text.find("byte 0: expected an event") != std::string::npos);
+  for (const char wrong : {'\x7F', '\x80', '\xFF'}) {  // µs that are too many ns, or negative
+    damaged = whole;
+    damaged[12] = wrong;
+    put(folder / "b.lcmlog", damaged);
+    const std::string late = complaint([&] { read_lcm_log(folder / "b.lcmlog"); });
+    TEST_ASSERT_TRUE(late.find("byte 0: the time of the event is out of range") !=
+                     std::string::npos);
+  }
 }
 
 /// A robot that moves, its setpoints as another clock sees them.
