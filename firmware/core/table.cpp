@@ -88,7 +88,7 @@ Result Table::open(const void* data, std::size_t size, Table* table) {
   if (header->size > size) {
     return Result::table_truncated;
   }
-  if (header->size < size || header->size % 4 != 0 || header->size < sizeof(TableHeader) ||
+  if (header->size < size || header->size % 4 != 0 ||
       table_crc(data, header->size) != header->crc || !fields_are_consistent(*header) ||
       !numbers_are_finite(*header)) {
     return Result::table_corrupt;

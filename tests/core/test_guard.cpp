@@ -186,6 +186,7 @@ void limits_that_are_not_positive_finite_or_representable_are_refused() {
   Guard<float> guard;
   TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({0.01F, 1, 1}, 0.0F));
   TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({0.01F, 1, 1}, nan));
+  TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({1, 3e38F, 1}, 10.0F));
 }
 
 }  // namespace

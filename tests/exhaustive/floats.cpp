@@ -169,12 +169,11 @@ class Running {
       program[i] = test::loop_angles<float>(0.05 * static_cast<double>(i));
     }
     std::size_t size = 0;
-    Table table;
     bool ready = build_path_table<float, 6>(test::kr270<float>(), program.data(), program.size(),
                                             {1600, 20, 1e-5F, 1e-5F, 0}, words_.data(),
                                             4 * words_.size(), &size) == Result::ok &&
-                 Table::open(words_.data(), size, &table) == Result::ok &&
-                 core_.configure(config()) == Result::ok && core_.set_table(table) == Result::ok;
+                 Table::open(words_.data(), size, &table_) == Result::ok &&
+                 core_.configure(config()) == Result::ok && core_.set_table(table_) == Result::ok;
     input_.setpoint = test::loop_angles<float>(0.1);
     input_.setpoint_age = 1e-3F;
     input_.wrench << 440, 1370, 635, 0, 3, 10.5F;
@@ -182,11 +181,30 @@ class Running {
     run(20);
     ready = ready && core_.arm() == Result::ok;
     run(1000);
-    header_ = table.header();
+    header_ = table_.header();
     if (!ready || core_.state() != State::active) {
       std::fputs("exhaustive_floats: it does not run\n", stderr);
       std::exit(3);
     }
+  }
+
+  /// From full correction to off, at rest, with a fade of so many periods.
+  int ticks_to_fade_out(float periods) {
+    constexpr int kMost = 2'000'000;
+    Core::Config slow = config();
+    slow.fade_time = periods * kPeriod;
+    bool ready = core_.configure(slow) == Result::ok && core_.set_table(table_) == Result::ok;
+    run(20);
+    ready = ready && core_.arm() == Result::ok;
+    for (int i = 0; ready && i < kMost && last_.state != State::active; ++i) {
+      run(1);
+    }
+    core_.disarm();
+    int ticks = 0;
+    for (; ready && ticks < kMost && last_.state != State::off; ++ticks) {
+      run(1);
+    }
+    return ticks;
   }
 
   /// A tick with `value` at `place` of the input, and a good one after it: what is wrong with the
@@ -294,11 +312,24 @@ class Running {
   }
 
   std::vector<std::uint32_t> words_;
+  Table table_;
   TableHeader header_{};
   Core core_;
   Core::Input input_{};
   Core::Output last_{};
 };
+
+/// The longest fade there may be ends, although its steps are all but lost to rounding near 1.
+void try_the_longest_fade() {
+  const std::string name = "fade.of a million ticks";
+  if (name.compare(0, chosen.size(), chosen) != 0) {
+    return;
+  }
+  const int ticks = Running().ticks_to_fade_out(1e6F);
+  const bool right = ticks > 900'000 && ticks < 1'100'000;
+  std::printf("  %-36s %10d ticks   %s\n", name.c_str(), ticks, right ? "ok" : "WRONG");
+  all_right = all_right && right;
+}
 
 void sweep_tick_inputs() {
   static const char* const kNames[] = {"tick.setpoint 1",   "tick.setpoint 2", "tick.setpoint 3",
@@ -328,5 +359,6 @@ int main(int argc, char** argv) {
   sweep_limiter_targets();
   sweep_limiter_configuration();
   sweep_tick_inputs();
+  try_the_longest_fade();
   return all_right ? 0 : 1;
 }
