@@ -23,6 +23,7 @@ struct Options {
   std::string table;            ///< file to start with, or empty
   std::string state_directory;  ///< where tables from the bus are kept, or empty
   std::string statistics;       ///< file for statistics, or empty
+  std::string user;             ///< to become once all is set up, or empty
   std::uint32_t tolerated_losses = 3;
   std::size_t table_capacity = std::size_t{4} << 20;  ///< bytes a slot
   int priority = 80;                                  ///< SCHED_FIFO; 0: ordinary scheduling
