@@ -165,7 +165,7 @@ class Run {
                                             &config.moment_range,     &config.setpoint_age_limit,
                                             &config.wrench_age_limit, &config.deflection_limit,
                                             &config.chart_margin,     &config.hold_time,
-                                            &config.fade_time,        &config.joint_speed[0],
+                                            &config.fade_time,        config.joint_speed.data(),
                                             &config.joint_speed[5]};
     const std::size_t joint = place / 16 % 6;
     if (place % 16 < scalars.size()) {

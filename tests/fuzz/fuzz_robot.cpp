@@ -23,8 +23,8 @@ const test::ScratchFolder& folder() {
 }  // namespace
 
 /// Where all links of a URDF form a loop, urdfdom refuses them itself, and forgets to free them.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's name
-extern "C" const char* __lsan_default_suppressions() { return "leak:urdf::parseURDF"; }  // NOLINT
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:urdf::parseURDF"; }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -68,12 +69,8 @@ void no_group_of_root_is_left() {
                         return false;
                       }
                       groups.resize(static_cast<std::size_t>(getgroups(64, groups.data())));
-                      for (const gid_t group : groups) {
-                        if (group == 0) {
-                          return false;
-                        }
-                      }
-                      return true;
+                      return std::none_of(groups.begin(), groups.end(),
+                                          [](gid_t group) { return group == 0; });
                     }));
 }
 
