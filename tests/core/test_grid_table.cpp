@@ -154,7 +154,7 @@ void the_orientation_too_is_held_to_its_tolerance() {
                     (build_grid_table<double, 6>(kr270<double>(), small, {1600, 20, 1e-3, 1e-3, 0},
                                                  words.data(), 4 * words.size(), &coarse)));
   TEST_ASSERT_EQUAL(Result::ok,
-                    (build_grid_table<double, 6>(kr270<double>(), small, {1600, 20, 1e-3, 1e-7, 0},
+                    (build_grid_table<double, 6>(kr270<double>(), small, {1600, 20, 1e-3, 1e-6, 0},
                                                  words.data(), 4 * words.size(), &fine)));
   TEST_ASSERT_TRUE(fine > coarse);
 }
