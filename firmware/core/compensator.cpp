@@ -25,12 +25,11 @@ std::uint32_t bit_if(bool condition, StatusBit bit) {
   return condition ? static_cast<std::uint32_t>(bit) : 0U;
 }
 
-/// Periods in a time, rounded up; `valid` turns false where that is more than a counter holds.
+/// Periods in a time, rounded up; `valid` turns false where that is more than `most`.
 template <typename Scalar>
-std::uint32_t periods(Scalar time, Scalar period, bool* valid) {
-  constexpr Scalar kMost = Scalar(1e9);
+std::uint32_t periods(Scalar time, Scalar period, Scalar most, bool* valid) {
   const Scalar count = std::ceil(time / period);
-  *valid = *valid && count >= Scalar(0) && count <= kMost;
+  *valid = *valid && count >= Scalar(0) && count <= most;
   return *valid ? static_cast<std::uint32_t>(count) : 0U;
 }
 
@@ -39,14 +38,18 @@ std::uint32_t periods(Scalar time, Scalar period, bool* valid) {
 template <typename Scalar, int Joints>
 Result Compensator<Scalar, Joints>::configure(const Config& config) {
   constexpr Scalar kTwoPi = Scalar(6.283185307179586);
+  constexpr Scalar kMostHoldTicks = Scalar(1e9);  // what a counter holds
+  // Steps much smaller than this would be lost to the rounding of a float near 1: no fade would
+  // end.
+  constexpr Scalar kMostFadeTicks = Scalar(1e6);
   bool valid = is_positive(config.period) && is_positive(config.gain) && config.gain <= Scalar(1) &&
                std::isfinite(config.filter_cutoff) && config.filter_cutoff >= Scalar(0) &&
                is_positive(config.force_range) && is_positive(config.moment_range) &&
                is_positive(config.setpoint_age_limit) && is_positive(config.wrench_age_limit) &&
                config.joint_speed.allFinite() && config.joint_speed.minCoeff() > Scalar(0) &&
                is_positive(config.deflection_limit) && is_positive(config.chart_margin);
-  const std::uint32_t hold_ticks = periods(config.hold_time, config.period, &valid);
-  const std::uint32_t fade_ticks = periods(config.fade_time, config.period, &valid);
+  const std::uint32_t hold_ticks = periods(config.hold_time, config.period, kMostHoldTicks, &valid);
+  const std::uint32_t fade_ticks = periods(config.fade_time, config.period, kMostFadeTicks, &valid);
   std::array<Guard<Scalar>, Joints> guards;
   for (std::size_t i = 0; i < Joints && valid; ++i) {
     valid = guards[i].configure(config.limits[i], config.period) == Result::ok;

@@ -23,7 +23,9 @@ Result Guard<Scalar>::configure(const CorrectionLimits<Scalar>& limits, Scalar p
   const Scalar unit = limits.value * std::numeric_limits<Scalar>::epsilon();
   const Scalar change = limits.acceleration * period * period;
   const Scalar step = limits.rate * period;
-  if (!(change >= Scalar(128) * unit) || !std::isfinite(change) || !std::isfinite(step) ||
+  // Twice the largest value is a distance to go, and the reserve for rounding must itself be exact.
+  if (!std::isfinite(Scalar(2) * limits.value) || unit < std::numeric_limits<Scalar>::min() ||
+      !(change >= Scalar(128) * unit) || !std::isfinite(change) || !std::isfinite(step) ||
       !(step >= change / Scalar(64))) {
     return Result::bad_config;
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "instantiate.hpp"
 
@@ -51,13 +52,16 @@ class Segment {
     return {along(past_from_, from_ + kPath.normal_out), -along(past_to_, to_ + kPath.normal_in)};
   }
 
+  /// Largest distance of a joint from the chord; where huge numbers leave none, infinitely far.
   Scalar off_chord(Scalar t) const {
     Scalar largest = 0;
+    Scalar sum = 0;  // not a number if one of them is not
     for (Eigen::Index i = 0; i < Joints; ++i) {
       const Scalar off = std::abs(past_from_[i] - t * (past_from_[i] - past_to_[i]));
       largest = off > largest ? off : largest;
+      sum += off;
     }
-    return largest;
+    return std::isnan(sum) ? std::numeric_limits<Scalar>::infinity() : largest;
   }
 
  private:

@@ -1,5 +1,7 @@
 #include "flexcomp/table.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "crc32.hpp"
@@ -55,6 +57,15 @@ bool fields_are_consistent(const TableHeader& header) {
   return nodes == header.node_count;
 }
 
+/// Is every number behind the header's integers finite?
+bool numbers_are_finite(const TableHeader& header) {
+  constexpr std::size_t kIntegers = offsetof(TableHeader, grid_lower);
+  const auto* numbers =
+      reinterpret_cast<const float*>(reinterpret_cast<const unsigned char*>(&header) + kIntegers);
+  const std::size_t count = (header.size - kIntegers) / sizeof(float);
+  return std::all_of(numbers, numbers + count, [](float number) { return std::isfinite(number); });
+}
+
 }  // namespace
 
 Result Table::open(const void* data, std::size_t size, Table* table) {
@@ -77,8 +88,9 @@ Result Table::open(const void* data, std::size_t size, Table* table) {
   if (header->size > size) {
     return Result::table_truncated;
   }
-  if (header->size < size || header->size % 4 != 0 || header->size < sizeof(TableHeader) ||
-      table_crc(data, header->size) != header->crc || !fields_are_consistent(*header)) {
+  if (header->size < size || header->size % 4 != 0 ||
+      table_crc(data, header->size) != header->crc || !fields_are_consistent(*header) ||
+      !numbers_are_finite(*header)) {
     return Result::table_corrupt;
   }
   table->header_ = header;

@@ -1,5 +1,6 @@
 #include "table_writer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,13 @@ float rounded_up(Scalar value) {
              : nearest;
 }
 
+/// A limit that no float can hold is none, and a table holds finite numbers only.
+template <typename Scalar>
+float nearest_finite(Scalar value) {
+  constexpr auto kMost = static_cast<Scalar>(std::numeric_limits<float>::max());
+  return static_cast<float>(std::clamp(value, -kMost, kMost));
+}
+
 }  // namespace
 
 template <typename Scalar, int Joints>
@@ -43,8 +51,8 @@ TableWriter::TableWriter(const RobotModel<Scalar, Joints>& model,
   header_->joints = Joints;
   header_->record_size = layout_.size;
   for (std::size_t i = 0; i < Joints; ++i) {
-    header_->joint_lower[i] = static_cast<float>(model.joints[i].lower);
-    header_->joint_upper[i] = static_cast<float>(model.joints[i].upper);
+    header_->joint_lower[i] = nearest_finite(model.joints[i].lower);
+    header_->joint_upper[i] = nearest_finite(model.joints[i].upper);
     header_->compliance[i] = static_cast<float>(model.joints[i].compliance);
     header_->cubic_compliance[i] = static_cast<float>(model.joints[i].cubic_compliance);
   }

@@ -8,6 +8,7 @@
 #include "linux/real_time_loop.hpp"
 #include "linux/real_time_thread.hpp"
 #include "linux/service.hpp"
+#include "linux/unprivileged_user.hpp"
 #include "linux/whole_file.hpp"
 
 namespace flexcomp {
@@ -81,6 +82,10 @@ int write_settings(const Options& options) {
 
 int serve(const Options& options, std::function<std::optional<Options>()> reread) {
   Service::block_signals();
+  std::optional<UnprivilegedUser> user;
+  if (!options.user.empty()) {
+    user.emplace(options.user);
+  }
   auto node = std::make_unique<Node>();
   Slots slots(options.table_capacity);
   node->use_memory({slots.first.data(), slots.first.size()},
@@ -95,8 +100,15 @@ int serve(const Options& options, std::function<std::optional<Options>()> reread
   load_table(options, &slots, node.get());
   RealTimeLoop loop(options, node.get(), &can, to_real_time.get(), from_real_time.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
+  int exit_code = kDone;
+  if (user && !user->become()) {
+    std::fprintf(stderr, "flexcompd: the system does not let it become '%s'\n",
+                 options.user.c_str());
+    to_real_time->send(Stop{});
+    exit_code = kInternalFault;
+  }
   service.run();
-  return kDone;
+  return exit_code;
 }
 
 }  // namespace

@@ -116,6 +116,8 @@ void add_plausibility(CLI::App* app, Options* options, Typed* typed) {
 void add_process(CLI::App* app, Options* options) {
   app->add_option("--priority", options->priority, "SCHED_FIFO priority; 0: ordinary scheduling")
       ->check(CLI::Range(0, 99));
+  app->add_option("--user", options->user,
+                  "started as root: become this user once sockets, memory and priority are set up");
   app->add_option("--statistics", options->statistics,
                   "file for the statistics, written at the end and on SIGUSR1");
   app->add_option("--settings-out", options->settings_out,

@@ -16,6 +16,7 @@ struct Options {
   std::string state_directory;  ///< where tables from the bus are kept, or empty
   std::string statistics;       ///< file for statistics, or empty
   std::string settings_out;     ///< file to write the settings to, for a microcontroller, or empty
+  std::string user;             ///< to become once all is set up, or empty
   std::size_t table_capacity = std::size_t{4} << 20;  ///< bytes a slot
   int priority = 80;                                  ///< SCHED_FIFO; 0: ordinary scheduling
   NodeSettings settings;

@@ -42,8 +42,10 @@ std::uint32_t losses_in(const StreamCounters& stream) {
 
 /// Those beside the compensator's. A heartbeat's period is counted in ticks.
 bool own_numbers_are_usable(const NodeConfig& config) {
-  constexpr double kLongestHeartbeat = 3600;
-  return config.heartbeat_period > 0 && config.heartbeat_period <= kLongestHeartbeat &&
+  constexpr double kMostTicksToHeartbeat = 1e9;
+  const double ticks_to_heartbeat =
+      config.heartbeat_period / static_cast<double>(config.compensator.period);
+  return config.heartbeat_period > 0 && ticks_to_heartbeat <= kMostTicksToHeartbeat &&
          config.deflection_warning > 0 && config.deflection_error > 0 &&
          config.wrench.force_rate > 0 && config.wrench.moment_rate > 0 &&
          config.wrench.stuck_time >= 0 && config.late_ticks > 0;

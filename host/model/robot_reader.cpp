@@ -42,9 +42,10 @@ void read_joint(const YamlMap& yaml, Joint<double>* spring, JointDynamics* dynam
 }
 
 void read_joints(const YamlMap& yaml, Robot* robot) {
-  yaml.allow_only({robot->joint_names.begin(), robot->joint_names.end()},
-                  fmt::format("no revolute joint between '{}' and '{}' has this name",
-                              robot->base_link, robot->tool_link));
+  yaml.allow_only(
+      {robot->joint_names.begin(), robot->joint_names.end()},
+      fmt::format("no revolute joint between '{}' and '{}' has this name",
+                  files::one_line(robot->base_link), files::one_line(robot->tool_link)));
   for (std::size_t i = 0; i < robot->joint_names.size(); ++i) {
     read_joint(yaml.map(robot->joint_names[i]), &robot->elastic.joints[i], &robot->dynamics[i]);
   }

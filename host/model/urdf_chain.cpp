@@ -109,16 +109,17 @@ class ChainReader {
       link = link->getParent();
     }
     if (!link) {
-      fail(fmt::format("link '{}' does not lie beyond link '{}'", robot_.tool_link,
-                       robot_.base_link));
+      fail(fmt::format("link '{}' does not lie beyond link '{}'", files::one_line(robot_.tool_link),
+                       files::one_line(robot_.base_link)));
     }
     std::reverse(joints.begin(), joints.end());
     return joints;
   }
 
   void refuse_unless_six_revolute(const std::vector<urdf::JointConstSharedPtr>& joints) const {
-    const std::string expected = fmt::format("expected six revolute joints between '{}' and '{}'",
-                                             robot_.base_link, robot_.tool_link);
+    const std::string expected =
+        fmt::format("expected six revolute joints between '{}' and '{}'",
+                    files::one_line(robot_.base_link), files::one_line(robot_.tool_link));
     std::size_t revolute = 0;
     for (const urdf::JointConstSharedPtr& joint : joints) {
       if (joint->type == urdf::Joint::FIXED) {

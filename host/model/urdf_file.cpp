@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "error.hpp"
 #include "files/one_line.hpp"
@@ -63,6 +65,34 @@ void refuse_malformed_xml(const std::filesystem::path& file, const std::string& 
   }
 }
 
+/// urdfdom takes for granted that links form a tree: who walks one with a loop never arrives, and
+/// the memory of a loop is never freed.
+void refuse_what_is_no_tree(const std::filesystem::path& file, const urdf::ModelInterface& model) {
+  std::string why;
+  std::set<std::string> children;
+  for (const auto& [name, joint] : model.joints_) {
+    if (!children.insert(joint->child_link_name).second) {
+      why = fmt::format("link '{}' is the child of two joints", joint->child_link_name);
+    }
+  }
+  // Each link has at most one joint above it now, so that this ends.
+  std::vector<urdf::LinkConstSharedPtr> open = {model.getRoot()};
+  std::size_t reached = 0;
+  while (why.empty() && !open.empty()) {
+    const urdf::LinkConstSharedPtr link = open.back();
+    open.pop_back();
+    open.insert(open.end(), link->child_links.begin(), link->child_links.end());
+    ++reached;
+  }
+  if (why.empty() && reached == model.links_.size()) {
+    return;
+  }
+  for (const auto& [name, link] : model.links_) {
+    link->child_links.clear();
+  }
+  fail(file, why.empty() ? "its links form a loop" : why);
+}
+
 }  // namespace
 
 urdf::ModelInterfaceSharedPtr read_urdf(const std::filesystem::path& file) {
@@ -79,6 +109,7 @@ urdf::ModelInterfaceSharedPtr read_urdf(const std::filesystem::path& file) {
   if (!tree) {
     fail(file, messages.errors());
   }
+  refuse_what_is_no_tree(file, *tree);
   return tree;
 }
 

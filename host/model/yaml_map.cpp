@@ -52,9 +52,10 @@ std::string expectation(const std::string& found, const std::vector<std::string>
   }
   const auto [distance, nearest] = *by_distance.begin();
   if (by_distance.count(distance) == 1 && 2 * distance <= nearest.size()) {
-    return fmt::format("did you mean '{}'?", nearest);
+    return fmt::format("did you mean '{}'?", files::one_line(nearest));
   }
-  return fmt::format("expected one of: {}", fmt::join(keys, ", "));
+  return fmt::format("expected one of: {}",
+                     files::one_line(fmt::format("{}", fmt::join(keys, ", ")), 300));
 }
 
 }  // namespace

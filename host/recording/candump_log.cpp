@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "error.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::size_t kStandardDigits = 3;
 constexpr std::size_t kExtendedDigits = 8;
+/// Each has a decoder of its own, of some KB: a log of millions would take all memory.
+constexpr std::size_t kMostInterfaces = 64;
 
 /// A whole text as an unsigned number.
 template <typename Number>
@@ -111,6 +114,7 @@ Line parse_line(std::string_view line, LoggedFrame* logged) {
 std::vector<LoggedFrame> read_candump_log(const std::filesystem::path& path) {
   const std::string text = files::read_text(path);
   std::vector<LoggedFrame> frames;
+  std::set<std::string> interfaces;
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -129,6 +133,11 @@ std::vector<LoggedFrame> read_candump_log(const std::filesystem::path& path) {
                       path.string(), number, files::one_line(line)));
     }
     if (kind == Line::frame) {
+      interfaces.insert(logged.interface);
+      if (interfaces.size() > kMostInterfaces) {
+        throw InputError(fmt::format("{}:{}: expected at most {} interfaces", path.string(), number,
+                                     kMostInterfaces));
+      }
       frames.push_back(std::move(logged));
     }
   }

@@ -18,7 +18,7 @@ struct LoggedFrame {
 /// Reads a log of candump -L (or -l): "(seconds) interface id#data", "id##flags data" for FD.
 /// Remote and error frames and 29-bit identifiers, which flexcomp does not use, are left out.
 ///
-/// Throws InputError with file and line for anything else.
+/// Throws InputError with file and line for anything else, and for more than 64 interfaces.
 std::vector<LoggedFrame> read_candump_log(const std::filesystem::path& path);
 
 /// Writes such a log, whole or not at all. Throws InputError where the file cannot be written.

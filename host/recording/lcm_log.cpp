@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <string_view>
 
 #include "error.hpp"
@@ -13,6 +14,7 @@ namespace {
 constexpr std::uint32_t kSync = 0xEDA1DA01;
 constexpr std::size_t kHeaderBytes = 28;  // sync, number (8), time (8), two lengths
 constexpr std::size_t kLargestFile = std::size_t{4} << 30;
+constexpr std::uint64_t kLatestTime = std::numeric_limits<std::int64_t>::max() / 1000;  // µs
 
 /// A big-endian number of `bytes` bytes.
 std::uint64_t big_endian(std::string_view bytes) {
@@ -51,8 +53,12 @@ std::vector<LoggedEvent> read_lcm_log(const std::filesystem::path& path) {
     if (channel_size + data_size > rest.size() - kHeaderBytes) {
       fail("the log ends within an event");
     }
+    const std::uint64_t time = big_endian(rest.substr(12, 8));
+    if (time > kLatestTime) {
+      fail("the time of the event is out of range");
+    }
     LoggedEvent event;
-    event.time = 1000 * static_cast<std::int64_t>(big_endian(rest.substr(12, 8)));
+    event.time = 1000 * static_cast<std::int64_t>(time);
     event.channel = rest.substr(kHeaderBytes, channel_size);
     const std::string_view data = rest.substr(kHeaderBytes + channel_size, data_size);
     event.data.assign(data.begin(), data.end());

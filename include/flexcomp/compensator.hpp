@@ -58,10 +58,10 @@ struct CompensatorConfig {
   JointVector<Scalar, Joints> joint_speed =  ///< rad/s, largest plausible
       JointVector<Scalar, Joints>::Zero();
   std::array<CorrectionLimits<Scalar>, Joints> limits{};
-  Scalar deflection_limit = 0;     ///< m, largest correction at the TCP
-  Scalar chart_margin = 0;         ///< rad, outside the chart, over which the correction fades
-  Scalar hold_time = 0;            ///< s, a fault may last before fading out
-  Scalar fade_time = 0;            ///< s, from nothing to full correction and back
+  Scalar deflection_limit = 0;  ///< m, largest correction at the TCP
+  Scalar chart_margin = 0;      ///< rad, outside the chart, over which the correction fades
+  Scalar hold_time = 0;         ///< s, a fault may last before fading out
+  Scalar fade_time = 0;  ///< s, from nothing to full correction and back; at most 1e6 periods
   std::uint32_t ready_ticks = 10;  ///< good inputs in a row before it may be armed
 };
 

@@ -35,7 +35,7 @@ typedef enum flexcomp_result {
   FLEXCOMP_TABLE_TRUNCATED = 9,      ///< fewer bytes than the table says it has
   FLEXCOMP_TABLE_NOT_A_TABLE = 10,   ///< another magic number
   FLEXCOMP_TABLE_VERSION = 11,       ///< another version of the format
-  FLEXCOMP_TABLE_CORRUPT = 12,       ///< the CRC-32 or a field contradicts the content
+  FLEXCOMP_TABLE_CORRUPT = 12,       ///< CRC-32 or a field contradicts the content; NaN, infinity
   FLEXCOMP_TABLE_OTHER_MODEL = 13,   ///< made for another robot, tool or payload
   FLEXCOMP_GAIN_TOO_HIGH = 14,       ///< above the largest safe gain in the table
   FLEXCOMP_NOT_READY = 15,           ///< too few good inputs in a row, or the wrong state
@@ -177,7 +177,7 @@ typedef struct flexcomp_table_info {
 } flexcomp_table_info_t;
 
 /// Checks a table in place (flash) and opens it. FLEXCOMP_OK, or BAD_ARGUMENT, TABLE_MISALIGNED,
-/// TABLE_TRUNCATED, TABLE_NOT_A_TABLE, TABLE_VERSION, TABLE_CORRUPT. Cost: one pass over the bytes.
+/// TABLE_TRUNCATED, TABLE_NOT_A_TABLE, TABLE_VERSION, TABLE_CORRUPT. Cost: two passes over the bytes.
 flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table);
 
 /// FLEXCOMP_OK, BAD_ARGUMENT or NO_TABLE (not opened).
@@ -204,7 +204,7 @@ typedef struct flexcomp_config {
   float deflection_limit;  ///< m, largest correction at the TCP
   float chart_margin;      ///< rad, outside the chart, over which the correction fades
   float hold_time;         ///< s, a fault may last before fading out
-  float fade_time;         ///< s, from nothing to full correction and back
+  float fade_time;         ///< s, from nothing to full correction and back; at most 1e6 periods
   uint32_t ready_ticks;    ///< good inputs in a row before it may be armed
 } flexcomp_config_t;
 

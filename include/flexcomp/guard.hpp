@@ -25,9 +25,10 @@ struct CorrectionLimits {
 template <typename Scalar>
 class Guard {
  public:
-  /// Returns bad_config unless all numbers are finite and positive and the acceleration is large
-  /// enough for the precision of Scalar: acceleration * period² ≥ 128 units in the last place of
-  /// `limits.value`, and rate * period ≥ 1/64 of it.
+  /// Returns bad_config unless all numbers are finite and positive, twice `limits.value` is finite
+  /// and its unit in the last place no denormal number, and the acceleration is large enough for
+  /// the precision of Scalar: acceleration * period² ≥ 128 such units, and rate * period ≥ 1/64 of
+  /// it.
   Result configure(const CorrectionLimits<Scalar>& limits, Scalar period);
 
   /// One period further. A target that is not finite counts as the present value. Constant time.

@@ -18,9 +18,9 @@ enum class Result : std::uint8_t {
   table_truncated = 9,      ///< fewer bytes than the table says it has
   table_not_a_table = 10,   ///< the magic number is another
   table_version = 11,       ///< made for another version of the format
-  table_corrupt = 12,       ///< the CRC-32 or a field contradicts the content
-  table_other_model = 13,   ///< made for another robot, tool or payload
-  gain_too_high = 14,       ///< above the largest safe gain in the table
+  table_corrupt = 12,  ///< the CRC-32 or a field contradicts the content, or a number is not finite
+  table_other_model = 13,  ///< made for another robot, tool or payload
+  gain_too_high = 14,      ///< above the largest safe gain in the table
   not_ready = 15,  ///< too few good inputs in a row to arm, or not in the state for the call
   no_table = 16,   ///< there is no table yet
 };

@@ -62,7 +62,8 @@ class Table {
   Table() = default;
 
   /// Checks everything: alignment (4 bytes), magic number, version, size, CRC-32, consistent
-  /// fields. Cost: one pass over the bytes. Call it before use, not in the control tick.
+  /// fields, finite numbers. Cost: two passes over the bytes. Call it before use, not in the
+  /// control tick.
   ///
   /// Returns ok, or bad_argument, table_misaligned, table_truncated, table_not_a_table,
   /// table_version, table_corrupt; `table` is untouched unless ok.

@@ -164,13 +164,18 @@ static void null_pointers_are_refused(void) {
   TEST_ASSERT_TRUE(flexcomp_model_hash(NULL) == 0);
   TEST_ASSERT_EQUAL(bad, flexcomp_model_evaluate(NULL, six, NULL, NULL));
   TEST_ASSERT_EQUAL(bad, flexcomp_model_evaluate(&model, NULL, NULL, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_respond(NULL, six, six, NULL, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_respond(&model, NULL, six, NULL, NULL));
   TEST_ASSERT_EQUAL(bad, flexcomp_model_respond(&model, six, NULL, NULL, NULL));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(NULL, six, 1, &wanted, memory, 100, &size));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, NULL, 2, &wanted, memory, 100, &size));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, six, 1, NULL, memory, 100, &size));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, six, 1, &wanted, NULL, 100, &size));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_build_path(&model, six, 1, &wanted, memory, 100, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_grid(NULL, six, six, &wanted, memory, 100, &size));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_build_grid(&model, NULL, six, &wanted, memory, 100, &size));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_grid(&model, six, NULL, &wanted, memory, 100, &size));
+  TEST_ASSERT_EQUAL(bad, flexcomp_table_build_grid(&model, six, six, NULL, memory, 100, &size));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_open(NULL, 100, &table));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_open(memory, 100, NULL));
   TEST_ASSERT_EQUAL(bad, flexcomp_table_describe(NULL, &info));
@@ -196,6 +201,7 @@ static void numbers_that_are_not_finite_are_refused(void) {
   const float zero[6] = {0};
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_model_evaluate(&model, q, NULL, NULL));
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_model_respond(&model, zero, q, NULL, NULL));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_model_respond(&model, q, zero, NULL, NULL));
   TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_model_validate(&model));
   model.joints[3].compliance = NAN;
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_MODEL, flexcomp_model_validate(&model));

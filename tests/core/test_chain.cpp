@@ -107,6 +107,14 @@ void a_displacement_is_what_pose_difference_measures() {
   }
 }
 
+void a_displacement_without_rotation_only_shifts() {
+  Twist<double> shift = Twist<double>::Zero();
+  shift[1] = 0.25;
+  const Pose<double> shifted = displaced(Pose<double>{}, shift);
+  TEST_ASSERT_TRUE(shifted.rotation.isIdentity(0));
+  TEST_ASSERT_TRUE(shifted.position == Vector3<double>(0, 0.25, 0));
+}
+
 void tiny_displacements_keep_their_digits() {
   const Pose<double> start;
   Twist<double> twist;
@@ -134,6 +142,7 @@ int main() {
   RUN_TEST(the_jacobian_is_the_derivative_of_the_pose);
   RUN_TEST(float_and_double_agree);
   RUN_TEST(a_displacement_is_what_pose_difference_measures);
+  RUN_TEST(a_displacement_without_rotation_only_shifts);
   RUN_TEST(tiny_displacements_keep_their_digits);
   RUN_TEST(a_rotation_keeps_lengths_and_its_axis);
   return UNITY_END();

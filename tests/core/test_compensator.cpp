@@ -10,6 +10,7 @@
 
 using namespace flexcomp;
 using flexcomp::test::kr270;
+using flexcomp::test::kr270_with_everything;
 using flexcomp::test::loop_angles;
 
 namespace {
@@ -23,6 +24,7 @@ constexpr float kPeriod = 1e-3F;
 constexpr CorrectionLimits<float> kLimits = {0.01F, 0.1F, 5.0F};
 constexpr double kTurn = 6.28318530717958647692;
 constexpr int kRound = 20000;  // ticks for a round of the program
+constexpr std::size_t kHeaderWords = sizeof(TableHeader) / 4;
 
 std::vector<std::uint32_t> build_table(const RobotModel<float, 6>& model, float largest_gain) {
   std::vector<Angles> program;
@@ -174,6 +176,8 @@ constexpr Fault kFaults[] = {
     {"force saturated", kWrenchOutOfRange, [](Core::Input* i) { i->wrench[2] = 5001; }},
     {"force huge", kWrenchOutOfRange, [](Core::Input* i) { i->wrench[1] = 3e38F; }},
     {"moment saturated", kWrenchOutOfRange, [](Core::Input* i) { i->wrench[4] = -501; }},
+    {"moments too large together", kWrenchOutOfRange,
+     [](Core::Input* i) { i->wrench.tail<3>().setConstant(300); }},
     {"off the program", kOutsideChart, [](Core::Input* i) { i->setpoint[5] += 0.05F; }},
     {"caller's fault", kExternalFault, [](Core::Input* i) { i->external_fault = true; }},
 };
@@ -350,23 +354,84 @@ std::uint32_t crc32_of(const std::vector<std::uint32_t>& words) {
   return ~crc;
 }
 
+void set_crc(std::vector<std::uint32_t>* words) {
+  (*words)[3] = 0;
+  (*words)[3] = crc32_of(*words);
+}
+
 /// A table whose CRC is right but whose content is not: numbers so large that their products
 /// overflow.
 void numbers_that_cannot_be_computed_are_a_fault() {
   Running running;
   std::vector<std::uint32_t> words = table_words();
-  const std::size_t record = sizeof(TableHeader) / 4;
   const float huge = 3e38F;
-  for (std::size_t i = record + 25; i < words.size(); ++i) {
+  for (std::size_t i = kHeaderWords + 25; i < words.size(); ++i) {
     std::memcpy(&words[i], &huge, sizeof huge);
   }
-  words[3] = 0;
-  words[3] = crc32_of(words);
+  set_crc(&words);
   TEST_ASSERT_EQUAL(Result::ok, running.core.set_table(open(words)));
   running.run(10);
   TEST_ASSERT_EQUAL_HEX32(kNotComputable, running.output.status & kNotComputable);
   TEST_ASSERT_TRUE(running.output.state == State::holding);
   TEST_ASSERT_TRUE(running.output.setpoint.allFinite());
+}
+
+/// The same where the deflection can be computed and only the correction cannot.
+void a_correction_that_cannot_be_computed_is_a_fault() {
+  std::vector<std::uint32_t> words = build_table(kr270_with_everything<float>(), 0);
+  constexpr std::size_t kStructureMotion = 25 + 36 + 6 + 21;  // in a record
+  const std::size_t record = open(words).header().record_size;
+  const float huge = 3e38F;
+  for (std::size_t at = kHeaderWords + kStructureMotion; at < words.size(); at += record) {
+    for (std::size_t i = 0; i < 36; ++i) {
+      std::memcpy(&words[at + i], &huge, sizeof huge);
+    }
+  }
+  set_crc(&words);
+  Core::Config config = good_config();
+  config.model_hash = model_hash(kr270_with_everything<float>());
+  Core core;
+  TEST_ASSERT_EQUAL(Result::ok, core.configure(config));
+  TEST_ASSERT_EQUAL(Result::ok, core.set_table(open(words)));
+  for (int i = 0; i < 20; ++i) {
+    core.tick(input_at(i));
+  }
+  TEST_ASSERT_EQUAL(Result::ok, core.arm());
+  const Core::Output output = core.tick(input_at(20));
+  TEST_ASSERT_EQUAL_HEX32(kNotComputable, output.status & kNotComputable);
+  TEST_ASSERT_TRUE(output.correction.isZero(0) && output.deflection.isZero(0));
+}
+
+void without_a_fade_it_corrects_at_once_as_fast_as_the_limits_allow() {
+  Core::Config config = good_config();
+  config.fade_time = 0;
+  Core core;
+  TEST_ASSERT_EQUAL(Result::ok, core.configure(config));
+  TEST_ASSERT_EQUAL(Result::ok, core.set_table(open(table_words())));
+  for (int i = 0; i < 20; ++i) {
+    core.tick(input_at(i));
+  }
+  TEST_ASSERT_EQUAL(Result::ok, core.arm());
+  const Core::Output output = core.tick(input_at(20));
+  TEST_ASSERT_TRUE(output.state == State::active);
+  TEST_ASSERT_EQUAL_HEX32(kRateLimited, output.status & kRateLimited);
+}
+
+/// Where joint angles of opposite ends of the range make a chord of no length that has a number,
+/// nothing lies on it.
+void a_place_that_cannot_be_computed_is_outside_the_table() {
+  Running running;
+  std::vector<std::uint32_t> words = table_words();
+  const std::size_t record = open(words).header().record_size;
+  float angle = 3e38F;
+  for (std::size_t at = kHeaderWords; at < words.size(); at += record, angle = -angle) {
+    std::memcpy(&words[at], &angle, sizeof angle);
+  }
+  set_crc(&words);
+  TEST_ASSERT_EQUAL(Result::ok, running.core.set_table(open(words)));
+  running.run(10);
+  TEST_ASSERT_EQUAL_HEX32(kOutsideChart, running.output.status & (kOutsideChart | kNotComputable));
+  TEST_ASSERT_TRUE(running.output.state == State::holding);
 }
 
 void configurations_that_make_no_sense_are_refused() {
@@ -391,6 +456,8 @@ void configurations_that_make_no_sense_are_refused() {
       [](Core::Config* c) { c->hold_time = -1; },
       [](Core::Config* c) { c->fade_time = kNan; },
       [](Core::Config* c) { c->fade_time = 1e30F; },
+      // Steps of 1e-7 are lost near 1: the fade would never end.
+      [](Core::Config* c) { c->fade_time = 1e7F * kPeriod; },
   };
   for (const Change change : changes) {
     Core::Config config = good_config();
@@ -575,6 +642,9 @@ int main() {
   RUN_TEST(the_correction_at_the_tcp_is_limited);
   RUN_TEST(a_joint_at_its_largest_correction_says_so);
   RUN_TEST(numbers_that_cannot_be_computed_are_a_fault);
+  RUN_TEST(a_correction_that_cannot_be_computed_is_a_fault);
+  RUN_TEST(without_a_fade_it_corrects_at_once_as_fast_as_the_limits_allow);
+  RUN_TEST(a_place_that_cannot_be_computed_is_outside_the_table);
   RUN_TEST(configurations_that_make_no_sense_are_refused);
   RUN_TEST(a_compensator_without_configuration_stays_off);
   RUN_TEST(no_sequence_of_a_million_ticks_breaks_a_limit);

@@ -118,11 +118,54 @@ void a_joint_that_is_not_in_the_grid_must_stand_where_it_was_fixed() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.1, (look_up<double, 6>(built.table, q, &cursor).outside));
 }
 
+/// A lookup table of joints needs no cursor.
+void a_cursor_is_left_as_it_is() {
+  const Built built(kr270<double>(), kArm, 1e-5);
+  TableCursor cursor{7, 3};
+  const JointVector<double, 6> q = JointVector<double, 6>::Zero();
+  locate<double, 6>(built.table, q, &cursor);
+  TEST_ASSERT_EQUAL(7, cursor.segment);
+  TEST_ASSERT_EQUAL(3, cursor.searched);
+}
+
+void a_fault_of_the_arguments_goes_before_all_else() {
+  std::vector<std::uint32_t> words(100);
+  std::size_t size = 0;
+  TEST_ASSERT_EQUAL(Result::bad_argument,
+                    (build_grid_table<double, 6>(kr270<double>(), kArm, {1600, 20, 1e-5, 1e-5, 0},
+                                                 nullptr, 400, &size)));
+  TEST_ASSERT_EQUAL(Result::tolerance_not_met,
+                    (build_grid_table<double, 6>(kr270<double>(), kArm, {1600, 20, 1e-5, 1e-16, 0},
+                                                 words.data(), 400, &size)));
+  // More cells than a grid may have, whatever the memory.
+  const Ranges wide = {{-1000, 0}, {0, 1000}, {0.25, 0.25}, {0.75, 0.75}};
+  TEST_ASSERT_EQUAL(Result::tolerance_not_met,
+                    (build_grid_table<double, 6>(kr270<double>(), wide, {1600, 20, 1e-6, 1e-6, 0},
+                                                 words.data(), 400, &size)));
+}
+
+/// Where the position alone would do with fewer nodes.
+void the_orientation_too_is_held_to_its_tolerance() {
+  const Ranges small = {{-1.25, -1.15}, {1.25, 1.35}, {0.3, 0.3}, {0.8, 0.8}};
+  std::vector<std::uint32_t> words(1 << 18);
+  std::size_t coarse = 0;
+  std::size_t fine = 0;
+  TEST_ASSERT_EQUAL(Result::ok,
+                    (build_grid_table<double, 6>(kr270<double>(), small, {1600, 20, 1e-3, 1e-3, 0},
+                                                 words.data(), 4 * words.size(), &coarse)));
+  TEST_ASSERT_EQUAL(Result::ok,
+                    (build_grid_table<double, 6>(kr270<double>(), small, {1600, 20, 1e-3, 1e-6, 0},
+                                                 words.data(), 4 * words.size(), &fine)));
+  TEST_ASSERT_TRUE(fine > coarse);
+}
+
 void what_cannot_be_built_is_named() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Ranges none = {{0, 0}, {0, 0}, {0, 0}, {0, 0}};
   const Ranges backwards = {{1, 0}, {0, 1}, {0, 0}, {0, 0}};
   const Ranges unknown = {{0, nan}, {0, 1}, {0, 0}, {0, 0}};
+  const Ranges from_unknown = {{nan, 0}, {0, 1}, {0, 0}, {0, 0}};
+  TEST_ASSERT_EQUAL(Result::bad_argument, Built(kr270<double>(), from_unknown, 1e-5).result);
   TEST_ASSERT_EQUAL(Result::bad_argument, Built(kr270<double>(), none, 1e-5).result);
   TEST_ASSERT_EQUAL(Result::bad_argument, Built(kr270<double>(), backwards, 1e-5).result);
   TEST_ASSERT_EQUAL(Result::bad_argument, Built(kr270<double>(), unknown, 1e-5).result);
@@ -140,6 +183,9 @@ int main() {
   RUN_TEST(models_that_turn_with_joints_1_or_6_are_refused);
   RUN_TEST(outside_the_boxes_the_nearest_edge_counts);
   RUN_TEST(a_joint_that_is_not_in_the_grid_must_stand_where_it_was_fixed);
+  RUN_TEST(a_cursor_is_left_as_it_is);
+  RUN_TEST(a_fault_of_the_arguments_goes_before_all_else);
+  RUN_TEST(the_orientation_too_is_held_to_its_tolerance);
   RUN_TEST(what_cannot_be_built_is_named);
   return UNITY_END();
 }

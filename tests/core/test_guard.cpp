@@ -158,18 +158,35 @@ void it_returns_to_exactly_zero() {
 void limits_that_are_not_positive_finite_or_representable_are_refused() {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  const CorrectionLimits<float> bad[] = {{0, 1, 1},     {1, 0, 1},       {1, 1, 0},    {-1, 1, 1},
-                                         {1, -1, 1},    {1, 1, -1},      {nan, 1, 1},  {1, nan, 1},
-                                         {1, 1, nan},   {inf, 1, 1},     {1, inf, 1},  {1, 1, inf},
-                                         {1, 1, 1e-3F}, {1, 1e-9F, 100}, {1, 1, 3e38F}};
+  const CorrectionLimits<float> bad[] = {{0, 1, 1},
+                                         {1, 0, 1},
+                                         {1, 1, 0},
+                                         {-1, 1, 1},
+                                         {1, -1, 1},
+                                         {1, 1, -1},
+                                         {nan, 1, 1},
+                                         {1, nan, 1},
+                                         {1, 1, nan},
+                                         {inf, 1, 1},
+                                         {1, inf, 1},
+                                         {1, 1, inf},
+                                         {1, 1, 1e-3F},
+                                         {1, 1e-9F, 100},
+                                         {1, 1, 3e38F},
+                                         // The way from one end to the other has no number, and
+                                         // the reserve for rounding none in full precision.
+                                         {3e38F, 3e38F, 1e37F},
+                                         {1e-32F, 1, 1},
+                                         {1e-45F, 1, 1}};
   for (const CorrectionLimits<float>& limits : bad) {
     Guard<float> guard;
     TEST_ASSERT_EQUAL(Result::bad_config,
-                      guard.configure(limits, limits.acceleration > 1e38F ? 10.0F : 1e-3F));
+                      guard.configure(limits, limits.acceleration > 1e36F ? 10.0F : 1e-3F));
   }
   Guard<float> guard;
   TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({0.01F, 1, 1}, 0.0F));
   TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({0.01F, 1, 1}, nan));
+  TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({1, 3e38F, 1}, 10.0F));
 }
 
 }  // namespace

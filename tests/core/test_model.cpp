@@ -27,11 +27,13 @@ void every_impossible_number_makes_a_model_invalid() {
   const Change changes[] = {
       [](Model* m) { m->joints[0].axis.setZero(); },
       [](Model* m) { m->joints[1].axis *= 1.01; },
+      [](Model* m) { m->joints[1].axis.y() = kNan; },
       [](Model* m) { m->joints[2].origin.position.x() = kNan; },
       [](Model* m) { m->joints[3].origin.rotation(0, 0) = 1.1; },
       [](Model* m) { m->joints[3].origin.rotation.row(0) *= -1; },
       [](Model* m) { m->joints[4].lower = m->joints[4].upper; },
       [](Model* m) { m->joints[4].upper = kNan; },
+      [](Model* m) { m->joints[4].lower = kNan; },
       [](Model* m) { m->joints[5].compliance = -1e-9; },
       [](Model* m) { m->joints[5].cubic_compliance = kNan; },
       [](Model* m) { m->joints[0].link_compliance[3] = -1e-9; },
@@ -98,6 +100,16 @@ void springs_and_weights_are_noticed() {
   TEST_ASSERT_FALSE(has_structure_springs(kr270<double>()));
   TEST_ASSERT_FALSE(has_weight(kr270<double>()));
   TEST_ASSERT_TRUE(has_structure_springs(kr270_with_everything<double>()));
+  const Change springs[] = {
+      [](Model* m) { m->base_compliance[4] = 1e-9; },
+      [](Model* m) { m->tool_compliance[0] = 1e-9; },
+      [](Model* m) { m->joints[5].link_compliance[2] = 1e-9; },
+  };
+  for (const Change add : springs) {
+    Model model = kr270<double>();
+    add(&model);
+    TEST_ASSERT_TRUE(has_structure_springs(model));
+  }
   TEST_ASSERT_TRUE(has_weight(kr270_with_everything<double>()));
 }
 

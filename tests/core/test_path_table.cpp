@@ -270,7 +270,22 @@ void what_cannot_be_built_is_named() {
   }
   TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, {-1, 0, 1e-6, 1e-6, 0}, all));
   TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, {0, 0, 1e-6, 1e-6, 0}, all));
-  TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, {10, 0, 1e-6, 1e-6, nan}, all));
+  for (const TableRequirements<double>& bad : {TableRequirements<double>{nan, 0, 1e-6, 1e-6, 0},
+                                               {10, nan, 1e-6, 1e-6, 0},
+                                               {10, -1, 1e-6, 1e-6, 0},
+                                               {10, 0, nan, 1e-6, 0},
+                                               {10, 0, 1e-6, 0, 0},
+                                               {10, 0, 1e-6, 1e-6, nan},
+                                               {10, 0, 1e-6, 1e-6, -1}}) {
+    TEST_ASSERT_EQUAL(Result::bad_argument, build(model, program, bad, all));
+  }
+  TEST_ASSERT_EQUAL(Result::tolerance_not_met, build(model, program, {10, 0, 1e-6, 1e-16, 0}, all));
+  TEST_ASSERT_EQUAL(Result::buffer_too_small,
+                    build(model, program, requirements(1e-6), sizeof(TableHeader) + 4));
+  TEST_ASSERT_EQUAL(Result::bad_path,
+                    (build_path_table<double, 6>(model, nullptr, 2, requirements(1e-6),
+                                                 words.data(), all, &size)));
+  TEST_ASSERT_EQUAL(Result::bad_path, build(model, {program[0]}, requirements(1e-6), all));
   TEST_ASSERT_EQUAL(Result::bad_argument,
                     (build_path_table<double, 6>(model, program.data(), program.size(),
                                                  requirements(1e-6), nullptr, all, &size)));

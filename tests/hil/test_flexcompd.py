@@ -148,6 +148,21 @@ class Life(Process):
             self.assertEqual(0, self.feeder.arm())
             node.stop()
 
+    def test_started_as_root_it_becomes_the_user_and_corrects_as_before(self):
+        if pathlib.Path("/proc/self/uid_map").read_text().split()[2] == "1":
+            self.skipTest("there is but one user in this namespace")
+        with Flexcompd(self.job, "--user", "nobody") as node:
+            for task in pathlib.Path(f"/proc/{node.process.pid}/task").iterdir():
+                status = dict(line.split(":\t") for line in (task / "status").read_text().splitlines())
+                self.assertNotIn("0", status["Uid"].split() + status["Gid"].split() + status["Groups"].split())
+                self.assertEqual(0, int(status["CapPrm"], 16) | int(status["CapEff"], 16))
+                self.assertEqual("1", status["NoNewPrivs"].strip())
+                if status["Name"].strip() == "flexcomp-rt" and "no SCHED_FIFO" not in node.messages():
+                    self.assertEqual(os.SCHED_FIFO, os.sched_getscheduler(int(task.name)))
+            self.assertEqual(0, self.feeder.arm())
+            self.assertEqual(STATES["active"], states(self.feeder.run(0.5))[-1])
+            self.assertEqual(0, node.stop(), node.messages())
+
     def test_stopped_for_a_while_it_counts_the_late_ticks_and_never_jumps(self):
         with Flexcompd(self.job) as node:
             received = self.bring_up()

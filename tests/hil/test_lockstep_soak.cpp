@@ -1,6 +1,10 @@
 // A million lock-step ticks, frames and all, with faults of every kind in random order, commands
 // and table transfers between them: nothing breaks a limit (NodeOnABus holds every tick to them),
 // nothing is leaked or written past (the sanitizers watch in the debug build).
+//
+// Usage: test_hil_lockstep_soak [TICKS [SEED]]; more than the usual million say how far they are.
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <random>
 
@@ -13,7 +17,8 @@ using flexcomp::test::usual_table;
 
 namespace {
 
-constexpr int kTicks = 1'000'000;
+std::int64_t ticks_to_do = 1'000'000;
+unsigned seed_of_havoc = 20261121;
 
 /// Does to frames what a bad wire and bad senders do, changing its mind now and then.
 class Havoc {
@@ -129,18 +134,29 @@ class Havoc {
   int swaps = 0;
 };
 
+/// A line at every hundredth of a long run, for tools/soak.
+void say_how_far(std::int64_t done) {
+  const std::int64_t part = ticks_to_do / 100;
+  if (ticks_to_do > 1'000'000 && done % part == 0) {
+    std::printf("%lld of %lld ticks\n", static_cast<long long>(done),
+                static_cast<long long>(ticks_to_do));
+    std::fflush(stdout);
+  }
+}
+
 void a_million_ticks_of_havoc_break_no_limit() {
   auto bus = std::make_unique<NodeOnABus>();
-  Havoc havoc(20261121);
-  std::array<int, 6> visited{};
-  for (int i = 0; i < kTicks; ++i) {
+  Havoc havoc(seed_of_havoc);
+  std::array<std::int64_t, 6> visited{};
+  for (std::int64_t i = 1; i <= ticks_to_do; ++i) {
+    say_how_far(i);
     havoc.tick(bus.get());
     bus->faults.clear();
     bus->statistics.clear();
     ++visited[static_cast<std::size_t>(bus->node.state())];
   }
-  for (const int ticks : visited) {
-    TEST_ASSERT_GREATER_THAN(1000, ticks);
+  for (const std::int64_t ticks : visited) {
+    TEST_ASSERT_TRUE_MESSAGE(ticks > ticks_to_do / 1000, "the havoc did not reach every state");
   }
   TEST_ASSERT_GREATER_THAN(10, havoc.swaps);
   TEST_ASSERT_TRUE(bus->limits.largest_correction() <= 0.0101);
@@ -148,7 +164,13 @@ void a_million_ticks_of_havoc_break_no_limit() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1) {
+    ticks_to_do = std::max(1'000'000LL, std::atoll(argv[1]));
+  }
+  if (argc > 2) {
+    seed_of_havoc = static_cast<unsigned>(std::atoi(argv[2]));
+  }
   UNITY_BEGIN();
   RUN_TEST(a_million_ticks_of_havoc_break_no_limit);
   return UNITY_END();

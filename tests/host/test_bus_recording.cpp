@@ -118,6 +118,19 @@ void a_line_that_makes_no_sense_is_refused_by_its_number() {
   }
 }
 
+void a_log_of_endless_interfaces_is_refused() {
+  const ScratchFolder folder;
+  std::string log;
+  for (int i = 0; i < 64; ++i) {
+    log += "(1.5) can" + std::to_string(i) + " 100#00\n";
+  }
+  put(folder / "a.log", log);
+  TEST_ASSERT_EQUAL(64, read_candump_log(folder / "a.log").size());
+  put(folder / "a.log", log + "(1.5) vcan0 100#00\n");
+  const std::string text = complaint([&] { read_candump_log(folder / "a.log"); });
+  TEST_ASSERT_TRUE(text.find("a.log:65: expected at most 64 interfaces") != std::string::npos);
+}
+
 void a_damaged_or_truncated_event_log_is_refused_by_its_byte() {
   const ScratchFolder folder;
   write_lcm_log(folder / "a.lcmlog", encode_events(to_messages(made_recording(), kStart)));
@@ -132,6 +145,14 @@ void a_damaged_or_truncated_event_log_is_refused_by_its_byte() {
   put(folder / "b.lcmlog", damaged);
   const std::string text = complaint([&] { read_lcm_log(folder / "b.lcmlog"); });
   TEST_ASSERT_TRUE(text.find("byte 0: expected an event") != std::string::npos);
+  for (const char wrong : {'\x7F', '\x80', '\xFF'}) {  // µs that are too many ns, or negative
+    damaged = whole;
+    damaged[12] = wrong;
+    put(folder / "b.lcmlog", damaged);
+    const std::string late = complaint([&] { read_lcm_log(folder / "b.lcmlog"); });
+    TEST_ASSERT_TRUE(late.find("byte 0: the time of the event is out of range") !=
+                     std::string::npos);
+  }
 }
 
 /// A robot that moves, its setpoints as another clock sees them.
@@ -203,6 +224,7 @@ int main() {
   RUN_TEST(a_recording_goes_through_a_log_and_back);
   RUN_TEST(a_candump_line_is_read_as_candump_means_it);
   RUN_TEST(a_line_that_makes_no_sense_is_refused_by_its_number);
+  RUN_TEST(a_log_of_endless_interfaces_is_refused);
   RUN_TEST(a_damaged_or_truncated_event_log_is_refused_by_its_byte);
   RUN_TEST(clocks_are_aligned_by_the_motion_that_both_logs_hold);
   RUN_TEST(merged_logs_are_in_the_first_ones_time_and_in_order);

@@ -213,6 +213,36 @@ void a_urdf_that_is_no_urdf_is_refused() {
                            load_refusal(folder).c_str());
 }
 
+/// urdfdom takes both for trees.
+void links_that_form_a_loop_or_have_two_parents_are_refused() {
+  const ScratchFolder folder;
+  const std::string link = "<link name='other'/>";
+  put_arm(
+      folder, {"base_link: base", "base_link: a"},
+      {link, link + "<link name='a'/><link name='b'/>"
+                    "<joint name='ab' type='fixed'><parent link='a'/><child link='b'/></joint>"
+                    "<joint name='ba' type='fixed'><parent link='b'/><child link='a'/></joint>"});
+  TEST_ASSERT_EQUAL_STRING("arm.urdf: not a valid URDF: its links form a loop",
+                           load_refusal(folder).c_str());
+  put_arm(folder, {},
+          {link, link + "<joint name='again' type='fixed'><parent link='base'/>"
+                        "<child link='l3'/></joint>"});
+  TEST_ASSERT_EQUAL_STRING("arm.urdf: not a valid URDF: link 'l3' is the child of two joints",
+                           load_refusal(folder).c_str());
+}
+
+/// A name may hold a line end, but a complaint is one line.
+void names_of_two_lines_are_named_in_one() {
+  const ScratchFolder folder;
+  const std::string link = "<link name='other'/>";
+  put_arm(folder, {"base_link: base", "base_link: \"ba\\nse\""},
+          {link, link + "<link name='ba&#10;se'/><joint name='more' type='fixed'>"
+                        "<parent link='base'/><child link='ba&#10;se'/></joint>"});
+  const std::string message = load_refusal(folder);
+  TEST_ASSERT_TRUE_MESSAGE(message.find("'ba se'") != std::string::npos, message.c_str());
+  TEST_ASSERT_TRUE_MESSAGE(message.find('\n') == std::string::npos, message.c_str());
+}
+
 void links_that_are_not_there_are_named() {
   const ScratchFolder folder;
   put_arm(folder, {"base_link: base", "base_link: bass"});
@@ -267,6 +297,8 @@ int main() {
   RUN_TEST(a_urdf_that_is_wrong_is_refused_with_the_link_or_joint);
   RUN_TEST(a_file_that_is_none_is_refused);
   RUN_TEST(a_urdf_that_is_no_urdf_is_refused);
+  RUN_TEST(links_that_form_a_loop_or_have_two_parents_are_refused);
+  RUN_TEST(names_of_two_lines_are_named_in_one);
   RUN_TEST(links_that_are_not_there_are_named);
   RUN_TEST(the_urdf_parser_prints_nothing_of_its_own);
   return UNITY_END();

@@ -254,6 +254,71 @@ void a_frame_with_any_two_bits_flipped_is_rejected() {
   }
 }
 
+/// One bit of one frame, in identifier, data, length or format: no message comes of the set,
+/// whatever the damaged frame is taken for.
+void a_set_with_any_single_bit_of_any_frame_flipped_is_no_message() {
+  constexpr std::size_t kIdBits = 11;
+  constexpr std::size_t kLengthBits = 7;
+  int tried = 0;
+  const auto assert_no_message = [&](FrameList list, std::size_t place, std::size_t bit) {
+    CanFrame& frame = list.frames[place];
+    const std::size_t data_bits = 8U * frame.size;
+    if (bit < data_bits) {
+      frame.data[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+    } else if (bit < data_bits + kIdBits) {
+      frame.id ^= 1U << (bit - data_bits);
+    } else if (bit < data_bits + kIdBits + kLengthBits) {
+      frame.size ^= static_cast<std::uint8_t>(1U << (bit - data_bits - kIdBits));
+    } else {
+      frame.fd = !frame.fd;
+    }
+    CanDecoder decoder;
+    for (std::size_t i = 0; i < list.count; ++i) {
+      TEST_ASSERT_EQUAL(0, decoder.decode(list.frames[i], 0).index());
+    }
+    ++tried;
+  };
+  for (const bool fd : {false, true}) {
+    for (const Message& message : one_of_each()) {
+      const FrameList list = CanEncoder(fd).encode(message);
+      for (std::size_t place = 0; place < list.count; ++place) {
+        const std::size_t bits = 8U * list.frames[place].size + kIdBits + kLengthBits + 1;
+        for (std::size_t bit = 0; bit < bits; ++bit) {
+          assert_no_message(list, place, bit);
+        }
+      }
+    }
+  }
+  TEST_ASSERT_GREATER_THAN(5000, tried);
+}
+
+/// Up to as many bits in a row as the checksum has, in the order in which it takes them.
+void a_burst_in_the_data_of_a_frame_is_rejected() {
+  for (const CanFrame& frame : frames_of_everything()) {
+    const std::size_t checksum_bits = frame.fd ? 16 : 8;
+    const std::size_t end = 8U * frame.size;
+    const unsigned patterns = frame.fd ? 1U << 8 : 1U << 7;  // FD: every other of the inner bits
+    for (std::size_t first = checksum_bits; first < end; ++first) {
+      for (unsigned pattern = 0; pattern < patterns; ++pattern) {
+        CanFrame damaged = frame;
+        const std::size_t spread = frame.fd ? 2 : 1;
+        const auto flip = [&](std::size_t bit) {
+          if (bit < end) {
+            damaged.data[bit / 8] ^= static_cast<std::uint8_t>(0x80U >> bit % 8);
+          }
+        };
+        flip(first);
+        for (std::size_t i = 0; (pattern >> i) != 0; ++i) {
+          if ((pattern >> i & 1U) != 0) {
+            flip(first + 1 + spread * i);
+          }
+        }
+        TEST_ASSERT_FALSE(is_intact(damaged));
+      }
+    }
+  }
+}
+
 void a_frame_under_the_identifier_of_another_of_ours_is_rejected() {
   for (const CanFrame& frame : frames_of_everything()) {
     for (std::uint32_t id = 0; id < 0x800; ++id) {
@@ -308,6 +373,8 @@ int main() {
   RUN_TEST(every_message_arrives_as_its_kind);
   RUN_TEST(a_frame_with_any_single_bit_flipped_is_rejected);
   RUN_TEST(a_frame_with_any_two_bits_flipped_is_rejected);
+  RUN_TEST(a_set_with_any_single_bit_of_any_frame_flipped_is_no_message);
+  RUN_TEST(a_burst_in_the_data_of_a_frame_is_rejected);
   RUN_TEST(a_frame_under_the_identifier_of_another_of_ours_is_rejected);
   RUN_TEST(a_frame_of_another_length_or_format_is_rejected);
   RUN_TEST(frames_that_are_not_ours_are_counted_and_left_alone);
