@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kTrace = 1e-3;        // of the bound, that every parameter counts for at least
 constexpr double kBoundMargin = 1.25;  // of ρ_max above the largest physical bound
+constexpr double kRateMargin = 2;      // of |w*'| above the nominal arm's, for feedback and loads
 
 template <int Joints>
 using Angles = JointVector<double, Joints>;
@@ -261,7 +262,7 @@ ArcDesign<Joints> design_arc(const simulation::FlexibleArm<Joints>& arm,
              3 * unit.velocity[joint] * speed * std::sqrt(Joints) * motion.acceleration;
     };
     design.elastic_rate[joint] =
-        rate(extremes.links) + arm.model.payload_mass * rate(extremes.payload);
+        kRateMargin * (rate(extremes.links) + arm.model.payload_mass * rate(extremes.payload));
   }
   guarantee(arm, uncertainty, extremes, bandwidth, &design);
   return design;
