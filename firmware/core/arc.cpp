@@ -116,6 +116,18 @@ void AdaptiveRobustController<Scalar, Joints>::restart() {
 }
 
 template <typename Scalar, int Joints>
+Result AdaptiveRobustController<Scalar, Joints>::set_parameters(const LinkParameters& link,
+                                                                const MotorParameters& motor) {
+  if (!link.allFinite() || !motor.allFinite() || link.minCoeff() < Scalar(0) ||
+      motor.minCoeff() < Scalar(0)) {
+    return Result::bad_argument;
+  }
+  state_.link = link;
+  state_.motor = motor;
+  return Result::ok;
+}
+
+template <typename Scalar, int Joints>
 auto AdaptiveRobustController<Scalar, Joints>::tick(const Input& input) -> Output {
   Output output{};
   State next = state_;

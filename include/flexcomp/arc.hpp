@@ -118,6 +118,10 @@ class AdaptiveRobustController {
   /// Forgets what was adapted; the next tick starts the filter where it finds the arm.
   void restart();
 
+  /// Begins with these parameters instead of none: what was adapted before, or bounds that are
+  /// known. Returns ok, or bad_argument for one that is not finite or below zero.
+  Result set_parameters(const LinkParameters& link, const MotorParameters& motor);
+
   /// One control period. Begin with `wanted` at the link's angle: a jump asks for torque at once.
   Output tick(const Input& input);
 

@@ -208,6 +208,27 @@ void a_configuration_that_cannot_work_is_refused() {
   TEST_ASSERT_EQUAL_DOUBLE(0, output.torque[0]);
 }
 
+void it_goes_on_with_what_was_adapted_before() {
+  auto before = make_controller<double>();
+  for (int k = 0; k < 500; ++k) {
+    before.tick(pendulum_input<double>(1e-3 * k));
+  }
+  auto again = make_controller<double>();
+  TEST_ASSERT_EQUAL(Result::ok,
+                    again.set_parameters(before.link_parameters(), before.motor_parameters()));
+  const auto input = pendulum_input<double>(0.5);
+  const double expected = before.tick(input).link_bound[0];
+  const double actual = again.tick(input).link_bound[0];
+  TEST_ASSERT_EQUAL_DOUBLE(expected, actual);
+  again.restart();
+  TEST_ASSERT_EQUAL_DOUBLE(0, again.link_parameters().norm());
+  TEST_ASSERT_EQUAL(Result::bad_argument,
+                    again.set_parameters(-before.link_parameters(), before.motor_parameters()));
+  TEST_ASSERT_EQUAL(
+      Result::bad_argument,
+      again.set_parameters(before.link_parameters() * std::nan(""), before.motor_parameters()));
+}
+
 void every_status_has_a_name() {
   for (const ArcStatusBit bit : {kArcInputNotFinite, kArcNotComputable, kArcNotConfigured,
                                  kArcTorqueLimited, kArcBoundLimited}) {
@@ -259,6 +280,7 @@ int main() {
   RUN_TEST(the_torque_is_smooth_across_the_surface);
   RUN_TEST(a_measured_load_is_carried_by_the_feed_forward);
   RUN_TEST(a_configuration_that_cannot_work_is_refused);
+  RUN_TEST(it_goes_on_with_what_was_adapted_before);
   RUN_TEST(every_status_has_a_name);
   RUN_TEST(six_joints_tick);
   return UNITY_END();

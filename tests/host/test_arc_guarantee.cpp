@@ -179,9 +179,7 @@ void race_against_the_servo(const FlexibleArm<Joints>& arm, const ArmUncertainty
     error.push_back(robust.largest_error.norm() / servo.largest_error.norm());
     effort.push_back(robust.torque.norm() / servo.torque.norm());
   }
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
+  std::printf(
       "%d joints: error %.1f %% of the servo's in the median, %.1f %% at most; torque %.1f %%\n",
       Joints, 100 * median(error), 100 * *std::max_element(error.begin(), error.end()),
       100 * median(effort));
