@@ -69,8 +69,8 @@ std::string trial_table(const std::vector<control::TrialRun<Joints>>& runs,
 using Pictures = std::vector<std::pair<std::string, std::string>>;
 
 void draw(const std::string& name, const std::string& script, Pictures* pictures) {
-  pictures->emplace_back(name + ".svg", report::plot_svg(script, 900, 640));
-  pictures->emplace_back(name + ".png", report::plot_png(script, 900, 640));
+  pictures->emplace_back(name + ".svg", report::plot_svg(script, 1000, 600));
+  pictures->emplace_back(name + ".png", report::plot_png(script, 1000, 600));
 }
 
 template <int Joints>

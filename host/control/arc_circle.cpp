@@ -23,13 +23,7 @@ constexpr double kRunUp = 2;        // s, to come up to speed and into the cut
 constexpr int kTicksToCorrect = 4;  // of the controller, for one of the compensator
 constexpr double kSmoothing = 2 * 3.14159265358979323846 * 5;  // rad/s
 
-RobotModel<double, 6> without_joint_springs(RobotModel<double, 6> model) {
-  for (Joint<double>& joint : model.joints) {
-    joint.compliance = 0;
-    joint.cubic_compliance = 0;
-  }
-  return model;
-}
+using simulation::without_joint_springs;
 
 /// The core's compensator with a table of its own along the path.
 class PathCompensator {
@@ -120,12 +114,11 @@ class CircleMill {
                                          path_, kTicksToCorrect * trial_.gains.period)
                                    : nullptr;
     AdaptiveRobustController<double, 6> arc;
-    InverseDynamics<double, 6> dynamics;
-    if (arc.configure(trial_.nominal.model, trial_.nominal.inertia, trial_.gains) != Result::ok ||
-        dynamics.configure(trial_.nominal.model, trial_.nominal.inertia) != Result::ok) {
+    if (arc.configure(trial_.nominal.model, trial_.nominal.inertia, trial_.gains) != Result::ok) {
       throw InputError("the core refuses the arm or its gains");
     }
-    const Controller<6> servo = pd_controller<6>(matching_pd<6>(trial_.gains));
+    const Controller<6> servo =
+        with_feed_forward<6>(trial_.nominal, pd_controller<6>(matching_pd<6>(trial_.gains)));
     Smoothed shift;
     Six target = Six::Zero();
     int tick = 0;
@@ -153,11 +146,7 @@ class CircleMill {
         input.external_torque = torque_of(wrench, input.link);
         return arc.tick(input).torque;
       }
-      return servo(input) +
-             dynamics.torque(input.wanted, input.wanted_velocity, input.wanted_velocity,
-                             input.wanted_acceleration) +
-             trial_.nominal.rotor_inertia.cwiseProduct(input.wanted_acceleration) +
-             trial_.nominal.viscous.cwiseProduct(input.wanted_velocity);
+      return servo(input);
     };
     const auto observe = [&](double at, const ArcInput<double, 6>& input, const Six&) {
       if (at >= job.settled && tick % 20 == 0) {
@@ -238,9 +227,11 @@ std::string circle_script(const std::vector<CircleRun>& runs, double radius,
                   1e3 * radius);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     text += fmt::format("$path{} << EOD\n", i);
+    const Eigen::Vector2d center = geometry::least_squares_circularity(runs[i].path).center;
     for (const Eigen::Vector2d& point : runs[i].path) {
+      const Eigen::Vector2d arm = point - center;
       const Eigen::Vector2d shown =
-          point.normalized() * (radius + kMagnified * (point.norm() - radius));
+          arm.normalized() * (radius + kMagnified * (arm.norm() - radius));
       text += fmt::format("{:.6g} {:.6g}\n", 1e3 * shown.x(), 1e3 * shown.y());
     }
     text += "EOD\n";
@@ -249,9 +240,11 @@ std::string circle_script(const std::vector<CircleRun>& runs, double radius,
   }
   return text + fmt::format(
                     "set title \"{}\" noenhanced\nset size ratio -1\nset parametric\n"
-                    "set trange [0:2*pi]\nset samples 400\nset xlabel 'from the centre, mm'\n"
-                    "set ylabel 'from the centre, mm (radial errors {:g} times as large)'\n"
-                    "set key outside bottom center maxcols 2\nset grid lc rgb '#dddddd'\nplot {}\n",
+                    "set trange [0:2*pi]\nset samples 400\nset xlabel 'from the least-squares "
+                    "centre, mm'\n"
+                    "set ylabel 'mm (radial errors {:g} times as large)'\n"
+                    "set key outside right top vertical\nset bmargin 5\nset grid lc rgb "
+                    "'#dddddd'\nplot {}\n",
                     title, kMagnified, plots);
 }
 

@@ -61,18 +61,22 @@ FuzzyNumber parameter_energy(const ArcPart<Count>& part,
   return sum;
 }
 
-/// The quartic of one part; `motion` is the rest of V₀ (J).
+/// The quartic of one part; `motion` is the rest of V₀ (J), `damping` (N·m·s/rad) the loop's own.
 template <int Count>
-void solve_part(double share, double decay, const ArcBandwidth& bandwidth,
+void solve_part(double share, double decay, double damping, const ArcBandwidth& bandwidth,
                 const FuzzyNumber& motion, const Eigen::Matrix<double, Count, 1>& rates,
                 ArcPart<Count>* part) {
   const FuzzyNumber energy = parameter_energy(*part, rates) * (share / 2);
   part->problem.decay = decay;
   part->problem.residual_time = bandwidth.residual_time;
-  part->problem.effort = bandwidth.effort * std::pow(part->bound_limit / kBoundMargin, 4);
   part->problem.share = share;
   part->problem.start = energy + motion;
   part->problem.drift = energy * bandwidth.leak;
+  // γ ρ² is what the robust term adds to the loop's damping: effort counts in units of that, and of
+  // κ₃, so that a weight means the same for a small arm and a large one.
+  const double bound = part->bound_limit / kBoundMargin;
+  part->problem.effort =
+      bandwidth.effort * gain_cost(part->problem).square * std::pow(bound * bound / damping, 4);
   part->cost = gain_cost(part->problem);
   part->gain = part->cost.best();
 }
@@ -240,10 +244,10 @@ ArcDesign<Joints> design_arc(const simulation::FlexibleArm<Joints>& arm,
     const FuzzyNumber error = uncertainty.start_error.squared();
     const double surface = bandwidth.link_rate * bandwidth.link_rate;
     const double motor_surface = bandwidth.motor_rate * bandwidth.motor_rate;
-    solve_part<3>(share, decay, bandwidth,
+    solve_part<3>(share, decay, bandwidth.link_damping * extremes.effective[joint], bandwidth,
                   error * ((extremes.largest_inertia * surface + stiffest[joint]) / 2), link_rates,
                   &link);
-    solve_part<4>(1, decay, bandwidth,
+    solve_part<4>(1, decay, bandwidth.motor_damping * arm.rotor_inertia[joint], bandwidth,
                   error * ((uncertainty.rotor_inertia.support().upper * arm.rotor_inertia[joint] *
                                 motor_surface +
                             design.gains.motor_stiffness[joint]) /

@@ -21,9 +21,9 @@ struct ArcBandwidth {
   double leak = 5;                ///< 1/s
   double link_gain_limit = 80;    ///< 1/s, over the least effective inertia of the link
   double motor_gain_limit = 200;  ///< 1/s, over J₀
-  double surface_speed = 0.006;   ///< rad/s, of s at which an adapted bound is as large as typical
+  double surface_speed = 0.002;   ///< rad/s, of s at which an adapted bound is as large as typical
   double residual_time = 2;  ///< s, β: weight of where the error settles against getting there
-  double effort = 5e-4;      ///< w over (largest bound)⁴, J²s/(N·m·s/rad)²
+  double effort = 0.05;  ///< weight of effort; at 1 a robust term about doubles its loop's damping
 };
 
 /// One robust term: link or motor side of one joint.

@@ -45,23 +45,6 @@ ArcGains<double, Joints> frozen(ArcGains<double, Joints> gains) {
   return gains;
 }
 
-template <int Joints>
-Controller<Joints> with_feed_forward(const Trial<Joints>& trial, Controller<Joints> servo) {
-  InverseDynamics<double, Joints> dynamics;
-  if (dynamics.configure(trial.nominal.model, trial.nominal.inertia) != Result::ok) {
-    throw std::invalid_argument("an arm that cannot be");
-  }
-  return [dynamics, servo = std::move(servo), rotor = trial.nominal.rotor_inertia,
-          viscous = trial.nominal.viscous](
-             const ArcInput<double, Joints>& input) -> JointVector<double, Joints> {
-    return servo(input) +
-           dynamics.torque(input.wanted, input.wanted_velocity, input.wanted_velocity,
-                           input.wanted_acceleration) +
-           rotor.cwiseProduct(input.wanted_acceleration) +
-           viscous.cwiseProduct(input.wanted_velocity);
-  };
-}
-
 /// Figures between two times, thinned samples on the way.
 template <int Joints>
 TrialRun<Joints> run_with(const Trial<Joints>& trial, const std::string& name,
@@ -138,8 +121,8 @@ std::vector<TrialRun<Joints>> run_trial(const Trial<Joints>& trial) {
   const auto none = []() -> const Arc<Joints>* { return nullptr; };
   return {run_both_halves<Joints>(trial, "servo (PD)", servo, none),
           run_both_halves<Joints>(
-              trial, "servo with feed-forward", [&] { return with_feed_forward(trial, servo()); },
-              none),
+              trial, "servo with feed-forward",
+              [&] { return with_feed_forward(trial.nominal, servo()); }, none),
           run_both_halves<Joints>(trial, "virtual control alone", arc(frozen(gains), false), none),
           run_both_halves<Joints>(trial, "robust, fixed bounds", arc(frozen(gains), true), none),
           run_both_halves<Joints>(trial, "adaptive robust", arc(gains, false),
@@ -209,8 +192,8 @@ std::string error_script(const std::vector<TrialRun<Joints>>& runs, const std::s
   }
   return text + fmt::format(
                     "set title \"{}\" noenhanced\nset xlabel 'time, s'\nset logscale y\n"
-                    "set ylabel 'tracking error of the links (norm over joints), mrad'\n"
-                    "set key outside bottom center maxcols 3\nset grid lc rgb '#dddddd'\nplot {}\n",
+                    "set ylabel 'tracking error of the links, mrad'\n"
+                    "set key outside right top vertical\nset grid lc rgb '#dddddd'\nplot {}\n",
                     title, plots);
 }
 
@@ -231,8 +214,8 @@ std::string bound_script(const TrialRun<Joints>& run, const std::string& title) 
   }
   return text + fmt::format(
                     "EOD\nset title \"{}\" noenhanced\nset xlabel 'time, s'\n"
-                    "set ylabel 'constant part of the adapted bound on the link side, N·m'\n"
-                    "set key outside bottom center maxcols 6\nset grid lc rgb '#dddddd'\nplot {}\n",
+                    "set ylabel 'adapted bound, constant part, N·m'\n"
+                    "set key outside right top vertical\nset grid lc rgb '#dddddd'\nplot {}\n",
                     title, plots);
 }
 

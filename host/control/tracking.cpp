@@ -1,5 +1,8 @@
 #include "control/tracking.hpp"
 
+#include <stdexcept>
+#include <utility>
+
 namespace flexcomp::control {
 namespace {
 
@@ -73,6 +76,24 @@ Controller<Joints> pd_controller(const PdGains<Joints>& gains) {
 }
 
 template <int Joints>
+Controller<Joints> with_feed_forward(const simulation::FlexibleArm<Joints>& nominal,
+                                     Controller<Joints> controller) {
+  InverseDynamics<double, Joints> dynamics;
+  if (dynamics.configure(nominal.model, nominal.inertia) != Result::ok) {
+    throw std::invalid_argument("an arm that cannot be");
+  }
+  return [dynamics, controller = std::move(controller), rotor = nominal.rotor_inertia,
+          viscous = nominal.viscous](
+             const ArcInput<double, Joints>& input) -> JointVector<double, Joints> {
+    return controller(input) +
+           dynamics.torque(input.wanted, input.wanted_velocity, input.wanted_velocity,
+                           input.wanted_acceleration) +
+           rotor.cwiseProduct(input.wanted_acceleration) +
+           viscous.cwiseProduct(input.wanted_velocity);
+  };
+}
+
+template <int Joints>
 PdGains<Joints> matching_pd(const ArcGains<double, Joints>& gains) {
   // u = J (−S₂ x₄ − k₂ (x₄ + S₂ x₃)) − K_p2 x₃ + …
   const JointVector<double, Joints> rate = gains.motor_rate;
@@ -112,6 +133,8 @@ DrawnArm<Joints> draw_arm(const simulation::FlexibleArm<Joints>& nominal,
   template TrackingFigures<Joints> track(const TrackingJob<Joints>&, const Controller<Joints>&, \
                                          const Observer<Joints>&);                              \
   template Controller<Joints> pd_controller(const PdGains<Joints>&);                            \
+  template Controller<Joints> with_feed_forward(const simulation::FlexibleArm<Joints>&,         \
+                                                Controller<Joints>);                            \
   template PdGains<Joints> matching_pd(const ArcGains<double, Joints>&);                        \
   template DrawnArm<Joints> draw_arm(const simulation::FlexibleArm<Joints>&,                    \
                                      const ArmUncertainty&, std::mt19937_64*);

@@ -63,7 +63,7 @@ TrackingFigures<Joints> track(const TrackingJob<Joints>& job, const Controller<J
                               const Observer<Joints>& observer = {});
 
 /// Proportional-derivative control of the motors, as a robot's own servo does it, with the torque
-/// limit: u = −K_p (q₂ − q_d) − K_d (q₂' − q_d'), plus `feed_forward` where there is one.
+/// limit: u = −K_p (q₂ − q_d) − K_d (q₂' − q_d').
 template <int Joints>
 struct PdGains {
   JointVector<double, Joints> proportional;  ///< N·m/rad
@@ -72,6 +72,12 @@ struct PdGains {
 };
 template <int Joints>
 Controller<Joints> pd_controller(const PdGains<Joints>& gains);
+
+/// Adds to a controller the torques that the nominal arm would need to follow the reference:
+/// weight, inertia, viscous friction. Throws std::invalid_argument for an arm that cannot be.
+template <int Joints>
+Controller<Joints> with_feed_forward(const simulation::FlexibleArm<Joints>& nominal,
+                                     Controller<Joints> controller);
 
 /// The stiffness and damping that the motor loop of adaptive robust control has in itself.
 template <int Joints>
