@@ -10,15 +10,9 @@
 #define FLEXCOMP_INSTANTIATE_CONTROL(DEFINE) \
   DEFINE(float, 1)                           \
   DEFINE(float, 2)                           \
-  DEFINE(float, 3)                           \
-  DEFINE(float, 4)                           \
-  DEFINE(float, 5)                           \
   DEFINE(float, 6)                           \
   DEFINE(float, 7)                           \
   DEFINE(double, 1)                          \
   DEFINE(double, 2)                          \
-  DEFINE(double, 3)                          \
-  DEFINE(double, 4)                          \
-  DEFINE(double, 5)                          \
   DEFINE(double, 6)                          \
   DEFINE(double, 7)

@@ -118,7 +118,8 @@ nlohmann::ordered_json try_circle(const control::CircleTrial& trial, const std::
                    {"largest_deviation", run.deviation},
                    {"largest_correction", run.correction}});
   }
-  draw("circle", control::circle_script(runs, trial.plan.radius, title), pictures);
+  draw("circle", control::circle_script(runs, trial.plan.radius, title + ", circularity"),
+       pictures);
   return all;
 }
 
@@ -135,9 +136,8 @@ int run(const ArcDemoOptions& options) {
   summary["six_axes"] =
       try_arm<6>(control::six_axis_trial(request.arm, request.uncertainty, request.motion, design),
                  "six_axes", robot.name, &table, &pictures);
-  summary["circle"] =
-      try_circle(circle_trial(request, design.gains),
-                 robot.name + ": milled circle, radius 100 mm, 1573 N", &table, &pictures);
+  summary["circle"] = try_circle(circle_trial(request, design.gains),
+                                 robot.name + ": milled circle", &table, &pictures);
   const std::filesystem::path folder = output_folder(options.out);
   for (const auto& [name, content] : pictures) {
     files::write_text(folder / name, content);

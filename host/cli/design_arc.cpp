@@ -107,7 +107,7 @@ int run(const DesignArcOptions& options) {
   const control::ArcDesign<6> design =
       control::design_arc<6>(request.arm, request.uncertainty, request.motion, request.bandwidth);
   const control::ArcParameters parameters = control::arc_parameters(request.arm, design.gains);
-  control::make_controller(parameters, request.arm);
+  control::make_controller(parameters, request.arm);  // refuses what the core would refuse
   const auto joint = static_cast<std::size_t>(options.picture_joint - 1);
   const std::string script = control::cost_script(
       design.link[joint].cost, design.motor[joint].cost,
@@ -117,6 +117,8 @@ int run(const DesignArcOptions& options) {
   const std::string png = report::plot_png(script, 900, 800);
   const std::filesystem::path folder = output_folder(options.out);
   control::write_arc_parameters(folder / "arc.yaml", parameters);
+  // What stands in the file is what was designed, to the last bit.
+  control::make_controller(control::read_arc_parameters(folder / "arc.yaml"), request.arm);
   files::write_text(folder / "arc_gains.h", control::c_header(parameters, robot.name));
   files::write_text(folder / "cost.svg", svg);
   files::write_text(folder / "cost.png", png);
@@ -138,7 +140,7 @@ void add_design_arc(CLI::App* app, Action* action) {
       "Adaptive robust control of the joints, springs included: from what is uncertain of a "
       "robot,\n"
       "as fuzzy sets, to bounds, gains of least cost and what they guarantee.\n\n"
-      "Writes arc.yaml (flexcomp plant --arc), arc_gains.h (the same for a C controller),\n"
+      "Writes arc.yaml (gains, for programs), arc_gains.h (the same for a controller in C),\n"
       "summary.json, and the cost over both gains of a joint as cost.svg and cost.png.\n"
       "Example: flexcomp design-arc --model robot.yaml --uncertainty uncertainty.yaml --out arc");
   command->add_option("--model", options->model, "robot.yaml")->required();

@@ -63,12 +63,12 @@ RobotModel<double, 6> compensated_model(const PlantOptions& options, const model
   return options.arc ? simulation::without_joint_springs(robot.elastic) : robot.elastic;
 }
 
-/// The robot moving under a controller that knows the nominal one. Weight is that of robot.yaml, so
-/// that tables and plant agree.
+/// The robot moving under a controller that knows the nominal one, with the design's payload.
+/// Gravity is that of robot.yaml, so that tables and plant agree.
 std::unique_ptr<simulation::RobotInCut> dynamic_robot(const PlantOptions& options,
                                                       const model::Robot& robot) {
   control::ArcRequest request = control::read_arc_request(options.dynamic, robot);
-  request.arm.model = robot.elastic;
+  request.arm.model.gravity = robot.elastic.gravity;
   const control::ArcDesign<6> design =
       control::design_arc<6>(request.arm, request.uncertainty, request.motion, request.bandwidth);
   control::Controller<6> controller = control::with_feed_forward<6>(
@@ -79,7 +79,7 @@ std::unique_ptr<simulation::RobotInCut> dynamic_robot(const PlantOptions& option
     controller = [arc](const ArcInput<double, 6>& input) { return arc->tick(input).torque; };
   }
   simulation::FlexibleArm<6> arm = request.arm;
-  arm.model = simulation::with_scaled_compliance(robot.elastic, options.compliance_scale);
+  arm.model = simulation::with_scaled_compliance(request.arm.model, options.compliance_scale);
   return std::make_unique<control::DynamicMillingRobot>(arm, options.process, controller,
                                                         options.plant.period);
 }

@@ -243,7 +243,8 @@ std::string circle_script(const std::vector<CircleRun>& runs, double radius,
                     "set trange [0:2*pi]\nset samples 400\nset xlabel 'from the least-squares "
                     "centre, mm'\n"
                     "set ylabel 'mm (radial errors {:g} times as large)'\n"
-                    "set key outside right top vertical\nset bmargin 5\nset grid lc rgb "
+                    "set key outside right top vertical\nset lmargin at screen 0.1\nset rmargin at "
+                    "screen 0.62\nset grid lc rgb "
                     "'#dddddd'\nplot {}\n",
                     title, kMagnified, plots);
 }

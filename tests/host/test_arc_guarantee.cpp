@@ -134,7 +134,7 @@ void hold_to_guarantee(const FlexibleArm<Joints>& arm, const ArmUncertainty& set
 
 template <int Joints>
 void try_guarantee(FlexibleArm<Joints> arm, const ArmUncertainty& set) {
-  arm.torque_limit *= 5;  // to begin far off without a clamp, under which nothing is promised
+  arm.torque_limit *= 20;  // to begin far off without a clamp, under which nothing is promised
   const ArcDesign<Joints> design = design_arc<Joints>(arm, set, motion(), ArcBandwidth());
   Reached reached;
   for (unsigned seed = 0; seed < FLEXCOMP_TRIALS / 2; ++seed) {
