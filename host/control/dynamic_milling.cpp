@@ -51,7 +51,7 @@ void DynamicMillingRobot::step(const Reference<6>& reference,
       geometric_jacobian<double, 6>(kinematics).transpose() * state_.wrench;
   const JointVector<double, 6> torque =
       controller_({now.link, now.link_velocity, now.motor, now.motor_velocity, reference.position,
-                   reference.velocity, reference.acceleration, JointVector<double, 6>::Zero()});
+                   reference.velocity, reference.acceleration, torque_of_wrench});
   plant_.advance(torque, torque_of_wrench, kControlPeriod, 4);
   state_.position = simulation::settle(structure_, plant_.state().link, state_.wrench).tcp.position;
   const double deeper = point.normal.dot(state_.position - point.position);

@@ -33,8 +33,8 @@ std::vector<double> positive_roots_by_companion(double p, double r) {
   companion(0, 3) = r / std::pow(unit, 4);
   companion(1, 3) = -p / std::pow(unit, 3);
   std::vector<double> roots;
-  for (const std::complex<double>& value :
-       Eigen::EigenSolver<Eigen::Matrix4d>(companion, false).eigenvalues()) {
+  const Eigen::EigenSolver<Eigen::Matrix4d> solver(companion, false);
+  for (const std::complex<double>& value : solver.eigenvalues()) {
     if (value.imag() == 0 && value.real() > 0) {
       roots.push_back(unit * value.real());
     }

@@ -166,7 +166,7 @@ void race_against_the_servo(const FlexibleArm<Joints>& arm, const ArmUncertainty
   const ArcDesign<Joints> design = design_arc<Joints>(arm, set, motion(), ArcBandwidth());
   std::vector<double> error;
   std::vector<double> effort;
-  for (unsigned seed = 0; seed < FLEXCOMP_TRIALS / 20; ++seed) {
+  for (unsigned seed = 0; seed < (FLEXCOMP_TRIALS < 100 ? 5 : 50); ++seed) {
     std::mt19937_64 random(seed);
     TrackingJob<Joints> job = swing(draw_arm(arm, set, &random), &random);
     job.duration = 5;
