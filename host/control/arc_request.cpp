@@ -51,6 +51,7 @@ ArmUncertainty read_uncertainty(const YamlMap& yaml, const simulation::FlexibleA
       {"tool_force", &set.tool_force},  {"joint_load", &set.joint_load},
       {"start_error", &set.start_error}};
   std::vector<std::string> allowed;
+  allowed.reserve(names.size());
   for (const auto& [name, number] : names) {
     allowed.push_back(name);
   }
@@ -116,6 +117,7 @@ ArcBandwidth read_bandwidth(const YamlMap& yaml) {
       {"residual_time", &bandwidth.residual_time},
       {"effort", &bandwidth.effort}};
   std::vector<std::string> allowed;
+  allowed.reserve(names.size());
   for (const auto& [name, value] : names) {
     allowed.push_back(name);
   }

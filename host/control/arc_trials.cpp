@@ -219,11 +219,11 @@ std::string bound_script(const TrialRun<Joints>& run, const std::string& title) 
                     title, plots);
 }
 
-#define FLEXCOMP_TRIALS_OF(Joints)                                                             \
-  template std::vector<TrialRun<Joints>> run_trial(const Trial<Joints>&);                      \
-  template std::string error_script(const std::vector<TrialRun<Joints>>&, const std::string&); \
-  template std::string bound_script(const TrialRun<Joints>&, const std::string&);
-FLEXCOMP_TRIALS_OF(2)
-FLEXCOMP_TRIALS_OF(6)
+template std::vector<TrialRun<2>> run_trial(const Trial<2>&);
+template std::string error_script(const std::vector<TrialRun<2>>&, const std::string&);
+template std::string bound_script(const TrialRun<2>&, const std::string&);
+template std::vector<TrialRun<6>> run_trial(const Trial<6>&);
+template std::string error_script(const std::vector<TrialRun<6>>&, const std::string&);
+template std::string bound_script(const TrialRun<6>&, const std::string&);
 
 }  // namespace flexcomp::control

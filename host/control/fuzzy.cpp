@@ -46,7 +46,8 @@ auto FuzzyNumber::levels() -> const Cuts& {
     for (int i = 0; i < kCuts; ++i) {
       const auto node = static_cast<std::size_t>(i % 2);
       const double side = i % kNodes < 2 ? -1 : 1;
-      made[i + 1] = (i / kNodes + 0.5 + side * kGaussNodes[node] / 2) / kPanels;
+      const int panel = i / kNodes;
+      made[i + 1] = (panel + 0.5 + side * kGaussNodes[node] / 2) / kPanels;
     }
     return made;
   }();

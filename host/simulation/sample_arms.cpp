@@ -21,7 +21,8 @@ FlexibleArm<1> one_link_arm() {
   constexpr double kMass = 40;
   constexpr double kLever = 80 / (kMass * 9.81);
   FlexibleArm<1> arm;
-  set_link(kMass, kLever, 4 - kMass * kLever * kLever, 1e4, &arm.model.joints[0], &arm.inertia[0]);
+  set_link(kMass, kLever, 4 - kMass * kLever * kLever, 1e4, &arm.model.joints.front(),
+           &arm.inertia.front());
   arm.model.gravity = {0, 0, -9.81};
   arm.model.tool.position = {2 * kLever, 0, 0};
   arm.rotor_inertia << 1;
@@ -33,7 +34,7 @@ FlexibleArm<1> one_link_arm() {
 
 FlexibleArm<2> two_link_arm() {
   FlexibleArm<2> arm;
-  set_link(15, 0.5, 15 * 1.0 / 12, 2e4, &arm.model.joints[0], &arm.inertia[0]);
+  set_link(15, 0.5, 15 * 1.0 / 12, 2e4, &arm.model.joints.front(), &arm.inertia.front());
   set_link(10, 0.4, 10 * 0.64 / 12, 1e4, &arm.model.joints[1], &arm.inertia[1]);
   arm.model.joints[1].origin.position = {1, 0, 0};
   arm.model.tool.position = {0.8, 0, 0};
