@@ -244,7 +244,7 @@ std::string circle_script(const std::vector<CircleRun>& runs, double radius,
                     "centre, mm'\n"
                     "set ylabel 'mm (radial errors {:g} times as large)'\n"
                     "set key outside right top vertical\nset lmargin at screen 0.1\nset rmargin at "
-                    "screen 0.62\nset grid lc rgb "
+                    "screen 0.5\nset grid lc rgb "
                     "'#dddddd'\nplot {}\n",
                     title, kMagnified, plots);
 }

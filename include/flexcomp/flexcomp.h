@@ -261,7 +261,8 @@ flexcomp_result_t flexcomp_compensator_tick(flexcomp_compensator_t* compensator,
                                             const flexcomp_input_t* input,
                                             flexcomp_output_t* output);
 
-/// Bits of the status word of adaptive robust control. Stable numbers; the lower half refuse a tick.
+/// Bits of the status word of adaptive robust control. Stable numbers; the lower half refuse a
+/// tick.
 enum {
   FLEXCOMP_ARC_INPUT_NOT_FINITE = 1 << 0,
   FLEXCOMP_ARC_NOT_COMPUTABLE = 1 << 1,   ///< finite input, but so large that the result is not
@@ -277,25 +278,25 @@ const char* flexcomp_describe_arc_status_bit(uint32_t bit);
 /// What is tuned in adaptive robust control, joint side of the gears; flexcomp design-arc writes it
 /// as a header. What each is stands in flexcomp/arc.hpp.
 typedef struct flexcomp_arc_gains {
-  float period;                                 ///< s
-  float rotor_inertia[FLEXCOMP_JOINTS];         ///< kg·m²
-  float viscous[FLEXCOMP_JOINTS];               ///< N·m·s/rad
-  float link_rate[FLEXCOMP_JOINTS];             ///< 1/s
-  float link_damping;                           ///< 1/s
-  float motor_rate[FLEXCOMP_JOINTS];            ///< 1/s
-  float motor_damping;                          ///< 1/s
-  float motor_stiffness[FLEXCOMP_JOINTS];       ///< N·m/rad
-  float filter_frequency;                       ///< rad/s
-  float leak;                                   ///< 1/s
-  float link_adaptation[FLEXCOMP_JOINTS][3];    ///< squared units of the parameters by J
+  float period;                               ///< s
+  float rotor_inertia[FLEXCOMP_JOINTS];       ///< kg·m²
+  float viscous[FLEXCOMP_JOINTS];             ///< N·m·s/rad
+  float link_rate[FLEXCOMP_JOINTS];           ///< 1/s
+  float link_damping;                         ///< 1/s
+  float motor_rate[FLEXCOMP_JOINTS];          ///< 1/s
+  float motor_damping;                        ///< 1/s
+  float motor_stiffness[FLEXCOMP_JOINTS];     ///< N·m/rad
+  float filter_frequency;                     ///< rad/s
+  float leak;                                 ///< 1/s
+  float link_adaptation[FLEXCOMP_JOINTS][3];  ///< squared units of the parameters by J
   float motor_adaptation[FLEXCOMP_JOINTS][4];
-  float link_gain[FLEXCOMP_JOINTS];             ///< 1/W
-  float motor_gain[FLEXCOMP_JOINTS];            ///< 1/W
-  float link_gain_limit[FLEXCOMP_JOINTS];       ///< N·m·s/rad
-  float motor_gain_limit[FLEXCOMP_JOINTS];      ///< N·m·s/rad
-  float link_bound_limit[FLEXCOMP_JOINTS];      ///< N·m
-  float motor_bound_limit[FLEXCOMP_JOINTS];     ///< N·m
-  float torque_limit[FLEXCOMP_JOINTS];          ///< N·m
+  float link_gain[FLEXCOMP_JOINTS];          ///< 1/W
+  float motor_gain[FLEXCOMP_JOINTS];         ///< 1/W
+  float link_gain_limit[FLEXCOMP_JOINTS];    ///< N·m·s/rad
+  float motor_gain_limit[FLEXCOMP_JOINTS];   ///< N·m·s/rad
+  float link_bound_limit[FLEXCOMP_JOINTS];   ///< N·m
+  float motor_bound_limit[FLEXCOMP_JOINTS];  ///< N·m
+  float torque_limit[FLEXCOMP_JOINTS];       ///< N·m
 } flexcomp_arc_gains_t;
 
 typedef struct flexcomp_arc_input {
@@ -327,8 +328,8 @@ typedef struct flexcomp_arc {
 } flexcomp_arc_t;
 
 /// Takes the nominal robot, each link's inertia about its centre of mass (link frame, row by row,
-/// kg·m²) and gains, and begins anew. FLEXCOMP_OK, BAD_ARGUMENT, BAD_MODEL (also for a joint without
-/// compliance) or BAD_CONFIG.
+/// kg·m²) and gains, and begins anew. FLEXCOMP_OK, BAD_ARGUMENT, BAD_MODEL (also for a joint
+/// without compliance) or BAD_CONFIG.
 flexcomp_result_t flexcomp_arc_init(flexcomp_arc_t* arc, const flexcomp_model_t* model,
                                     const float inertia[FLEXCOMP_JOINTS][9],
                                     const flexcomp_arc_gains_t* gains);
