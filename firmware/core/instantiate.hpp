@@ -5,3 +5,14 @@
 #define FLEXCOMP_INSTANTIATE(DEFINE) \
   DEFINE(float, 6)                   \
   DEFINE(double, 6)
+
+/// The same for adaptive robust control, which does not ask for a tool's six degrees of freedom.
+#define FLEXCOMP_INSTANTIATE_CONTROL(DEFINE) \
+  DEFINE(float, 1)                           \
+  DEFINE(float, 2)                           \
+  DEFINE(float, 6)                           \
+  DEFINE(float, 7)                           \
+  DEFINE(double, 1)                          \
+  DEFINE(double, 2)                          \
+  DEFINE(double, 6)                          \
+  DEFINE(double, 7)

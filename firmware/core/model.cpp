@@ -123,8 +123,11 @@ std::uint64_t model_hash(const RobotModel<Scalar, Joints>& model) {
   return hash.value();
 }
 
+#define FLEXCOMP_VALIDATE(Scalar, Joints) \
+  template Result validate(const RobotModel<Scalar, Joints>&);
+FLEXCOMP_INSTANTIATE_CONTROL(FLEXCOMP_VALIDATE)
+
 #define FLEXCOMP_MODEL(Scalar, Joints)                                    \
-  template Result validate(const RobotModel<Scalar, Joints>&);            \
   template bool has_structure_springs(const RobotModel<Scalar, Joints>&); \
   template bool has_weight(const RobotModel<Scalar, Joints>&);            \
   template std::uint64_t model_hash(const RobotModel<Scalar, Joints>&);

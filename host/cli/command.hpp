@@ -33,6 +33,8 @@ void add_select(CLI::App* app, Action* action);
 void add_report(CLI::App* app, Action* action);
 void add_configure(CLI::App* app, Action* action);
 void add_convert(CLI::App* app, Action* action);
+void add_design_arc(CLI::App* app, Action* action);
+void add_arc_demo(CLI::App* app, Action* action);
 void add_diagnose(CLI::App* app, Action* action);
 void add_node(CLI::App* app, Action* action);
 void add_plant(CLI::App* app, Action* action);

@@ -66,6 +66,9 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp place …         where a job is displaced least\n"
       "  flexcomp identify …      compliances from load tests, and which tests to make\n"
       "  flexcomp force …         the force of milling, and a path with it\n\n"
+      "The joints' own control, springs included:\n"
+      "  flexcomp design-arc …    adaptive robust control for what is uncertain of a robot\n"
+      "  flexcomp arc-demo …      what it is worth, in simulation\n\n"
       "On the bus, with flexcompd:\n"
       "  flexcomp configure …     a configuration file for flexcompd\n"
       "  flexcomp node …          arm it, disarm it, send it a table\n"
@@ -91,6 +94,8 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_place(&app, &action);
   flexcomp::cli::add_select(&app, &action);
   flexcomp::cli::add_report(&app, &action);
+  flexcomp::cli::add_design_arc(&app, &action);
+  flexcomp::cli::add_arc_demo(&app, &action);
   flexcomp::cli::add_configure(&app, &action);
   flexcomp::cli::add_node(&app, &action);
   flexcomp::cli::add_plant(&app, &action);

@@ -9,6 +9,9 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
+#include "control/arc_parameters.hpp"
+#include "control/arc_request.hpp"
+#include "control/dynamic_milling.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "node/default_config.hpp"
@@ -23,6 +26,8 @@ struct PlantOptions {
   std::string bus;
   std::string table;
   std::string out;
+  std::string dynamic;
+  bool arc = false;
   double compliance_scale = 1;
   double gain = 1;
   double filter_cutoff = 20;
@@ -53,28 +58,67 @@ nlohmann::ordered_json summary(const simulation::PlantRun& run) {
           {"most_engagement", run.most_engagement}};
 }
 
+/// What the compensator has to know: with link encoders the joint springs are the controller's.
+RobotModel<double, 6> compensated_model(const PlantOptions& options, const model::Robot& robot) {
+  return options.arc ? simulation::without_joint_springs(robot.elastic) : robot.elastic;
+}
+
+/// The robot moving under a controller that knows the nominal one, with the design's payload.
+/// Gravity is that of robot.yaml, so that tables and plant agree.
+std::unique_ptr<simulation::RobotInCut> dynamic_robot(const PlantOptions& options,
+                                                      const model::Robot& robot) {
+  control::ArcRequest request = control::read_arc_request(options.dynamic, robot);
+  request.arm.model.gravity = robot.elastic.gravity;
+  const control::ArcDesign<6> design =
+      control::design_arc<6>(request.arm, request.uncertainty, request.motion, request.bandwidth);
+  control::Controller<6> controller = control::with_feed_forward<6>(
+      request.arm, control::pd_controller<6>(control::matching_pd<6>(design.gains)));
+  if (options.arc) {
+    const auto arc = std::make_shared<AdaptiveRobustController<double, 6>>(
+        control::make_controller(control::arc_parameters(request.arm, design.gains), request.arm));
+    controller = [arc](const ArcInput<double, 6>& input) { return arc->tick(input).torque; };
+  }
+  simulation::FlexibleArm<6> arm = request.arm;
+  arm.model = simulation::with_scaled_compliance(request.arm.model, options.compliance_scale);
+  return std::make_unique<control::DynamicMillingRobot>(arm, options.process, controller,
+                                                        options.plant.period);
+}
+
+std::unique_ptr<simulation::RobotInCut> robot_in_cut(const PlantOptions& options,
+                                                     const model::Robot& robot) {
+  if (!options.dynamic.empty()) {
+    return dynamic_robot(options, robot);
+  }
+  return std::make_unique<simulation::MillingRobot>(
+      simulation::with_scaled_compliance(robot.elastic, options.compliance_scale), options.process);
+}
+
 int run(const PlantOptions& options) {
   if (options.bus.empty() == options.table.empty()) {
     throw InputError("expected either --bus, or --table for a compensator inside this process");
   }
-  const model::Robot robot = model::load_robot(options.model);
+  if (options.arc && options.dynamic.empty()) {
+    throw InputError("--arc needs --dynamic: a robot that stands still needs no control");
+  }
+  model::Robot known = model::load_robot(options.model);
+  const model::Robot robot = known;
+  known.elastic = compensated_model(options, robot);
   std::unique_ptr<simulation::PlantBus> bus;
   simulation::PlantOptions plant_options = options.plant;
   plant_options.compensate = !options.without_compensation;
-  plant_options.model_hash = model_hash(robot.elastic);
+  plant_options.model_hash = model_hash(known.elastic);
   std::unique_ptr<TableFile> table;
   if (options.bus.empty()) {
-    table = std::make_unique<TableFile>(read_table(options.table, robot));
-    bus = simulation::make_inner_bus(node_config(options, robot), table->table, false);
+    table = std::make_unique<TableFile>(read_table(options.table, known));
+    bus = simulation::make_inner_bus(node_config(options, known), table->table, false);
     plant_options.lockstep = true;
   } else {
     bus = simulation::open_plant_bus(options.bus);
   }
   simulation::Contour contour(robot.elastic, recording::read_recording(options.path),
                               options.process.side);
-  simulation::Plant plant(
-      simulation::with_scaled_compliance(robot.elastic, options.compliance_scale),
-      std::move(contour), options.process, plant_options, bus.get());
+  simulation::Plant plant(robot_in_cut(options, robot), std::move(contour), plant_options,
+                          bus.get());
   Progress progress("milling", 1000);
   const simulation::PlantRun result =
       plant.run([&](double share) { progress.show(static_cast<std::size_t>(1000 * share)); });
@@ -133,6 +177,13 @@ void add_plant(CLI::App* app, Action* action) {
       ->add_option("--compliance-scale", options->compliance_scale,
                    "all springs this many times as soft: a robot that is not as its model says")
       ->check(CLI::PositiveNumber);
+  command->add_option("--dynamic", options->dynamic,
+                      "design file (flexcomp design-arc): links and motors with their inertia on "
+                      "springs, the motors under a servo with feed-forward; otherwise at rest at "
+                      "every moment");
+  command->add_flag("--arc", options->arc,
+                    "with --dynamic: the joints under adaptive robust control with encoders on the "
+                    "links; the table must be that of the robot with joint compliances of zero");
   command->add_option("--force-noise", options->plant.force_noise, "N, standard deviation")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--moment-noise", options->plant.moment_noise, "N·m, standard deviation")

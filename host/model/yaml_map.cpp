@@ -188,6 +188,16 @@ void YamlMap::read_numbers(const std::string& key, double* values, std::size_t c
   }
 }
 
+std::vector<double> YamlMap::list(const std::string& key) const {
+  const YAML::Node child = required(key);
+  if (!child.IsSequence()) {
+    refuse(key, fmt::format("expected a list of numbers, found {}", description(child)));
+  }
+  std::vector<double> values(child.size());
+  read_numbers(key, values.data(), values.size());
+  return values;
+}
+
 YamlMap load_yaml(const std::filesystem::path& file) {
   return {read_yaml(file), file.string(), ""};
 }

@@ -45,6 +45,9 @@ class YamlMap {
     return values;
   }
 
+  /// A list of finite numbers, however many.
+  std::vector<double> list(const std::string& key) const;
+
   /// Throws InputError at a key's line.
   [[noreturn]] void refuse(const std::string& key, const std::string& why) const;
 

@@ -75,8 +75,8 @@ Contour::Point Contour::at(double time) const {
   return point;
 }
 
-MillingRobot::State MillingRobot::stand(const JointVector<double, 6>& q_motor,
-                                        const Contour::Point& point, double load) {
+RobotInCut::State MillingRobot::stand(const JointVector<double, 6>& q_motor,
+                                      const Contour::Point& point, double load) {
   constexpr int kIterations = 8;
   constexpr double kEnough = 1e-10;
   Vector3<double> position = point.position;

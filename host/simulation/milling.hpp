@@ -43,12 +43,14 @@ class Contour {
   recording::Samples normal_;
 };
 
-/// The flexible robot in the cut, at rest at every moment: a tool that stands deeper sees more
-/// force, and more force bends the robot more.
-class MillingRobot {
+/// A flexible robot in the cut: a tool that stands deeper sees more force, and more force bends the
+/// robot more.
+class RobotInCut {
  public:
-  MillingRobot(RobotModel<double, 6> model, const Process& process)
-      : model_(std::move(model)), process_(process) {}
+  RobotInCut() = default;
+  virtual ~RobotInCut() = default;
+  RobotInCut(const RobotInCut&) = delete;
+  RobotInCut& operator=(const RobotInCut&) = delete;
 
   struct State {
     Vector3<double> position;  ///< m, of the TCP
@@ -56,12 +58,23 @@ class MillingRobot {
     double engagement;         ///< depth of the cut over the nominal one, 0 to kMostEngagement
   };
 
-  /// Where it stands with its motors at `q_motor` (rad) at a point of the contour, the nominal
-  /// wrench scaled by `load` (0: in the air).
-  State stand(const JointVector<double, 6>& q_motor, const Contour::Point& point, double load);
+  /// Where it is one period later, its motors commanded to `q_motor` (rad) at a point of the
+  /// contour, the nominal wrench scaled by `load` (0: in the air).
+  virtual State stand(const JointVector<double, 6>& q_motor, const Contour::Point& point,
+                      double load) = 0;
 
   /// Where a tool that digs in is stopped, as a spindle would stall.
   static constexpr double kMostEngagement = 10;
+};
+
+/// The robot in the cut, at rest at every moment.
+class MillingRobot : public RobotInCut {
+ public:
+  MillingRobot(RobotModel<double, 6> model, const Process& process)
+      : model_(std::move(model)), process_(process) {}
+
+  State stand(const JointVector<double, 6>& q_motor, const Contour::Point& point,
+              double load) override;
 
  private:
   RobotModel<double, 6> model_;

@@ -23,10 +23,10 @@ JointAngles to_angles(const JointVector<double, 6>& q) {
 
 }  // namespace
 
-Plant::Plant(const RobotModel<double, 6>& model, Contour contour, const Process& process,
-             const PlantOptions& options, PlantBus* bus)
+Plant::Plant(std::unique_ptr<RobotInCut> robot, Contour contour, const PlantOptions& options,
+             PlantBus* bus)
     : contour_(std::move(contour)),
-      robot_(model, process),
+      robot_(std::move(robot)),
       options_(options),
       bus_(bus),
       random_(options.seed),
@@ -106,7 +106,7 @@ void Plant::follow_contour(const std::function<void(double)>& progress) {
 
 void Plant::tick(double time, double load) {
   const Contour::Point point = contour_.at(time);
-  state_ = robot_.stand(point.q + follower_.correction(), point, load);
+  state_ = robot_->stand(point.q + follower_.correction(), point, load);
   const Wrench<double> wrench = measured(state_.wrench);
   if (run_.ticks % kIdentityTicks == 0) {
     bus_->send(IdentityMessage{options_.model_hash, WrenchFrame::base});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <random>
 
 #include "recording/recording.hpp"
@@ -43,8 +44,8 @@ struct PlantRun {
 /// the next setpoint, and moves by the correction that comes back (CorrectionFollower).
 class Plant {
  public:
-  Plant(const RobotModel<double, 6>& model, Contour contour, const Process& process,
-        const PlantOptions& options, PlantBus* bus);
+  Plant(std::unique_ptr<RobotInCut> robot, Contour contour, const PlantOptions& options,
+        PlantBus* bus);
 
   /// `progress` is told the share that is done, 0 to 1.
   PlantRun run(const std::function<void(double)>& progress);
@@ -60,12 +61,12 @@ class Plant {
   void record(double time, const Contour::Point& point, const Wrench<double>& wrench);
 
   Contour contour_;
-  MillingRobot robot_;
+  std::unique_ptr<RobotInCut> robot_;
   PlantOptions options_;
   PlantBus* bus_;
   std::mt19937_64 random_;
   CorrectionFollower follower_;
-  MillingRobot::State state_{};
+  RobotInCut::State state_{};
   std::int64_t next_ = 0;  ///< ns, when the next setpoint is due
   std::uint64_t corrected_ = 0;
   bool replied_ = false;

@@ -136,4 +136,12 @@ RobotModel<double, 6> with_scaled_compliance(RobotModel<double, 6> model, double
   return model;
 }
 
+RobotModel<double, 6> without_joint_springs(RobotModel<double, 6> model) {
+  for (Joint<double>& joint : model.joints) {
+    joint.compliance = 0;
+    joint.cubic_compliance = 0;
+  }
+  return model;
+}
+
 }  // namespace flexcomp::simulation

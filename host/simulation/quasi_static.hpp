@@ -23,4 +23,7 @@ Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double,
 /// The model with all of its springs `factor` times as soft.
 RobotModel<double, 6> with_scaled_compliance(RobotModel<double, 6> model, double factor);
 
+/// The model with stiff joints: what bends beyond encoders on the links.
+RobotModel<double, 6> without_joint_springs(RobotModel<double, 6> model);
+
 }  // namespace flexcomp::simulation

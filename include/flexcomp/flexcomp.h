@@ -261,6 +261,87 @@ flexcomp_result_t flexcomp_compensator_tick(flexcomp_compensator_t* compensator,
                                             const flexcomp_input_t* input,
                                             flexcomp_output_t* output);
 
+/// Bits of the status word of adaptive robust control. Stable numbers; the lower half refuse a
+/// tick.
+enum {
+  FLEXCOMP_ARC_INPUT_NOT_FINITE = 1 << 0,
+  FLEXCOMP_ARC_NOT_COMPUTABLE = 1 << 1,   ///< finite input, but so large that the result is not
+  FLEXCOMP_ARC_NOT_CONFIGURED = 1 << 2,   ///< no accepted configuration: the torque is zero
+  FLEXCOMP_ARC_TORQUE_LIMITED = 1 << 16,  ///< a joint asks for more than its torque limit
+  FLEXCOMP_ARC_BOUND_LIMITED = 1 << 17    ///< a bound is near its limit: it adapts less, or no more
+};
+#define FLEXCOMP_ARC_REFUSED_BITS 0xFFFFu
+
+/// A few words for a person; never null. `bit`: one bit of the status word.
+const char* flexcomp_describe_arc_status_bit(uint32_t bit);
+
+/// What is tuned in adaptive robust control, joint side of the gears; flexcomp design-arc writes it
+/// as a header. What each is stands in flexcomp/arc.hpp.
+typedef struct flexcomp_arc_gains {
+  float period;                               ///< s
+  float rotor_inertia[FLEXCOMP_JOINTS];       ///< kg·m²
+  float viscous[FLEXCOMP_JOINTS];             ///< N·m·s/rad
+  float link_rate[FLEXCOMP_JOINTS];           ///< 1/s
+  float link_damping;                         ///< 1/s
+  float motor_rate[FLEXCOMP_JOINTS];          ///< 1/s
+  float motor_damping;                        ///< 1/s
+  float motor_stiffness[FLEXCOMP_JOINTS];     ///< N·m/rad
+  float filter_frequency;                     ///< rad/s
+  float leak;                                 ///< 1/s
+  float link_adaptation[FLEXCOMP_JOINTS][3];  ///< squared units of the parameters by J
+  float motor_adaptation[FLEXCOMP_JOINTS][4];
+  float link_gain[FLEXCOMP_JOINTS];          ///< 1/W
+  float motor_gain[FLEXCOMP_JOINTS];         ///< 1/W
+  float link_gain_limit[FLEXCOMP_JOINTS];    ///< N·m·s/rad
+  float motor_gain_limit[FLEXCOMP_JOINTS];   ///< N·m·s/rad
+  float link_bound_limit[FLEXCOMP_JOINTS];   ///< N·m
+  float motor_bound_limit[FLEXCOMP_JOINTS];  ///< N·m
+  float torque_limit[FLEXCOMP_JOINTS];       ///< N·m
+} flexcomp_arc_gains_t;
+
+typedef struct flexcomp_arc_input {
+  float link[FLEXCOMP_JOINTS];                 ///< rad, link side of the springs
+  float link_velocity[FLEXCOMP_JOINTS];        ///< rad/s
+  float motor[FLEXCOMP_JOINTS];                ///< rad, motor side, reflected through the gear
+  float motor_velocity[FLEXCOMP_JOINTS];       ///< rad/s
+  float wanted[FLEXCOMP_JOINTS];               ///< rad
+  float wanted_velocity[FLEXCOMP_JOINTS];      ///< rad/s
+  float wanted_acceleration[FLEXCOMP_JOINTS];  ///< rad/s²
+  float external_torque[FLEXCOMP_JOINTS];      ///< N·m, of the measured wrench; zero if unmeasured
+} flexcomp_arc_input_t;
+
+typedef struct flexcomp_arc_output {
+  float torque[FLEXCOMP_JOINTS];       ///< N·m, joint side; finite, within the limit
+  float link_bound[FLEXCOMP_JOINTS];   ///< N·m, adapted bound of what disturbs the link
+  float motor_bound[FLEXCOMP_JOINTS];  ///< N·m, the motor
+  uint32_t status;                     ///< bits of this tick
+} flexcomp_arc_output_t;
+
+/// Room for a controller. Do not touch the member.
+#define FLEXCOMP_ARC_BYTES 3072
+typedef struct flexcomp_arc {
+#ifdef __cplusplus
+  alignas(16) unsigned char bytes[FLEXCOMP_ARC_BYTES];
+#else
+  _Alignas(16) unsigned char bytes[FLEXCOMP_ARC_BYTES];
+#endif
+} flexcomp_arc_t;
+
+/// Takes the nominal robot, each link's inertia about its centre of mass (link frame, row by row,
+/// kg·m²) and gains, and begins anew. FLEXCOMP_OK, BAD_ARGUMENT, BAD_MODEL (also for a joint
+/// without compliance) or BAD_CONFIG.
+flexcomp_result_t flexcomp_arc_init(flexcomp_arc_t* arc, const flexcomp_model_t* model,
+                                    const float inertia[FLEXCOMP_JOINTS][9],
+                                    const flexcomp_arc_gains_t* gains);
+
+/// Forgets what was adapted. Begin again with `wanted` at the link's angle.
+void flexcomp_arc_restart(flexcomp_arc_t* arc);
+
+/// One control period. Constant time; a refused tick repeats the last torque. FLEXCOMP_OK or
+/// BAD_ARGUMENT (null pointer; `output` untouched). Cost: about 3 KiB of stack.
+flexcomp_result_t flexcomp_arc_tick(flexcomp_arc_t* arc, const flexcomp_arc_input_t* input,
+                                    flexcomp_arc_output_t* output);
+
 #ifdef __cplusplus
 }
 #endif

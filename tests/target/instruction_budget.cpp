@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <random>
 
+#include "core/arc_arms.hpp"
 #include "node/node_on_a_bus.hpp"
 #include "target/instruction_counter.hpp"
 
@@ -179,6 +180,55 @@ void count_compensator(const InstructionCounter& counter, const char* name,
   counts.print(name);
 }
 
+/// The controller of flexible joints, six of them, that tracks what the compensator asks for.
+void count_adaptive_robust_control(const InstructionCounter& counter) {
+  const test::Arm<float, 6> arm = test::skew_arm<float>();
+  ArcGains<float, 6> gains;
+  gains.period = 1e-3F;
+  gains.link_damping = 20;
+  gains.motor_damping = 200;
+  gains.filter_frequency = 300;
+  gains.leak = 5;
+  for (auto* const part :
+       {&gains.rotor_inertia, &gains.viscous, &gains.link_rate, &gains.motor_rate,
+        &gains.motor_stiffness, &gains.link_gain, &gains.motor_gain, &gains.link_gain_limit,
+        &gains.motor_gain_limit, &gains.link_bound_limit, &gains.motor_bound_limit}) {
+    part->setConstant(10);
+  }
+  gains.torque_limit.setConstant(5000);
+  gains.link_adaptation.setOnes();
+  gains.motor_adaptation.setOnes();
+  AdaptiveRobustController<float, 6> controller;
+  TEST_ASSERT_EQUAL(Result::ok, controller.configure(arm.model, arm.inertia, gains));
+  ArcInput<float, 6> input;
+  Counts counts;
+  const auto count = [&] {
+    ArcOutput<float, 6> output;
+    return counter.count([&] { output = controller.tick(input); });
+  };
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> share(-1, 1);
+  for (int i = 0; i < kTicks + kHostileTicks; ++i) {
+    const bool hostile = i >= kTicks;
+    const float size = hostile && random() % 4 == 0 ? 100.0F : 0.01F;
+    for (Eigen::Index joint = 0; joint < 6; ++joint) {
+      input.link[joint] = size * share(random);
+      input.link_velocity[joint] = size * share(random);
+      input.motor[joint] = input.link[joint] + 0.01F * size * share(random);
+      input.motor_velocity[joint] = size * share(random);
+    }
+    if (hostile && random() % 8 == 0) {
+      input.link[2] = std::numeric_limits<float>::quiet_NaN();
+    }
+    if (hostile) {
+      counts.add_hostile(count());
+    } else {
+      counts.add_ordinary(count());
+    }
+  }
+  counts.print("adaptive_robust_control");
+}
+
 /// The node with its frames: decode, tick, encode, and the whole.
 class WholeTick {
  public:
@@ -296,5 +346,6 @@ int main() {
   whole.count_ordinary();
   whole.count_hostile();
   whole.print();
+  count_adaptive_robust_control(counter);
   return 0;
 }
