@@ -236,8 +236,8 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
   Twist<Scalar> deflection = Twist<Scalar>::Zero();
   TableResponse<Scalar, Joints> response;
 #pragma GCC unroll 6
-  for (int joint = 0; joint < Joints; ++joint) {
-    const Eigen::Index place = kPath.jacobian + 6 * joint;
+  for (std::uint32_t joint = 0; joint < Joints; ++joint) {
+    const std::uint32_t place = kPath.jacobian + 6 * joint;
     const Twist<Scalar> column = blend<Scalar, 6>(from + place, to + place, find.t);
     Scalar torque = column.dot(load);
     if (has_weight) {
@@ -248,7 +248,7 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
         (static_cast<Scalar>(spring[joint]) + static_cast<Scalar>(cubic[joint]) * torque * torque) *
         torque;
     deflection += windup * column;
-    response.correction[joint] = -windup;
+    response.correction[static_cast<Eigen::Index>(joint)] = -windup;
   }
   response.deflection = deflection;
   if (table.has_structure()) {

@@ -7,7 +7,7 @@ namespace flexcomp::cortex_m7 {
 /// What the processor was at when it could not go on (Armv7-M Architecture Reference Manual, B1.5.6
 /// and B3.2.15 to B3.2.18).
 struct FaultReport {
-  std::uint32_t program_counter;
+  std::uint32_t program_counter;  ///< 0 if the stack had no room to keep it
   std::uint32_t link_register;
   std::uint32_t configurable_status;  ///< CFSR
   std::uint32_t hard_status;          ///< HFSR

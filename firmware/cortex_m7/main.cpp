@@ -19,8 +19,8 @@ using flexcomp::cortex_m7::FaultReport;
 namespace board = flexcomp::cortex_m7::board;
 
 constexpr std::uint32_t kStepsASecond = 1000;
-constexpr std::int64_t kStepTime = 1'000'000;  // ns
-constexpr std::uint32_t kWatchdogTime = 50;    // ms
+constexpr std::uint32_t kWatchdogTime = 500;   // ms: longer than a check of the largest table
+constexpr std::uint32_t kErased = 0xFFFFFFFF;  // as flash is
 
 SlcanNode::Bytes received;
 SlcanNode::Bytes to_send;
@@ -53,7 +53,7 @@ extern std::uint32_t __slots_end[];
 
 void tick() {
   static std::int64_t now = 0;
-  now += kStepTime;
+  now += board::elapsed();
   node->step(now);
   board::wake_sender();
   steps.store(steps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
@@ -74,14 +74,6 @@ void fault_reported(const FaultReport& report) {
 
 [[noreturn]] void main_returned(int /*result*/) { restart(); }
 
-/// What the language's own checks end in, and the destructors of statics that it never calls.
-[[noreturn]] void abort() {
-  last_words = {LastWords::kValid,
-                {reinterpret_cast<std::uint32_t>(__builtin_return_address(0)), 0, 0, 0, 0}};
-  restart();
-}
-void* __dso_handle = nullptr;
-
 }  // extern "C"
 
 namespace {
@@ -93,12 +85,15 @@ TableSlot slot(std::uint32_t* begin, const std::uint32_t* end) {
 /// Puts the table in flash to use, if there is one.
 void use_table_in_flash() {
   const auto* const header = reinterpret_cast<const TableHeader*>(__table_start);
+  if (header->magic == kErased || header->magic == 0) {
+    return;
+  }
   const std::size_t room =
       static_cast<std::size_t>(__table_end - __table_start) * sizeof(std::uint32_t);
   Table table;
-  if (header->size <= room && Table::open(header, header->size, &table) == Result::ok) {
-    node->node()->start_with(TableStore::kFixed, table);
-  }
+  const Result opened = header->size <= room ? Table::open(header, header->size, &table)
+                                             : Table::open(header, room, &table);
+  node->node()->start_with(TableStore::kFixed, table, opened);
 }
 
 void report_last_words() {
@@ -145,12 +140,12 @@ int main() {
   start_steps();
   board::start_watchdog(kWatchdogTime);
   for (std::uint32_t seen = 0;;) {
-    check_table();
-    node->set_stack_used(flexcomp::cortex_m7::stack_used());
     const std::uint32_t done = steps.load(std::memory_order_relaxed);
     if (done != seen) {
       board::feed_watchdog();
       seen = done;
+      check_table();
+      node->set_stack_used(flexcomp::cortex_m7::stack_used());
     }
     asm volatile("wfi");
   }

@@ -85,11 +85,13 @@ Result Node::put_to_use(const Table& table) {
   return result;
 }
 
-Result Node::start_with(std::size_t place, const Table& table) {
-  const Result result = put_to_use(table);
+Result Node::start_with(std::size_t place, const Table& table, Result opened) {
+  const Result result = opened == Result::ok ? put_to_use(table) : opened;
   table_result_ = number(result);
   if (result == Result::ok) {
     store_.use(place, &table.header(), table.header().size);
+  } else {
+    announce(kTableRefusedCode, number(result));
   }
   return result;
 }

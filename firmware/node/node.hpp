@@ -57,7 +57,7 @@ class Node {
 
   /// A table that has been opened, at start from slot 0 or 1 or TableStore::kFixed, or from a
   /// completed transfer: put to use between two ticks, or refused with a reason that `arm` repeats.
-  Result start_with(std::size_t place, const Table& table);
+  Result start_with(std::size_t place, const Table& table, Result opened = Result::ok);
   Result conclude_transfer(Result opened, const Table& table);
   const void* received_table(std::size_t* size) const { return store_.received(size); }
 

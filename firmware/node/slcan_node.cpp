@@ -14,8 +14,9 @@ constexpr std::uint8_t kDone = '\r';
 constexpr std::uint8_t kError = '\a';
 
 std::int64_t in_nanoseconds(float period) {
-  constexpr float kLongest = 4.0F;  // s
-  return static_cast<std::uint32_t>(1e9F * std::fmin(period, kLongest) + 0.5F);
+  constexpr float kLongest = 4000.0F;  // s
+  // Whole microseconds, which a float holds exactly where nanoseconds are rounded.
+  return 1000 * std::int64_t{static_cast<std::uint32_t>(1e6F * std::fmin(period, kLongest) + 0.5F)};
 }
 
 }  // namespace
@@ -32,18 +33,18 @@ SlcanNode::SlcanNode(const NodeSettings& settings, Bytes* received, Bytes* to_se
     const NodeConfig config = default_node_config();  // without a model hash: it takes no table
     node_.configure(config);
     period_ = in_nanoseconds(config.compensator.period);
+    trigger_ = Trigger::clock;
     node_.announce(kConfigRefusedCode, static_cast<std::uint32_t>(Result::bad_config));
   }
+  due_at_ = period_;
 }
 
 void SlcanNode::step(std::int64_t now) {
   exchange_tables();
   take_bytes(now);
-  const std::int64_t since = now - ticked_at_;
-  const bool due = (trigger_ == Trigger::clock && since >= period_) ||
-                   (trigger_ == Trigger::setpoint && since >= period_ + period_ / 2);
-  if (due) {
+  if (trigger_ != Trigger::lockstep && now >= due_at_) {
     tick(now);
+    due_at_ = now - due_at_ < period_ ? due_at_ + period_ : now + period_;
   }
 }
 
@@ -78,8 +79,13 @@ void SlcanNode::on_setpoint(std::int64_t now) {
   if (trigger_ == Trigger::lockstep) {
     ++steps_;
     tick(steps_ * period_);
-  } else if (trigger_ == Trigger::setpoint && now - ticked_at_ >= period_ / 2) {
-    tick(now);
+  } else if (trigger_ == Trigger::setpoint) {
+    if (now - ticked_at_ >= period_ / 2) {
+      tick(now);
+    }
+    // The next one makes the next tick, even if it is a little late; also where this one came soon
+    // after a tick without any, so that ticks fall into step with the setpoints.
+    due_at_ = now + period_ + period_ / 2;
   }
 }
 

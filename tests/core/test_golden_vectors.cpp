@@ -65,6 +65,7 @@ void compare(const GoldenValues<Scalar>& found, const Bits (&golden)[Size]) {
     const double unit =
         largest_of(expected) * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
     for (std::size_t i = 0; i < expected.size(); ++i) {
+      TEST_ASSERT_TRUE_MESSAGE(std::isfinite(group.values[i]), group.name.c_str());
       const double off = std::fabs(static_cast<double>(group.values[i]) - expected[i]);
       const double units = off > 0 ? off / unit : 0;
       worst_name = units > worst ? group.name : worst_name;

@@ -61,7 +61,8 @@ class Board:
             self.line, line = None, self.line
             self.process.kill()
             self.process.wait()
-            line.close()
+            if line is not None:
+                line.close()
             self.process = None
 
     def close(self):

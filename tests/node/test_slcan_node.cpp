@@ -160,6 +160,27 @@ void by_the_clock_it_ticks_every_period_whatever_comes() {
   TEST_ASSERT_EQUAL(0, bench.inner()->late_ticks());
 }
 
+void a_period_that_is_no_whole_number_of_steps_is_kept_on_average() {
+  for (const float period : {0.008F, 0.0025F, 0.016F}) {
+    NodeSettings odd = settings(Trigger::clock);
+    odd.node.compensator.period = period;
+    SerialBench bench(odd);
+    bench.step(2000);
+    TEST_ASSERT_UINT64_WITHIN(1, static_cast<std::uint64_t>(2.0F / period + 0.5F),
+                              bench.inner()->ticks());
+    TEST_ASSERT_EQUAL(0, bench.inner()->late_ticks());
+  }
+}
+
+void without_setpoints_it_ticks_every_period_too() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.machine(10);
+  const std::uint64_t before = bench.inner()->ticks();
+  bench.step(1000);
+  TEST_ASSERT_UINT64_WITHIN(1, before + 250, bench.inner()->ticks());
+  TEST_ASSERT_EQUAL(0, bench.inner()->late_ticks());
+}
+
 void in_lockstep_it_ticks_for_every_setpoint_however_fast() {
   SerialBench bench(settings(Trigger::lockstep));
   bench.step(1000);
@@ -273,6 +294,8 @@ int main() {
   RUN_TEST(it_corrects_what_comes_over_the_line);
   RUN_TEST(every_setpoint_is_answered_in_its_step_and_makes_one_tick);
   RUN_TEST(by_the_clock_it_ticks_every_period_whatever_comes);
+  RUN_TEST(a_period_that_is_no_whole_number_of_steps_is_kept_on_average);
+  RUN_TEST(without_setpoints_it_ticks_every_period_too);
   RUN_TEST(in_lockstep_it_ticks_for_every_setpoint_however_fast);
   RUN_TEST(a_silent_line_makes_it_fade_out_and_latch);
   RUN_TEST(spoilt_text_counts_and_makes_it_fade_out_and_latch);

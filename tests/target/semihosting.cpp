@@ -39,7 +39,8 @@ void main_returned(int result) {
   _exit(result);
 }
 
-void fault_reported(const flexcomp::cortex_m7::FaultReport& report) {
+/// Programs that expect a fault have their own.
+[[gnu::weak]] void fault_reported(const flexcomp::cortex_m7::FaultReport& report) {
   std::printf("fault at %08lx, called from %08lx: CFSR %08lx, HFSR %08lx, BFAR %08lx\n",
               static_cast<unsigned long>(report.program_counter),
               static_cast<unsigned long>(report.link_register),

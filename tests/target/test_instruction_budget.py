@@ -1,6 +1,6 @@
 """The budget of the firmware: instructions of a tick and of its parts, counted in QEMU, and the sizes
-of the image. Fails where one has grown by more than 5 % over instruction_budget.json, or is above what
-the image may have; `--update` writes that file anew. Prints a table, and keeps it for tools/test."""
+of the image. Fails where one has grown by more than 5 % over instruction_budget.json, has shrunk by more
+than 20 %, or is above what the image may have; `--update` writes that file anew. Prints a table, and keeps it for tools/test."""
 
 import json
 import os
@@ -13,6 +13,7 @@ BASELINE = HERE / "instruction_budget.json"
 BIN = pathlib.Path(os.environ["FLEXCOMP_BIN"])
 REPORT = BIN.parent / "instruction_budget.txt"
 GROWTH = 1.05
+LEAST = 0.8  # below it the counter is not to be trusted, or the baseline is old
 LIMITS = {"text": 48 * 1024, "stack_reserved": 8 * 1024}  # bytes
 
 
@@ -48,10 +49,10 @@ def table(counts, image):
     return "\n".join(lines)
 
 
-def grown(found, baseline):
-    """What is more than it was, as sentences."""
+def changed(found, baseline):
+    """What is more than it was, or much less, as sentences."""
     return [f"{name}: {value}, was {baseline[name]}" for name, value in found.items()
-            if name in baseline and value > GROWTH * baseline[name]]
+            if name in baseline and not LEAST * baseline[name] <= value <= GROWTH * baseline[name]]
 
 
 def flat(counts, image):
@@ -68,7 +69,7 @@ def main():
         BASELINE.write_text(json.dumps(found, indent=2) + "\n")
         return 0
     baseline = json.loads(BASELINE.read_text())
-    complaints = grown(found, baseline)
+    complaints = changed(found, baseline)
     complaints += [f"{name}: is not in {BASELINE.name}" for name in found.keys() ^ baseline.keys()]
     complaints += [f"{name}: {image[name]} B, at most {most} B" for name, most in LIMITS.items()
                    if image[name] > most]

@@ -8,8 +8,8 @@ constexpr std::uint32_t kClock = 25'000'000;  // Hz
 SlcanNode::Bytes* received_bytes = nullptr;
 SlcanNode::Bytes* bytes_to_send = nullptr;
 
-/// CMSDK APB UART and watchdog (Arm Cortex-M System Design Kit, technical reference manual, 4.3 and
-/// 4.5).
+/// CMSDK APB UART, timer and watchdog (Arm Cortex-M System Design Kit, technical reference manual,
+/// chapter 4).
 struct Uart {
   std::uint32_t data;
   std::uint32_t state;  ///< bits: 1 sender full, 2 receiver full
@@ -25,6 +25,12 @@ struct Watchdog {
   std::uint32_t clear;
 };
 
+struct Timer {
+  std::uint32_t control;
+  std::uint32_t value;  ///< counts down
+  std::uint32_t reload;
+};
+
 constexpr std::uint32_t kSenderFull = 1;
 constexpr std::uint32_t kReceiverFull = 2;
 constexpr std::uint32_t kSenderInterrupt = 1;
@@ -32,6 +38,8 @@ constexpr std::uint32_t kReceiverInterrupt = 2;
 constexpr std::uint32_t kSenderVector = 1;  // the receiver's is 0
 
 volatile Uart* uart() { return reinterpret_cast<volatile Uart*>(0x40004000); }
+
+volatile Timer* timer() { return reinterpret_cast<volatile Timer*>(0x40000000); }
 
 volatile Watchdog* watchdog() { return reinterpret_cast<volatile Watchdog*>(0x40008000); }
 
@@ -73,11 +81,24 @@ void start(SlcanNode::Bytes* received, SlcanNode::Bytes* to_send) {
   uart()->divider = kFastest;
   uart()->control = kSendAndReceiveByInterrupts;
   interrupt_enable() = 3;
+  timer()->reload = 0xFFFFFFFF;
+  timer()->value = 0xFFFFFFFF;
+  timer()->control = 1;
+}
+
+std::int64_t elapsed() {
+  constexpr std::int64_t kNanosecondsATick = 1'000'000'000 / kClock;
+  static std::uint32_t before = 0xFFFFFFFF;
+  const std::uint32_t now = timer()->value;
+  const std::uint32_t ticks = before - now;
+  before = now;
+  return kNanosecondsATick * ticks;
 }
 
 void wake_sender() { interrupt_pending() = 1U << kSenderVector; }
 
-/// Half the time to the interrupt, which goes to the handler of faults; as much again to the reset.
+/// The whole time to the interrupt, which goes to the handler of faults; as much again to the
+/// reset.
 void start_watchdog(std::uint32_t milliseconds) {
   constexpr std::uint32_t kInterruptAndReset = 3;
   watchdog()->load = kClock / 1000 * milliseconds;
