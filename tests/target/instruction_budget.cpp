@@ -6,6 +6,7 @@
 
 #include "core/arc_arms.hpp"
 #include "node/node_on_a_bus.hpp"
+#include "node/slcan_node.hpp"
 #include "target/instruction_counter.hpp"
 
 using namespace flexcomp;
@@ -331,6 +332,48 @@ class WholeTick {
   Counts whole_;
 };
 
+/// A whole step of the firmware: the text of five frames in, a tick, the text of seven out.
+void count_serial_step(const InstructionCounter& counter) {
+  static SlcanNode::Bytes received;
+  static SlcanNode::Bytes to_send;
+  NodeSettings settings;
+  settings.node = test::usual_config();
+  static SlcanNode node(settings, &received, &to_send, {}, {});
+  Table table;
+  Table::open(test::usual_table().data(), 4 * test::usual_table().size(), &table);
+  node.node()->start_with(TableStore::kFixed, table);
+  NodeOnABus sender;
+  Counts counts;
+  std::int64_t now = 0;
+  const auto type = [&](const Message& message) {
+    const FrameList frames = sender.encode(message);
+    for (std::size_t i = 0; i < frames.count; ++i) {
+      const SlcanLine line = to_slcan(frames.frames[i]);
+      for (std::size_t k = 0; k < line.size; ++k) {
+        received.push(static_cast<std::uint8_t>(line.text[k]));
+      }
+    }
+  };
+  type(IdentityMessage{settings.node.compensator.model_hash, WrenchFrame::base});
+  for (int i = 0; i < kTicks + 100; ++i) {
+    type(sender.next_wrench());
+    type(sender.next_setpoint());
+    if (i == 50) {
+      type(CommandMessage{Command::arm});
+    }
+    now += 4'000'000;
+    const std::uint32_t count = counter.count([&] { node.step(now); });
+    std::uint8_t byte = 0;
+    while (to_send.pop(&byte)) {
+    }
+    if (i >= 100) {
+      counts.add_ordinary(count);
+    }
+  }
+  TEST_ASSERT_EQUAL(State::active, node.node()->state());
+  counts.print("serial_step");
+}
+
 }  // namespace
 
 int main() {
@@ -346,6 +389,7 @@ int main() {
   whole.count_ordinary();
   whole.count_hostile();
   whole.print();
+  count_serial_step(counter);
   count_adaptive_robust_control(counter);
   return 0;
 }
