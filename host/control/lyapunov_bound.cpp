@@ -1,5 +1,6 @@
 #include "control/lyapunov_bound.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flexcomp::control {
@@ -10,6 +11,21 @@ double LyapunovBound::at(double start, double time) const {
 
 double LyapunovBound::time_to(double level, double start) const {
   return start <= level ? 0 : std::log((start - residual()) / (level - residual())) / decay;
+}
+
+double boundary_layer(double gain, double largest_bound, double slope_limit) {
+  return std::max(1 / gain, largest_bound * largest_bound / slope_limit);
+}
+
+double layer_drift(double weight, double layer) { return weight * layer / 4; }
+
+double leak_drift(double weight, double leak, const Eigen::Ref<const Eigen::VectorXd>& parameters,
+                  const Eigen::Ref<const Eigen::VectorXd>& rates) {
+  return weight * leak / 2 * parameters.cwiseAbs2().cwiseQuotient(rates).sum();
+}
+
+double filter_drift(double stiffness_factor, double lag_squared, double damping, double inertia) {
+  return stiffness_factor * stiffness_factor * lag_squared / (damping * inertia);
 }
 
 }  // namespace flexcomp::control
