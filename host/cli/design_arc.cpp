@@ -116,9 +116,9 @@ int run(const DesignArcOptions& options) {
   const std::string svg = report::plot_svg(script, 900, 800);
   const std::string png = report::plot_png(script, 900, 800);
   const std::filesystem::path folder = output_folder(options.out);
-  control::write_arc_parameters(folder / "arc.yaml", parameters);
+  control::write_arc_parameters(folder / "arc_gains.yaml", parameters);
   // What stands in the file is what was designed, to the last bit.
-  control::make_controller(control::read_arc_parameters(folder / "arc.yaml"), request.arm);
+  control::make_controller(control::read_arc_parameters(folder / "arc_gains.yaml"), request.arm);
   files::write_text(folder / "arc_gains.h", control::c_header(parameters, robot.name));
   files::write_text(folder / "cost.svg", svg);
   files::write_text(folder / "cost.png", png);
@@ -140,9 +140,9 @@ void add_design_arc(CLI::App* app, Action* action) {
       "Adaptive robust control of the joints, springs included: from what is uncertain of a "
       "robot,\n"
       "as fuzzy sets, to bounds, gains of least cost and what they guarantee.\n\n"
-      "Writes arc.yaml (gains, for programs), arc_gains.h (the same for a controller in C),\n"
+      "Writes arc_gains.yaml (gains, for programs), arc_gains.h (the same for a controller in C),\n"
       "summary.json, and the cost over both gains of a joint as cost.svg and cost.png.\n"
-      "Example: flexcomp design-arc --model robot.yaml --uncertainty uncertainty.yaml --out arc");
+      "Example: flexcomp design-arc --model robot.yaml --uncertainty arc.yaml --out arc");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command
       ->add_option("--uncertainty", options->uncertainty, "design file, see host/control/README.md")

@@ -20,7 +20,7 @@ class Design(Command):
 
     def test_it_writes_parameters_a_header_a_summary_and_pictures(self):
         out, _ = self.design()
-        self.assertEqual({"arc.yaml", "arc_gains.h", "summary.json", "cost.svg", "cost.png"},
+        self.assertEqual({"arc_gains.yaml", "arc_gains.h", "summary.json", "cost.svg", "cost.png"},
                          {path.name for path in out.iterdir()})
         self.assertTrue((out / "cost.png").read_bytes().startswith(b"\x89PNG"))
 
