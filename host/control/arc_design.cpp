@@ -83,7 +83,8 @@ void solve_part(double share, double decay, double damping, const ArcBandwidth& 
   part->problem.effort =
       bandwidth.effort * gain_cost(part->problem).square * std::pow(bound * bound / damping, 4);
   part->cost = gain_cost(part->problem);
-  part->gain = part->cost.best();
+  part->root = part->cost.best();
+  part->gain = std::min(part->root, part->gain_limit / (part->bound_limit * part->bound_limit));
 }
 
 /// W, what one robust term and the adaptation of its bound add to δ at the far ends of the
@@ -95,8 +96,7 @@ double drift_of(const ArcPart<Count>& part, const Eigen::Matrix<double, Count, 1
   for (Eigen::Index m = 0; m < Count; ++m) {
     parameters[m] = part.parameters[static_cast<std::size_t>(m)].support().upper;
   }
-  return layer_drift(weight, boundary_layer(part.gain, part.bound_limit, part.gain_limit)) +
-         leak_drift(weight, leak, parameters, rates);
+  return layer_drift(weight, 1 / part.gain) + leak_drift(weight, leak, parameters, rates);
 }
 
 /// Γ so that at a surface speed of `speed` adaptation against the leak gives the typical bound.

@@ -1,6 +1,5 @@
 #include "control/lyapunov_bound.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace flexcomp::control {
@@ -11,10 +10,6 @@ double LyapunovBound::at(double start, double time) const {
 
 double LyapunovBound::time_to(double level, double start) const {
   return start <= level ? 0 : std::log((start - residual()) / (level - residual())) / decay;
-}
-
-double boundary_layer(double gain, double largest_bound, double slope_limit) {
-  return std::max(1 / gain, largest_bound * largest_bound / slope_limit);
 }
 
 double layer_drift(double weight, double layer) { return weight * layer / 4; }

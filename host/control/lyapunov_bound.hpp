@@ -24,12 +24,8 @@ struct LyapunovBound {
   double time_to(double level, double start) const;
 };
 
-/// W, widest boundary layer ε of a robust term: 1/γ (γ in 1/W), or wider where the limit
-/// (N·m·s/rad) of its slope rules at the largest bound (N·m).
-double boundary_layer(double gain, double largest_bound, double slope_limit);
-
-/// W, what a boundary layer (W) adds to δ: within it a robust term pushes less than its bound. Both
-/// this and the next by the `weight` of the term's side in V.
+/// W, what a boundary layer (W), 1/γ, adds to δ: within it a robust term pushes less than its
+/// bound. Both this and the next by the `weight` of the term's side in V.
 double layer_drift(double weight, double layer);
 
 /// W, what the leak (1/s) of the adaptation adds to δ: ½ leak αᵀ Γ⁻¹ α, with α the true parameters
