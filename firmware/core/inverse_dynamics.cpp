@@ -25,16 +25,29 @@ Matrix3<Scalar> second_moment(const Matrix3<Scalar>& inertia) {
   return inertia.trace() / Scalar(2) * Matrix3<Scalar>::Identity() - inertia;
 }
 
+/// Whether no principal minor of a symmetric matrix, with entries up to about 1, is below zero by
+/// more than `rounding`.
+template <typename Scalar>
+bool is_semidefinite(const Matrix3<Scalar>& p, Scalar rounding) {
+  const Scalar of_xy = p(0, 0) * p(1, 1) - p(0, 1) * p(1, 0);
+  const Scalar of_xz = p(0, 0) * p(2, 2) - p(0, 2) * p(2, 0);
+  const Scalar of_yz = p(1, 1) * p(2, 2) - p(1, 2) * p(2, 1);
+  const Scalar of_all = p.row(0).dot(p.row(1).cross(p.row(2)));
+  return p.diagonal().minCoeff() >= -rounding && of_xy >= -rounding && of_xz >= -rounding &&
+         of_yz >= -rounding && of_all >= -rounding;
+}
+
 /// Symmetric, and of a body: its second moment is positive semidefinite.
 template <typename Scalar>
 bool is_inertia(const Matrix3<Scalar>& inertia) {
-  if (!inertia.allFinite()) {
-    return false;
+  const Scalar size = inertia.cwiseAbs().maxCoeff();
+  if (!inertia.allFinite() || size == Scalar(0)) {
+    return inertia.allFinite();
   }
-  const Scalar rounding = Scalar(1e-4) * inertia.cwiseAbs().maxCoeff();
-  const Matrix3<Scalar> p = second_moment(inertia);
-  return (inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= rounding &&
-         p.diagonal().minCoeff() >= -rounding;
+  constexpr auto kRounding = Scalar(1e-4);
+  const Matrix3<Scalar> unit = inertia / size;
+  return (unit - unit.transpose()).cwiseAbs().maxCoeff() <= kRounding &&
+         is_semidefinite<Scalar>(second_moment<Scalar>(unit), kRounding);
 }
 
 /// Rotation * (turn by the joint angle about z).

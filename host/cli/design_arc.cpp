@@ -37,11 +37,12 @@ nlohmann::ordered_json part_json(const control::ArcPart<Count>& part) {
           {"cost",
            {{"kappa", {part.cost.constant, part.cost.linear, part.cost.square}},
             {"effort", part.cost.effort},
-            {"least", part.cost(part.gain)}}},
+            {"least", part.cost(part.root)},
+            {"at_gain", part.cost(part.gain)}}},
           {"quartic",
            {{"p", part.cost.p()},
             {"r", part.cost.r()},
-            {"root", part.gain},
+            {"root", part.root},
             {"roots_by_companion",
              control::positive_roots_by_companion(part.cost.p(), part.cost.r())}}},
           {"gain", part.gain}};
@@ -83,20 +84,22 @@ nlohmann::ordered_json arc_summary(const model::Robot& robot, const control::Arc
 void print_design(const model::Robot& robot, const control::ArcDesign<6>& design) {
   fmt::print(
       "{}: gains of least fuzzy cost, each the one positive root of its quartic\n"
+      "or, if less (*), the largest gain whose slope keeps within its limit\n"
       "joint   link: bound, N·m   gain, 1/W   motor: bound, N·m   gain, 1/W\n",
       robot.name);
   for (std::size_t i = 0; i < 6; ++i) {
-    fmt::print("  {}   {:>17.4g} {:>11.4g} {:>19.4g} {:>11.4g}\n", i + 1,
-               design.link[i].bound_limit, design.link[i].gain, design.motor[i].bound_limit,
-               design.motor[i].gain);
+    const auto mark = [](const auto& part) { return part.gain < part.root ? '*' : ' '; };
+    fmt::print("  {}   {:>17.4g} {:>11.4g}{} {:>18.4g} {:>11.4g}{}\n", i + 1,
+               design.link[i].bound_limit, design.link[i].gain, mark(design.link[i]),
+               design.motor[i].bound_limit, design.motor[i].gain, mark(design.motor[i]));
   }
   const control::ArcGuarantee& promise = design.guarantee;
   const double level = 1.05 * promise.bound.residual();
   fmt::print(
       "for every arm within the sets: V' <= -{:.3g} V + {:.4g} W; tracking error within "
       "{:.3g} rad after {:.2g} s\n"
-      "(a certificate, some tens to thousands of times what simulations show; see "
-      "flexcomp arc-demo)\n",
+      "(a certificate, in continuous time and without delay of sensors or motors; some tens to "
+      "thousands\nof times what simulations show; see flexcomp arc-demo)\n",
       promise.bound.decay, promise.bound.drift, promise.tracking_error(level),
       promise.bound.time_to(level, promise.start));
 }
@@ -110,15 +113,15 @@ int run(const DesignArcOptions& options) {
   control::make_controller(parameters, request.arm);  // refuses what the core would refuse
   const auto joint = static_cast<std::size_t>(options.picture_joint - 1);
   const std::string script = control::cost_script(
-      design.link[joint].cost, design.motor[joint].cost,
+      design.link[joint], design.motor[joint],
       fmt::format("{}: fuzzy cost of the gains of joint {}", robot.name, options.picture_joint));
   const nlohmann::ordered_json summary = arc_summary(robot, design);
   const std::string svg = report::plot_svg(script, 900, 800);
   const std::string png = report::plot_png(script, 900, 800);
   const std::filesystem::path folder = output_folder(options.out);
-  control::write_arc_parameters(folder / "arc.yaml", parameters);
+  control::write_arc_parameters(folder / "arc_gains.yaml", parameters);
   // What stands in the file is what was designed, to the last bit.
-  control::make_controller(control::read_arc_parameters(folder / "arc.yaml"), request.arm);
+  control::make_controller(control::read_arc_parameters(folder / "arc_gains.yaml"), request.arm);
   files::write_text(folder / "arc_gains.h", control::c_header(parameters, robot.name));
   files::write_text(folder / "cost.svg", svg);
   files::write_text(folder / "cost.png", png);
@@ -140,9 +143,9 @@ void add_design_arc(CLI::App* app, Action* action) {
       "Adaptive robust control of the joints, springs included: from what is uncertain of a "
       "robot,\n"
       "as fuzzy sets, to bounds, gains of least cost and what they guarantee.\n\n"
-      "Writes arc.yaml (gains, for programs), arc_gains.h (the same for a controller in C),\n"
+      "Writes arc_gains.yaml (gains, for programs), arc_gains.h (the same for a controller in C),\n"
       "summary.json, and the cost over both gains of a joint as cost.svg and cost.png.\n"
-      "Example: flexcomp design-arc --model robot.yaml --uncertainty uncertainty.yaml --out arc");
+      "Example: flexcomp design-arc --model robot.yaml --uncertainty arc.yaml --out arc");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command
       ->add_option("--uncertainty", options->uncertainty, "design file, see host/control/README.md")

@@ -81,7 +81,7 @@ std::unique_ptr<simulation::RobotInCut> dynamic_robot(const PlantOptions& option
   simulation::FlexibleArm<6> arm = request.arm;
   arm.model = simulation::with_scaled_compliance(request.arm.model, options.compliance_scale);
   return std::make_unique<control::DynamicMillingRobot>(arm, options.process, controller,
-                                                        options.plant.period);
+                                                        options.plant.period, design.gains.period);
 }
 
 std::unique_ptr<simulation::RobotInCut> robot_in_cut(const PlantOptions& options,
@@ -161,7 +161,10 @@ void add_plant(CLI::App* app, Action* action) {
   command->add_option("--filter-cutoff", options->filter_cutoff, "Hz, of the compensator inside")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out, "recording of the contour to write");
-  command->add_option("--period", options->plant.period, "s, from one setpoint to the next")
+  command
+      ->add_option(
+          "--period", options->plant.period,
+          "s, from one setpoint to the next; with --dynamic a multiple of the design's period")
       ->check(CLI::Range(1e-4, 0.1));
   command->add_flag("--lockstep", options->plant.lockstep,
                     "as fast as answers come, not in real time");
@@ -180,7 +183,7 @@ void add_plant(CLI::App* app, Action* action) {
   command->add_option("--dynamic", options->dynamic,
                       "design file (flexcomp design-arc): links and motors with their inertia on "
                       "springs, the motors under a servo with feed-forward; otherwise at rest at "
-                      "every moment");
+                      "every moment. Gravity is robot.yaml's");
   command->add_flag("--arc", options->arc,
                     "with --dynamic: the joints under adaptive robust control with encoders on the "
                     "links; the table must be that of the robot with joint compliances of zero");

@@ -36,7 +36,7 @@ struct CircleTrial {
 /// Throws InputError where the circle is out of reach or no table can be made.
 std::vector<CircleRun> mill_circle(const CircleTrial& trial);
 
-/// A gnuplot script of the paths, their distance from the circle a hundred times as large.
+/// A gnuplot script of the paths, their distance from the circle fifty times as large.
 std::string circle_script(const std::vector<CircleRun>& runs, double radius,
                           const std::string& title);
 

@@ -42,6 +42,11 @@ void size_part(const Eigen::Matrix<double, Count, 1>& regressor, double gain_lim
   for (Eigen::Index m = 0; m < Count; ++m) {
     largest += part->parameters[static_cast<std::size_t>(m)].support().upper * regressor[m];
   }
+  if (!(largest > 0)) {
+    throw InputError(
+        "nothing is uncertain of one side of a joint: give it a coulomb, viscous, stiffness or "
+        "load set");
+  }
   for (Eigen::Index m = 0; m < Count; ++m) {
     part->typical[m] = std::max(part->parameters[static_cast<std::size_t>(m)].mean(),
                                 kTrace * largest / regressor[m]);
@@ -78,13 +83,20 @@ void solve_part(double share, double decay, double damping, const ArcBandwidth& 
   part->problem.effort =
       bandwidth.effort * gain_cost(part->problem).square * std::pow(bound * bound / damping, 4);
   part->cost = gain_cost(part->problem);
-  part->gain = part->cost.best();
+  part->root = part->cost.best();
+  part->gain = std::min(part->root, part->gain_limit / (part->bound_limit * part->bound_limit));
 }
 
-/// W, largest boundary layer of the robust term: 1/γ, or wider where the limit of its slope rules.
+/// W, what one robust term and the adaptation of its bound add to δ at the far ends of the
+/// supports.
 template <int Count>
-double layer(const ArcPart<Count>& part) {
-  return std::max(1 / part.gain, part.bound_limit * part.bound_limit / part.gain_limit);
+double drift_of(const ArcPart<Count>& part, const Eigen::Matrix<double, Count, 1>& rates,
+                double leak, double weight) {
+  Eigen::Matrix<double, Count, 1> parameters;
+  for (Eigen::Index m = 0; m < Count; ++m) {
+    parameters[m] = part.parameters[static_cast<std::size_t>(m)].support().upper;
+  }
+  return layer_drift(weight, 1 / part.gain) + leak_drift(weight, leak, parameters, rates);
 }
 
 /// Γ so that at a surface speed of `speed` adaptation against the leak gives the typical bound.
@@ -138,6 +150,26 @@ double largest_torque(const simulation::FlexibleArm<Joints>& arm,
   return std::min(asked, arm.torque_limit[joint]);
 }
 
+/// rad, |x₃| at most at the start: the arm at rest off its setpoint by the start error e, its
+/// springs carrying the true weight, the virtual control what the nominal arm would. The link's
+/// bound contains what K⁻¹ G and K₀⁻¹ G₀ differ by; feedback asks for D₀ (q_d'' − k_v S₁ e) more.
+template <int Joints>
+FuzzyNumber start_motor_error(const simulation::FlexibleArm<Joints>& arm,
+                              const ArmUncertainty& uncertainty,
+                              const ArmExtremes<Joints>& extremes, const MotionLimits& motion,
+                              const ArcBandwidth& bandwidth, const ArcPart<3>& link,
+                              Eigen::Index joint) {
+  const FuzzyNumber off = uncertainty.start_error.magnitude();
+  const double weight =
+      extremes.links.weight[joint] + arm.model.payload_mass * extremes.payload.weight[joint];
+  const double row = std::sqrt(Joints) * (extremes.links.inertia[joint] +
+                                          arm.model.payload_mass * extremes.payload.inertia[joint]);
+  const FuzzyNumber acceleration = off * (bandwidth.link_damping * bandwidth.link_rate) +
+                                   FuzzyNumber::crisp(motion.acceleration);
+  const FuzzyNumber torque = link.parameters[0] + link.parameters[1] * weight + acceleration * row;
+  return off + torque * arm.model.joints[static_cast<std::size_t>(joint)].compliance;
+}
+
 template <int Joints>
 void set_bandwidth(const simulation::FlexibleArm<Joints>& arm, const ArcBandwidth& bandwidth,
                    ArcGains<double, Joints>* gains) {
@@ -170,16 +202,18 @@ void guarantee(const simulation::FlexibleArm<Joints>& arm, const ArmUncertainty&
   for (std::size_t i = 0; i < static_cast<std::size_t>(Joints); ++i) {
     const ArcPart<3>& link = design->link[i];
     const ArcPart<4>& motor = design->motor[i];
-    drift += made.stiffness_share * layer(link) / 4 + made.coupling * layer(motor) / 4 +
-             link.problem.drift.support().upper +
-             made.coupling * motor.problem.drift.support().upper;
+    const auto joint = static_cast<Eigen::Index>(i);
+    drift += drift_of<3>(link, design->gains.link_adaptation.row(joint).transpose(), bandwidth.leak,
+                         made.stiffness_share) +
+             drift_of<4>(motor, design->gains.motor_adaptation.row(joint).transpose(),
+                         bandwidth.leak, made.coupling);
     start +=
         link.problem.start.support().upper + made.coupling * motor.problem.start.support().upper;
   }
   // y' κ D⁻¹ κ y / k_v with |y| ≤ 2/ω_f sup|w*'|.
   const Angles<Joints> lag = 2 / bandwidth.filter_frequency * design->elastic_rate;
   made.filter_drift =
-      stiffest * stiffest * lag.squaredNorm() / (bandwidth.link_damping * extremes.least_inertia);
+      filter_drift(stiffest, lag.squaredNorm(), bandwidth.link_damping, extremes.least_inertia);
   made.bound.drift = drift + made.filter_drift;
   made.start = start;
 }
@@ -224,7 +258,7 @@ ArcDesign<Joints> design_arc(const simulation::FlexibleArm<Joints>& arm,
   const double share = uncertainty.stiffness.support().lower;
   design.guarantee.stiffness_share = share;
   design.guarantee.bound.decay =
-      std::min({bandwidth.link_damping, 2 * bandwidth.link_rate, 2 * bandwidth.motor_rate,
+      std::min({bandwidth.link_damping, 2 * bandwidth.link_rate, bandwidth.motor_rate,
                 2 * bandwidth.motor_damping, bandwidth.leak});
   const double decay = design.guarantee.bound.decay;
   const double speed = std::sqrt(Joints) * motion.velocity;
@@ -242,16 +276,18 @@ ArcDesign<Joints> design_arc(const simulation::FlexibleArm<Joints>& arm,
     const auto link_rates = adaptation(link, bandwidth);
     const auto motor_rates = adaptation(motor, bandwidth);
     const FuzzyNumber error = uncertainty.start_error.squared();
+    const FuzzyNumber motor_error =
+        start_motor_error(arm, uncertainty, extremes, motion, bandwidth, link, joint);
     const double surface = bandwidth.link_rate * bandwidth.link_rate;
     const double motor_surface = bandwidth.motor_rate * bandwidth.motor_rate;
     solve_part<3>(share, decay, bandwidth.link_damping * extremes.effective[joint], bandwidth,
                   error * ((extremes.largest_inertia * surface + stiffest[joint]) / 2), link_rates,
                   &link);
     solve_part<4>(1, decay, bandwidth.motor_damping * arm.rotor_inertia[joint], bandwidth,
-                  error * ((uncertainty.rotor_inertia.support().upper * arm.rotor_inertia[joint] *
-                                motor_surface +
-                            design.gains.motor_stiffness[joint]) /
-                           2),
+                  motor_error.squared() * ((uncertainty.rotor_inertia.support().upper *
+                                                arm.rotor_inertia[joint] * motor_surface +
+                                            design.gains.motor_stiffness[joint]) /
+                                           2),
                   motor_rates, &motor);
     design.gains.link_adaptation.row(joint) = link_rates.transpose();
     design.gains.motor_adaptation.row(joint) = motor_rates.transpose();

@@ -35,7 +35,10 @@ struct ArcPart {
   double gain_limit = 0;                      ///< N·m·s/rad
   GainProblem problem;
   GainCost cost{};
-  double gain = 0;  ///< 1/W, γ: root of the quartic
+  double root = 0;  ///< 1/W, gain of least cost: root of the quartic
+  /// 1/W, γ: the root, or less so that the slope never comes to its limit, ρ_max² γ ≤ gain_limit.
+  /// The cost falls up to the root, so this is the best of the gains that are allowed.
+  double gain = 0;
 
   ArcPart();
 };

@@ -23,7 +23,7 @@ ArcParameters arc_parameters(const simulation::FlexibleArm<6>& arm,
 /// Writes them as YAML (schema flexcomp/arc/1), numbers that read back to the same bits.
 void write_arc_parameters(const std::filesystem::path& file, const ArcParameters& parameters);
 
-/// Throws InputError naming file, line and key; also for gains of which the core refuses one.
+/// Throws InputError naming file, line and key.
 ArcParameters read_arc_parameters(const std::filesystem::path& file);
 
 /// The controller that a file describes, for the robot with the file's gravity and payload. Throws

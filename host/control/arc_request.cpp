@@ -130,8 +130,7 @@ ArcBandwidth read_bandwidth(const YamlMap& yaml) {
   return bandwidth;
 }
 
-}  // namespace
-
+/// The robot as an arm: dynamics from its files.
 simulation::FlexibleArm<6> flexible_arm(const model::Robot& robot) {
   simulation::FlexibleArm<6> arm{robot.elastic, robot.link_inertia};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -143,6 +142,8 @@ simulation::FlexibleArm<6> flexible_arm(const model::Robot& robot) {
   }
   return arm;
 }
+
+}  // namespace
 
 ArcRequest read_arc_request(const std::filesystem::path& file, const model::Robot& robot) {
   const YamlMap yaml = model::load_yaml(file);

@@ -28,7 +28,4 @@ struct ArcRequest {
 /// Torque limits are the efforts of the URDF. Throws InputError naming file, line and key.
 ArcRequest read_arc_request(const std::filesystem::path& file, const model::Robot& robot);
 
-/// The robot as an arm: dynamics from its files.
-simulation::FlexibleArm<6> flexible_arm(const model::Robot& robot);
-
 }  // namespace flexcomp::control

@@ -45,13 +45,14 @@ ArcGains<double, Joints> frozen(ArcGains<double, Joints> gains) {
   return gains;
 }
 
-/// Figures between two times, thinned samples on the way.
+/// Figures of the last fifth, thinned samples on the way.
 template <int Joints>
 TrialRun<Joints> run_with(const Trial<Joints>& trial, const std::string& name,
                           const Controller<Joints>& controller, const Arc<Joints>* adaptive) {
   TrialRun<Joints> run;
   run.controller = name;
   TrackingJob<Joints> job;
+  job.period = trial.design.gains.period;
   job.arm = trial.arm;
   job.later_arm = trial.arm;
   job.later_arm->model.payload_mass = trial.load;

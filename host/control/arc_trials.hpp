@@ -16,7 +16,7 @@ struct TrialRun {
   TrackingFigures<Joints> after;   ///< after
   std::vector<double> time;        ///< s
   std::vector<double> error;       ///< rad, norm over the joints
-  /// N·m, adapted bounds of the links; empty for a controller without.
+  /// N·m, constant part of the adapted bounds of the links; empty for a controller without.
   std::vector<JointVector<double, Joints>> bound;
 };
 

@@ -6,14 +6,15 @@
 namespace flexcomp::control {
 
 /// The robot in the cut as it moves: links and motors with their inertia, springs between them, and
-/// a controller of the motors that runs every millisecond. Base, link and tool springs give at
-/// once.
+/// a controller of the motors that runs several times from one setpoint to the next. Base, link and
+/// tool springs give at once.
 class DynamicMillingRobot : public simulation::RobotInCut {
  public:
-  /// `period` (s): of the setpoints. The controller is told the link angles too, and the torque of
-  /// the wrench about the joints, as measured.
+  /// `period` (s): of the setpoints; `control_period` (s): of the controller. Throws InputError
+  /// where the first is no multiple of the second. The controller is told the link angles too, and
+  /// the torque of the wrench about the joints, as measured.
   DynamicMillingRobot(const simulation::FlexibleArm<6>& arm, const simulation::Process& process,
-                      Controller<6> controller, double period);
+                      Controller<6> controller, double period, double control_period);
 
   /// Between setpoints the controller's reference runs straight. The first call finds the robot at
   /// rest there.
@@ -28,7 +29,8 @@ class DynamicMillingRobot : public simulation::RobotInCut {
   simulation::Process process_;
   Controller<6> controller_;
   simulation::FlexibleJointPlant<6> plant_;
-  double period_;
+  double period_;  ///< s
+  int ticks_;      ///< of the controller in a period
   bool is_running_ = false;
   JointVector<double, 6> setpoint_ = JointVector<double, 6>::Zero();
   JointVector<double, 6> speed_ = JointVector<double, 6>::Zero();

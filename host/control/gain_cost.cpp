@@ -39,32 +39,4 @@ GainCost gain_cost(const GainProblem& problem) {
   return cost;
 }
 
-std::pair<double, double> best_coupled(const GainProblem& first, const GainProblem& second) {
-  constexpr int kMostSweeps = 200;
-  // (V₁₀ + V₂₀) and (c₁ + c₂) take the places of V₀ and c in either part.
-  GainProblem both = first;
-  both.start = first.start + second.start;
-  both.drift = first.drift + second.drift;
-  const GainCost alone_first = gain_cost(both);
-  both.share = second.share;
-  both.effort = second.effort;
-  const GainCost alone_second = gain_cost(both);
-  const double mixed = 2 * time_weight(first) * reach(first) * reach(second);
-  const auto given = [&](GainCost cost, double other) {
-    cost.linear -= mixed / other;
-    return cost.best();
-  };
-  double one = alone_first.best();
-  double two = alone_second.best();
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    const double before = one;
-    one = given(alone_first, two);
-    two = given(alone_second, one);
-    if (std::abs(one - before) <= 1e-15 * one) {
-      break;
-    }
-  }
-  return {one, two};
-}
-
 }  // namespace flexcomp::control

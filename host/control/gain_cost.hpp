@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "control/fuzzy.hpp"
 
 namespace flexcomp::control {
@@ -36,9 +34,5 @@ struct GainCost {
 };
 
 GainCost gain_cost(const GainProblem& problem);
-
-/// Gains of least D[∫(η₁ + η₂)²…], the index with both parts together: each quartic with the other
-/// gain held, in turns until neither changes.
-std::pair<double, double> best_coupled(const GainProblem& first, const GainProblem& second);
 
 }  // namespace flexcomp::control

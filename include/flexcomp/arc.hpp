@@ -8,7 +8,8 @@
 namespace flexcomp {
 
 /// Bits of the status word of the adaptive robust controller. The lower half refuse the tick: the
-/// state stays as it is and the torque is the last one. The upper half are remarks. The numbers are
+/// state stays as it is and the torque is the last one, zero before the first and after a restart.
+/// The upper half are remarks. The numbers are
 /// stable.
 enum ArcStatusBit : std::uint32_t {
   kArcInputNotFinite = 1U << 0,  ///< a number of the input is NaN or infinite
@@ -65,7 +66,7 @@ struct ArcInput {
   Angles wanted_velocity = Angles::Zero();  ///< rad/s
   Angles wanted_acceleration = Angles::Zero();  ///< rad/s²
   /// N·m, of the measured wrench on the tool about the joints, Jᵀ·wrench; zero where not measured.
-  /// Either this knows the wrench or a compensator corrects the setpoint for it, never both.
+  /// A compensator beside it corrects only what bends beyond the link encoders.
   Angles external_torque = Angles::Zero();
 };
 
@@ -115,7 +116,8 @@ class AdaptiveRobustController {
   Result configure(const RobotModel<Scalar, Joints>& model,
                    const LinkInertia<Scalar, Joints>& inertia, const Gains& gains);
 
-  /// Forgets what was adapted; the next tick starts the filter where it finds the arm.
+  /// Forgets what was adapted and the last torque, which may be of long ago; the next tick starts
+  /// the filter where it finds the arm.
   void restart();
 
   /// Begins with these parameters instead of none: what was adapted before, or bounds that are

@@ -334,7 +334,7 @@ flexcomp_result_t flexcomp_arc_init(flexcomp_arc_t* arc, const flexcomp_model_t*
                                     const float inertia[FLEXCOMP_JOINTS][9],
                                     const flexcomp_arc_gains_t* gains);
 
-/// Forgets what was adapted. Begin again with `wanted` at the link's angle.
+/// Forgets what was adapted and the last torque. Begin again with `wanted` at the link's angle.
 void flexcomp_arc_restart(flexcomp_arc_t* arc);
 
 /// One control period. Constant time; a refused tick repeats the last torque. FLEXCOMP_OK or

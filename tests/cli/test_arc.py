@@ -20,19 +20,21 @@ class Design(Command):
 
     def test_it_writes_parameters_a_header_a_summary_and_pictures(self):
         out, _ = self.design()
-        self.assertEqual({"arc.yaml", "arc_gains.h", "summary.json", "cost.svg", "cost.png"},
+        self.assertEqual({"arc_gains.yaml", "arc_gains.h", "summary.json", "cost.svg", "cost.png"},
                          {path.name for path in out.iterdir()})
         self.assertTrue((out / "cost.png").read_bytes().startswith(b"\x89PNG"))
 
-    def test_every_gain_is_the_one_root_of_its_quartic(self):
+    def test_every_gain_is_the_one_root_of_its_quartic_or_the_most_the_slope_allows(self):
         summary = json.loads(self.design("--json")[1])
         for joint in summary["joints"]:
             for side in ("link", "motor"):
                 quartic = joint[side]["quartic"]
-                gain = joint[side]["gain"]
+                root = quartic["root"]
                 self.assertEqual(1, len(quartic["roots_by_companion"]))
-                self.assertAlmostEqual(1, quartic["roots_by_companion"][0] / gain, delta=1e-9)
-                self.assertAlmostEqual(1, (gain**4 + quartic["p"] * gain) / quartic["r"], delta=1e-9)
+                self.assertAlmostEqual(1, quartic["roots_by_companion"][0] / root, delta=1e-9)
+                self.assertAlmostEqual(1, (root**4 + quartic["p"] * root) / quartic["r"], delta=1e-9)
+                allowed = joint[side]["gain_limit"] / joint[side]["bound_limit"]**2
+                self.assertAlmostEqual(1, joint[side]["gain"] / min(root, allowed), delta=1e-12)
 
     def test_the_header_compiles_as_c(self):
         out, _ = self.design()
@@ -57,6 +59,13 @@ class Design(Command):
                 design = self.file("design.yaml", text.replace(*change))
                 self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",
                                     self.folder / "arc", saying=saying)
+
+    def test_a_joint_of_which_all_is_certain_is_refused(self):
+        text = DESIGN.read_text()
+        design = self.file("design.yaml", text[:text.index("uncertain:")]
+                           + "uncertain: {start_error: {triangular: [-0.001, 0, 0.001]}}\n")
+        self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",
+                            self.folder / "arc", saying="nothing is uncertain of one side of a joint")
 
     def test_gains_too_fast_for_the_period_are_refused(self):
         design = self.file("design.yaml", DESIGN.read_text() + "bandwidth: {period: 0.004}\n")

@@ -76,11 +76,11 @@ ArcInput<Scalar, 1> pendulum_input(double time) {
   return input;
 }
 
-/// A six-axis arm with skew axes, so that no term of its dynamics is zero by symmetry.
-template <typename Scalar>
-Arm<Scalar, 6> skew_arm() {
-  Arm<Scalar, 6> arm;
-  for (std::size_t i = 0; i < 6; ++i) {
+/// An arm with skew axes, so that no term of its dynamics is zero by symmetry.
+template <typename Scalar, int Joints = 6>
+Arm<Scalar, Joints> skew_arm() {
+  Arm<Scalar, Joints> arm;
+  for (std::size_t i = 0; i < arm.inertia.size(); ++i) {
     const auto n = static_cast<Scalar>(i);
     Joint<Scalar>& joint = arm.model.joints[i];
     joint.origin.position = Vector3<Scalar>(Scalar(0.4), Scalar(0.05) * n, Scalar(0.1));

@@ -222,6 +222,9 @@ void it_goes_on_with_what_was_adapted_before() {
   TEST_ASSERT_EQUAL_DOUBLE(expected, actual);
   again.restart();
   TEST_ASSERT_EQUAL_DOUBLE(0, again.link_parameters().norm());
+  auto refused = input;
+  refused.link[0] = std::nan("");
+  TEST_ASSERT_EQUAL_DOUBLE(0, again.tick(refused).torque[0]);
   TEST_ASSERT_EQUAL(Result::bad_argument,
                     again.set_parameters(-before.link_parameters(), before.motor_parameters()));
   TEST_ASSERT_EQUAL(
@@ -237,9 +240,10 @@ void every_status_has_a_name() {
   TEST_ASSERT_EQUAL_STRING("unknown bit", describe(static_cast<ArcStatusBit>(1U << 30)));
 }
 
-void six_joints_tick() {
-  const Arm<float, 6> arm = skew_arm<float>();
-  ArcGains<float, 6> gains;
+template <int Joints>
+void arms_at_rest_are_held_up() {
+  const Arm<float, Joints> arm = skew_arm<float, Joints>();
+  ArcGains<float, Joints> gains;
   gains.period = 1e-3F;
   gains.link_damping = 20;
   gains.motor_damping = 200;
@@ -254,10 +258,10 @@ void six_joints_tick() {
   gains.torque_limit.setConstant(5000);
   gains.link_adaptation.setOnes();
   gains.motor_adaptation.setOnes();
-  AdaptiveRobustController<float, 6> controller;
+  AdaptiveRobustController<float, Joints> controller;
   TEST_ASSERT_EQUAL(Result::ok, controller.configure(arm.model, arm.inertia, gains));
-  ArcInput<float, 6> input;
-  InverseDynamics<float, 6> dynamics;
+  ArcInput<float, Joints> input;
+  InverseDynamics<float, Joints> dynamics;
   TEST_ASSERT_EQUAL(Result::ok, dynamics.configure(arm.model, arm.inertia));
   const auto weight = dynamics.torque(input.link, input.link, input.link, input.link);
   input.motor = weight * 1e-6F;  // at rest, springs holding the weight
@@ -282,6 +286,7 @@ int main() {
   RUN_TEST(a_configuration_that_cannot_work_is_refused);
   RUN_TEST(it_goes_on_with_what_was_adapted_before);
   RUN_TEST(every_status_has_a_name);
-  RUN_TEST(six_joints_tick);
+  RUN_TEST(arms_at_rest_are_held_up<6>);
+  RUN_TEST(arms_at_rest_are_held_up<7>);
   return UNITY_END();
 }

@@ -127,6 +127,12 @@ void an_impossible_body_is_refused() {
   arm.inertia[3] = Vector3<double>(1, 1, 3).asDiagonal();  // a plate has at most the sum of the two
   TEST_ASSERT_EQUAL(Result::bad_model, made.configure(arm.model, arm.inertia));
   arm.inertia[3] = Matrix3<double>::Identity();
+  arm.inertia[3](0, 1) = arm.inertia[3](1, 0) = 5;  // more than the moments along x and y allow
+  TEST_ASSERT_EQUAL(Result::bad_model, made.configure(arm.model, arm.inertia));
+  // Each pair of axes allows these products of inertia, all three together do not.
+  arm.inertia[3] = Matrix3<double>::Constant(0.4) + 0.6 * Matrix3<double>::Identity();
+  TEST_ASSERT_EQUAL(Result::bad_model, made.configure(arm.model, arm.inertia));
+  arm.inertia[3] = Matrix3<double>::Identity();
   arm.model.joints[2].mass = -1;
   TEST_ASSERT_EQUAL(Result::bad_model, made.configure(arm.model, arm.inertia));
 }
