@@ -232,7 +232,9 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
   const float* spring = table.header().compliance;
   const float* cubic = table.header().cubic_compliance;
   const bool has_weight = table.has_weight();
-  const Wrench<Scalar> load = wrench;  // and below: locals stay in registers
+  // Here and below: locals stay in registers.
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+  const Wrench<Scalar> load = wrench;
   Twist<Scalar> deflection = Twist<Scalar>::Zero();
   TableResponse<Scalar, Joints> response;
 #pragma GCC unroll 6
@@ -271,6 +273,7 @@ void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCurso
   *cursor = TableCursor{nearest.segment, 0};
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type cannot stand in them
 #define FLEXCOMP_PATH_CHART(Scalar, Joints)                                                  \
   template SegmentPlace<Scalar> place_on_segment(const float*, const float*,                 \
                                                  const JointVector<Scalar, Joints>&);        \
@@ -283,6 +286,7 @@ void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCurso
       const Table&, const JointVector<Scalar, Joints>&, const Wrench<Scalar>&, TableCursor*, \
       Scalar*);                                                                              \
   template void locate(const Table&, const JointVector<Scalar, Joints>&, TableCursor*);
+// NOLINTEND(bugprone-macro-parentheses)
 FLEXCOMP_INSTANTIATE(FLEXCOMP_PATH_CHART)
 
 }  // namespace flexcomp

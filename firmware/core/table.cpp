@@ -154,6 +154,7 @@ TableResponse<Scalar, Joints> look_up_response(const Table& table,
   return respond_on_grid<Scalar, Joints>(table, q, wrench, outside);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type cannot stand in them
 #define FLEXCOMP_TABLE(Scalar, Joints)                                                            \
   template TableEntry<Scalar, Joints> look_up(const Table&, const JointVector<Scalar, Joints>&,   \
                                               TableCursor*);                                      \
@@ -162,6 +163,7 @@ TableResponse<Scalar, Joints> look_up_response(const Table& table,
   template TableResponse<Scalar, Joints> look_up_response(                                        \
       const Table&, const JointVector<Scalar, Joints>&, const Wrench<Scalar>&, TableCursor*,      \
       Scalar*);
+// NOLINTEND(bugprone-macro-parentheses)
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE)
 
 }  // namespace flexcomp

@@ -14,8 +14,8 @@ std::uint32_t clock_frequency();
 /// Sets up clock and serial line. From then on interrupts put what arrives into `received`.
 void start(SlcanNode::Bytes* received, SlcanNode::Bytes* to_send);
 
-/// Time (ns) since the last call, from a counter that runs by itself: a step that took long must not
-/// look short. To be called at least once a second.
+/// Time (ns) since the last call, from a counter that runs by itself: a step that took long must
+/// not look short. To be called at least once a second.
 std::int64_t elapsed();
 
 /// There is something in `to_send`: to be sent by interrupts, without waiting here.

@@ -16,7 +16,7 @@ constexpr std::uint8_t kError = '\a';
 std::int64_t in_nanoseconds(float period) {
   constexpr float kLongest = 4000.0F;  // s
   // Whole microseconds, which a float holds exactly where nanoseconds are rounded.
-  return 1000 * std::int64_t{static_cast<std::uint32_t>(1e6F * std::fmin(period, kLongest) + 0.5F)};
+  return std::int64_t{1000} * std::lround(1e6F * std::fmin(period, kLongest));
 }
 
 }  // namespace

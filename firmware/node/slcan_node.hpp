@@ -55,7 +55,7 @@ class SlcanNode {
   Trigger trigger_;
   std::int64_t period_;  ///< ns
   std::int64_t ticked_at_ = 0;
-  std::int64_t due_at_ = 0;  ///< ns, when there is a tick even without a setpoint
+  std::int64_t due_at_ = 0;        ///< ns, when there is a tick even without a setpoint
   std::int64_t steps_ = 0;         ///< of lock-step
   std::uint32_t other_lines_ = 0;  ///< frames of other kinds, and what is none
   std::uint32_t dropped_frames_ = 0;

@@ -177,7 +177,8 @@ typedef struct flexcomp_table_info {
 } flexcomp_table_info_t;
 
 /// Checks a table in place (flash) and opens it. FLEXCOMP_OK, or BAD_ARGUMENT, TABLE_MISALIGNED,
-/// TABLE_TRUNCATED, TABLE_NOT_A_TABLE, TABLE_VERSION, TABLE_CORRUPT. Cost: two passes over the bytes.
+/// TABLE_TRUNCATED, TABLE_NOT_A_TABLE, TABLE_VERSION, TABLE_CORRUPT. Cost: two passes over the
+/// bytes.
 flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table);
 
 /// FLEXCOMP_OK, BAD_ARGUMENT or NO_TABLE (not opened).

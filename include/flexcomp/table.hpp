@@ -132,8 +132,8 @@ template <typename Scalar, int Joints>
 TableResponse<Scalar, Joints> respond(const Table& table, const TableEntry<Scalar, Joints>& entry,
                                       const Wrench<Scalar>& wrench);
 
-/// `respond` of `look_up`, to rounding, and `TableEntry::outside`. What a tick does: for a path table
-/// at a quarter of the instructions, because no entry is formed.
+/// `respond` of `look_up`, to rounding, and `TableEntry::outside`. What a tick does: for a path
+/// table at a quarter of the instructions, because no entry is formed.
 template <typename Scalar, int Joints>
 TableResponse<Scalar, Joints> look_up_response(const Table& table,
                                                const JointVector<Scalar, Joints>& q,

@@ -10,6 +10,7 @@ from command import ROBOTS, SOURCE, Command
 KR360 = ROBOTS / "kr360" / "robot.yaml"
 DESIGN = ROBOTS / "kr360" / "arc.yaml"
 SANITIZED = os.environ.get("FLEXCOMP_SANITIZED") == "ON"
+ONCE_IS_ENOUGH = unittest.skipIf(SANITIZED, "half a minute a design; one shows what the sanitizers can see")
 
 
 class Design(Command):
@@ -24,6 +25,7 @@ class Design(Command):
                          {path.name for path in out.iterdir()})
         self.assertTrue((out / "cost.png").read_bytes().startswith(b"\x89PNG"))
 
+    @ONCE_IS_ENOUGH
     def test_every_gain_is_the_one_root_of_its_quartic_or_the_most_the_slope_allows(self):
         summary = json.loads(self.design("--json")[1])
         for joint in summary["joints"]:
@@ -36,6 +38,7 @@ class Design(Command):
                 allowed = joint[side]["gain_limit"] / joint[side]["bound_limit"]**2
                 self.assertAlmostEqual(1, joint[side]["gain"] / min(root, allowed), delta=1e-12)
 
+    @ONCE_IS_ENOUGH
     def test_the_header_compiles_as_c(self):
         out, _ = self.design()
         program = self.file("use.c", '#include "arc_gains.h"\nint main(void) {\n'
@@ -60,6 +63,7 @@ class Design(Command):
                 self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",
                                     self.folder / "arc", saying=saying)
 
+    @ONCE_IS_ENOUGH
     def test_a_joint_of_which_all_is_certain_is_refused(self):
         text = DESIGN.read_text()
         design = self.file("design.yaml", text[:text.index("uncertain:")]
@@ -67,6 +71,7 @@ class Design(Command):
         self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",
                             self.folder / "arc", saying="nothing is uncertain of one side of a joint")
 
+    @ONCE_IS_ENOUGH
     def test_gains_too_fast_for_the_period_are_refused(self):
         design = self.file("design.yaml", DESIGN.read_text() + "bandwidth: {period: 0.004}\n")
         self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",
