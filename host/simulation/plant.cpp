@@ -12,7 +12,7 @@ constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer in lock-
 constexpr std::uint64_t kIdentityTicks = 50;       // from one announcement to the next
 constexpr double kReadyTime = 0.3;                 // s, of good inputs before arming
 constexpr double kArmingTime = 5;                  // s, to become active
-constexpr double kHoldTime = 0.05;                 // s, without an answer before fading out
+constexpr double kHoldTime = 0.25;                 // s, without an answer before fading out
 constexpr double kFadeTime = 0.5;                  // s
 
 JointAngles to_angles(const JointVector<double, 6>& q) {

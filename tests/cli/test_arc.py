@@ -10,7 +10,7 @@ from command import ROBOTS, SOURCE, Command
 KR360 = ROBOTS / "kr360" / "robot.yaml"
 DESIGN = ROBOTS / "kr360" / "arc.yaml"
 SANITIZED = os.environ.get("FLEXCOMP_SANITIZED") == "ON"
-ONCE_IS_ENOUGH = unittest.skipIf(SANITIZED, "half a minute a design; one shows what the sanitizers can see")
+SLOW = unittest.skipIf(SANITIZED, "half a minute a design; host.gain_design has the same code")
 
 
 class Design(Command):
@@ -19,13 +19,14 @@ class Design(Command):
         printed = self.run_well("design-arc", "--model", KR360, "--uncertainty", DESIGN, "--out", out, *more)
         return out, printed
 
+    @SLOW
     def test_it_writes_parameters_a_header_a_summary_and_pictures(self):
         out, _ = self.design()
         self.assertEqual({"arc_gains.yaml", "arc_gains.h", "summary.json", "cost.svg", "cost.png"},
                          {path.name for path in out.iterdir()})
         self.assertTrue((out / "cost.png").read_bytes().startswith(b"\x89PNG"))
 
-    @ONCE_IS_ENOUGH
+    @SLOW
     def test_every_gain_is_the_one_root_of_its_quartic_or_the_most_the_slope_allows(self):
         summary = json.loads(self.design("--json")[1])
         for joint in summary["joints"]:
@@ -38,7 +39,7 @@ class Design(Command):
                 allowed = joint[side]["gain_limit"] / joint[side]["bound_limit"]**2
                 self.assertAlmostEqual(1, joint[side]["gain"] / min(root, allowed), delta=1e-12)
 
-    @ONCE_IS_ENOUGH
+    @SLOW
     def test_the_header_compiles_as_c(self):
         out, _ = self.design()
         program = self.file("use.c", '#include "arc_gains.h"\nint main(void) {\n'
@@ -63,7 +64,7 @@ class Design(Command):
                 self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",
                                     self.folder / "arc", saying=saying)
 
-    @ONCE_IS_ENOUGH
+    @SLOW
     def test_a_joint_of_which_all_is_certain_is_refused(self):
         text = DESIGN.read_text()
         design = self.file("design.yaml", text[:text.index("uncertain:")]
@@ -71,7 +72,7 @@ class Design(Command):
         self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",
                             self.folder / "arc", saying="nothing is uncertain of one side of a joint")
 
-    @ONCE_IS_ENOUGH
+    @SLOW
     def test_gains_too_fast_for_the_period_are_refused(self):
         design = self.file("design.yaml", DESIGN.read_text() + "bandwidth: {period: 0.004}\n")
         self.assert_refused("design-arc", "--model", KR360, "--uncertainty", design, "--out",

@@ -17,6 +17,8 @@ using namespace flexcomp::simulation;
 
 namespace {
 
+constexpr unsigned kArms = 1000;  // half of one link, half of two
+constexpr unsigned kRivals = 50;
 constexpr double kStartError = 0.03;                 // rad
 constexpr double kAmplitude = 0.4;                   // rad
 constexpr double kFrequency = 2 * 3.14159265 * 0.4;  // rad/s
@@ -169,14 +171,14 @@ void try_guarantee(FlexibleArm<Joints> arm, const ArmUncertainty& set) {
   arm.torque_limit *= 20;  // to begin far off without a clamp, under which nothing is promised
   const ArcDesign<Joints> design = design_arc<Joints>(arm, set, motion(), ArcBandwidth());
   Reached reached;
-  for (unsigned seed = 0; seed < FLEXCOMP_TRIALS / 2; ++seed) {
+  for (unsigned seed = 0; seed < kArms / 2; ++seed) {
     std::mt19937_64 random(seed);
     hold_to_guarantee(arm, set, design, &random, &reached);
   }
   std::printf(
       "%d joints, %d arms: at most %.3f of the uniform, %.3f of the ultimate bounds, %.3f of the "
       "one on V\n",
-      Joints, FLEXCOMP_TRIALS / 2, reached.before, reached.after, reached.function);
+      Joints, static_cast<int>(kArms / 2), reached.before, reached.after, reached.function);
 }
 
 void errors_and_parameters_of_one_link_stay_in_the_computed_balls() {
@@ -200,7 +202,7 @@ void race_against_the_servo(const FlexibleArm<Joints>& arm, const ArmUncertainty
   const ArcDesign<Joints> design = design_arc<Joints>(arm, set, motion(), ArcBandwidth());
   std::vector<double> error;
   std::vector<double> effort;
-  for (unsigned seed = 0; seed < (FLEXCOMP_TRIALS < 100 ? 5 : 50); ++seed) {
+  for (unsigned seed = 0; seed < kRivals; ++seed) {
     std::mt19937_64 random(seed);
     TrackingJob<Joints> job = swing(draw_arm(arm, set, &random), &random);
     job.duration = 5;
