@@ -30,7 +30,7 @@ struct Surface {
     }
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
     for (const Eigen::Vector3d& point : given) {
-      points.push_back(point - mean);
+      points.emplace_back(point - mean);
       moments += points.back() * points.back().transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);

@@ -67,7 +67,7 @@ Points filtered(const Points& points, double cutoff) {
       sum += weights[k] * radii[(i + count + k - reach) % count];
     }
     const double angle = static_cast<double>(i) * step;
-    smooth.push_back(center + sum / total * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    smooth.emplace_back(center + sum / total * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   return smooth;
 }

@@ -40,7 +40,7 @@ Profile::Profile(const Points& points) {
   origin_ = lower + (upper - lower) / 2;
   points_.reserve(points.size());
   for (const Eigen::Vector2d& point : points) {
-    points_.push_back(point - origin_);
+    points_.emplace_back(point - origin_);
     extent_ = std::max(extent_, points_.back().cwiseAbs().maxCoeff());
   }
   if (!std::isfinite(extent_)) {

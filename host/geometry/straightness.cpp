@@ -67,7 +67,7 @@ Straightness minimum_zone_straightness(const Points& points) {
   Points centered;
   centered.reserve(points.size());
   for (const Eigen::Vector2d& point : points) {
-    centered.push_back(point - mean);
+    centered.emplace_back(point - mean);
   }
   const std::vector<std::size_t> hull = convex_hull(centered);
   const std::size_t n = hull.size();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include <mutex>
 #include <optional>
 #include <ostream>
+#include <system_error>
 #include <thread>
 
 #include "error.hpp"
@@ -228,6 +230,16 @@ std::string VolumeMap::fingerprint() const {
   return fmt::format("{:016x}", hash);
 }
 
+namespace {
+
+bool reads_as(const char* text, int* value) {
+  const char* const end = text + std::strlen(text);
+  const auto [rest, error] = std::from_chars(text, end, *value);
+  return error == std::errc() && rest == end;
+}
+
+}  // namespace
+
 Ranks ranks_from_environment() {
   constexpr std::array<std::array<const char*, 2>, 3> kNames = {
       {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
@@ -237,8 +249,9 @@ Ranks ranks_from_environment() {
     const char* rank = std::getenv(rank_name);
     const char* size = std::getenv(size_name);
     if (rank != nullptr && size != nullptr) {
-      const Ranks ranks = {std::atoi(rank), std::atoi(size)};
-      if (ranks.rank >= 0 && ranks.rank < ranks.size) {
+      Ranks ranks;
+      if (reads_as(rank, &ranks.rank) && reads_as(size, &ranks.size) && ranks.rank >= 0 &&
+          ranks.rank < ranks.size) {
         return ranks;
       }
     }

@@ -25,16 +25,25 @@ def ask(order, **values):
     aside = OUTSIDE / "request.new"
     aside.write_text(json.dumps({"order": order} | {name: str(value) for name, value in values.items()}))
     aside.rename(request)
-    while request.exists():
+    wait_until(lambda: not request.exists(), f"nobody did '{order}'")
+
+
+def wait_until(done, complaint, longest=30):
+    end = time.monotonic() + longest
+    while not done():
+        if time.monotonic() > end:
+            raise AssertionError(complaint)
         time.sleep(0.02)
+
+
+def set_interface(*state):
+    return subprocess.run(["ip", "link", "set", BUS, *state], stderr=subprocess.DEVNULL).returncode == 0
 
 
 def setUpModule():
     global interface
     interface = subprocess.Popen([sys.executable, HERE / "serial_can.py"])
-    command = ["ip", "link", "set", BUS, "up", "txqueuelen", "1000"]
-    while subprocess.run(command, stderr=subprocess.DEVNULL).returncode != 0:
-        time.sleep(0.1)
+    wait_until(lambda: set_interface("up", "txqueuelen", "1000"), f"there is no {BUS}")
 
 
 def tearDownModule():
@@ -46,6 +55,8 @@ class Firmware(HilTest):
         settings = self.folder / "settings.bin"
         subprocess.run([BIN / "flexcompd", "--config", job.config, *options, "--settings-out", settings],
                        check=True)
+        set_interface("down")  # what waits to be sent since the test before goes
+        set_interface("up")
         ask("start", settings=settings, table=job.table)
 
 

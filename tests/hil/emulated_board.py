@@ -5,12 +5,12 @@ import contextlib
 import json
 import os
 import pathlib
-import select
 import socket
 import subprocess
-import threading
 import time
 import tty
+
+from relay import carry
 
 SETTINGS_ADDRESS = 0x200000
 TABLE_ADDRESS = 0x300000
@@ -30,9 +30,7 @@ class Board:
         self.fault = None  # "cut" or "corrupt"
         self.process = None
         self.line = None
-        self.ended = False
-        self.thread = threading.Thread(target=self._carry, daemon=True)
-        self.thread.start()
+        carry(lambda: os.read(self.near, 4096), self._to_processor)
 
     def start(self, settings, table):
         self.stop()
@@ -47,7 +45,8 @@ class Board:
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         self.monitor = self._connect(monitor).makefile("rw")
         self.fault = None
-        self.line = self._connect(serial)
+        line = self.line = self._connect(serial)
+        carry(lambda: line.recv(4096), lambda data: os.write(self.near, self._spoilt(data)))
         self.monitor.readline()
         self._order("qmp_capabilities")
         self._order("cont")  # until now the processor stood still
@@ -58,19 +57,10 @@ class Board:
 
     def stop(self):
         if self.process is not None:
-            self.line, line = None, self.line
+            self.line = None
             self.process.kill()
             self.process.wait()
-            if line is not None:
-                line.close()
             self.process = None
-
-    def close(self):
-        self.stop()
-        self.ended = True
-        self.thread.join()
-        os.close(self.near)
-        os.close(self.far)
 
     def _connect(self, path):
         for _ in range(100):
@@ -87,20 +77,13 @@ class Board:
         while "return" not in json.loads(self.monitor.readline()):
             pass
 
-    def _carry(self):
-        while not self.ended:
-            line = self.line
-            ends = [self.near] + ([line] if line else [])
-            with contextlib.suppress(OSError, ValueError):  # the processor may go at any time
-                for end in select.select(ends, [], [], 0.1)[0]:
-                    data = os.read(self.near, 4096) if end is self.near else line.recv(4096)
-                    data = self._spoil(data)
-                    if end is not self.near:
-                        os.write(self.near, data)
-                    elif line:
-                        line.sendall(data)
+    def _to_processor(self, data):
+        line = self.line
+        if line is not None:
+            with contextlib.suppress(OSError):  # it may be stopped at any time
+                line.sendall(self._spoilt(data))
 
-    def _spoil(self, data):
+    def _spoilt(self, data):
         if self.fault == "cut":
             return b""
         if self.fault == "corrupt":

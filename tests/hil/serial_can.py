@@ -4,9 +4,10 @@ Not slcand on the line itself: user-mode Linux does not tell slcan when its seri
 frame, and so slcan would send one only."""
 
 import os
-import select
 import subprocess
 import tty
+
+from relay import carry
 
 
 def main():
@@ -15,9 +16,8 @@ def main():
     for end in (near, far, line):
         tty.setraw(end)
     with subprocess.Popen(["slcand", "-F", "-o", "-s6", "-t", "hw", os.ttyname(far), "slcan0"]):
-        while True:
-            for end in select.select([near, line], [], [])[0]:
-                os.write(line if end == near else near, os.read(end, 4096))
+        carry(lambda: os.read(near, 4096), lambda data: os.write(line, data))
+        carry(lambda: os.read(line, 4096), lambda data: os.write(near, data)).join()
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
 """The firmware image in an emulated board, on the bus: starts the board, and the guest that takes its
 serial line for a CAN interface and plays `cortex_m7_scenarios`. Serves what those ask for."""
 
+import contextlib
 import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -36,7 +38,7 @@ def main():
         environment = dict(os.environ, FLEXCOMP_VCAN="guest", FLEXCOMP_GUEST_SERIAL=board.terminal,
                            FLEXCOMP_BOARD=folder, FLEXCOMP_BUS="slcan0")
         guest = subprocess.Popen([SOURCE / "tools" / "vcan", sys.executable, HERE / "cortex_m7_scenarios.py",
-                                  *sys.argv[1:]], env=environment)
+                                  *sys.argv[1:]], env=environment, start_new_session=True)
         request = pathlib.Path(folder) / "request"
         try:
             while True:
@@ -47,8 +49,9 @@ def main():
                         serve(board, json.loads(request.read_text()))
                         request.unlink()
         finally:
-            guest.terminate()
-            board.close()
+            with contextlib.suppress(ProcessLookupError):  # usually it has ended
+                os.killpg(guest.pid, signal.SIGKILL)
+            board.stop()
 
 
 if __name__ == "__main__":

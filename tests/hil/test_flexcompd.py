@@ -255,7 +255,7 @@ class Tables(Process):
         state = self.folder / "state"
         state.mkdir()
         with Flexcompd(self.job, "--state-directory", state) as node:
-            transfer(self.feeder, table_frames(self.peer, other_table(self.job), words=200))
+            self.feeder.run(1.5, table_frames(self.peer, other_table(self.job), words=200))
             node.process.kill()
         with Flexcompd(self.job, "--state-directory", state) as node:
             self.assertEqual(0, self.feeder.arm())

@@ -120,7 +120,7 @@ std::vector<Values> resonant_modes(const Observations& observations, int joint,
 Hypothesis constant_mode(const Observations& observations, int joint) {
   Courses constant;
   for (const Scene& scene : observations.scenes) {
-    constant.push_back(Eigen::VectorXd::Ones(scene.rows()));
+    constant.emplace_back(Eigen::VectorXd::Ones(scene.rows()));
   }
   Hypothesis hypothesis;
   hypothesis.effect = "resonance";
