@@ -102,4 +102,25 @@ Arm<Scalar, Joints> skew_arm() {
   return arm;
 }
 
+/// Gains of the same order for every joint: to be executed, not to be judged by.
+template <int Joints>
+ArcGains<float, Joints> plain_gains() {
+  ArcGains<float, Joints> gains;
+  gains.period = 1e-3F;
+  gains.link_damping = 20;
+  gains.motor_damping = 200;
+  gains.filter_frequency = 300;
+  gains.leak = 5;
+  for (auto* const part :
+       {&gains.rotor_inertia, &gains.viscous, &gains.link_rate, &gains.motor_rate,
+        &gains.motor_stiffness, &gains.link_gain, &gains.motor_gain, &gains.link_gain_limit,
+        &gains.motor_gain_limit, &gains.link_bound_limit, &gains.motor_bound_limit}) {
+    part->setConstant(10);
+  }
+  gains.torque_limit.setConstant(5000);
+  gains.link_adaptation.setOnes();
+  gains.motor_adaptation.setOnes();
+  return gains;
+}
+
 }  // namespace flexcomp::test

@@ -243,23 +243,9 @@ void every_status_has_a_name() {
 template <int Joints>
 void arms_at_rest_are_held_up() {
   const Arm<float, Joints> arm = skew_arm<float, Joints>();
-  ArcGains<float, Joints> gains;
-  gains.period = 1e-3F;
-  gains.link_damping = 20;
-  gains.motor_damping = 200;
-  gains.filter_frequency = 300;
-  gains.leak = 5;
-  for (auto* const part :
-       {&gains.rotor_inertia, &gains.viscous, &gains.link_rate, &gains.motor_rate,
-        &gains.motor_stiffness, &gains.link_gain, &gains.motor_gain, &gains.link_gain_limit,
-        &gains.motor_gain_limit, &gains.link_bound_limit, &gains.motor_bound_limit}) {
-    part->setConstant(10);
-  }
-  gains.torque_limit.setConstant(5000);
-  gains.link_adaptation.setOnes();
-  gains.motor_adaptation.setOnes();
   AdaptiveRobustController<float, Joints> controller;
-  TEST_ASSERT_EQUAL(Result::ok, controller.configure(arm.model, arm.inertia, gains));
+  TEST_ASSERT_EQUAL(Result::ok,
+                    controller.configure(arm.model, arm.inertia, plain_gains<Joints>()));
   ArcInput<float, Joints> input;
   InverseDynamics<float, Joints> dynamics;
   TEST_ASSERT_EQUAL(Result::ok, dynamics.configure(arm.model, arm.inertia));

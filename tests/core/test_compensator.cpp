@@ -53,19 +53,7 @@ Table open(const std::vector<std::uint32_t>& words) {
 }
 
 Core::Config good_config() {
-  Core::Config config;
-  config.period = kPeriod;
-  config.model_hash = model_hash(kr270<float>());
-  config.force_range = 5000;
-  config.moment_range = 500;
-  config.setpoint_age_limit = 0.004F;
-  config.wrench_age_limit = 0.01F;
-  config.joint_speed.setConstant(2);
-  config.limits.fill(kLimits);
-  config.deflection_limit = 0.01F;
-  config.chart_margin = 0.01F;
-  config.hold_time = 0.05F;
-  config.fade_time = 0.2F;
+  Core::Config config = flexcomp::test::compensator_config();
   config.ready_ticks = 5;
   return config;
 }

@@ -1,11 +1,13 @@
 #include <random>
 #include <vector>
 
+#include "cases.hpp"
 #include "core/test_robots.hpp"
 #include "flexcomp/table_builder.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
+using flexcomp::test::cases;
 using flexcomp::test::kr270;
 using flexcomp::test::kr270_with_everything;
 
@@ -40,7 +42,7 @@ void check_certificate(const RobotModel<double, 6>& model, const Ranges& ranges,
   std::uniform_real_distribution<double> uniform(0, 1);
   TableCursor cursor;
   TableError<double> worst;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < cases(100000); ++i) {
     const double place[4] = {uniform(random), uniform(random), uniform(random), uniform(random)};
     JointVector<double, 6> q = chart_angles<double, 6>(built.table, place);
     q[0] = 6 * uniform(random) - 3;

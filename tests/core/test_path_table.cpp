@@ -2,11 +2,13 @@
 #include <random>
 #include <vector>
 
+#include "cases.hpp"
 #include "core/test_robots.hpp"
 #include "flexcomp/table_builder.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
+using flexcomp::test::cases;
 using flexcomp::test::kr270;
 using flexcomp::test::kr270_with_everything;
 using flexcomp::test::loop_angles;
@@ -70,7 +72,7 @@ void check_certificate(const RobotModel<Scalar, 6>& model, Scalar tolerance) {
   std::uniform_real_distribution<double> uniform(0, kPieces);
   TableCursor cursor;
   TableError<Scalar> worst;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < cases(100000); ++i) {
     const JointVector<Scalar, 6> q = on_program(program, uniform(random));
     locate<Scalar, 6>(built.table, q, &cursor);
     const TableError<Scalar> error = table_error_at<Scalar, 6>(model, built.table, q, &cursor);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "flexcomp/compensator.hpp"
 #include "flexcomp/model.hpp"
 
 namespace flexcomp::test {
@@ -68,6 +69,24 @@ JointVector<Scalar, 6> loop_angles(double phase) {
       static_cast<Scalar>(0.8 + 0.05 * std::cos(phase)),
       static_cast<Scalar>(-0.5 + 0.1 * std::cos(phase));
   return q;
+}
+
+/// A compensator for the KR 270 in ticks of 1 ms, with limits that nothing ordinary reaches.
+inline CompensatorConfig<float, 6> compensator_config() {
+  CompensatorConfig<float, 6> config;
+  config.period = 1e-3F;
+  config.model_hash = model_hash(kr270<float>());
+  config.force_range = 5000;
+  config.moment_range = 500;
+  config.setpoint_age_limit = 0.004F;
+  config.wrench_age_limit = 0.01F;
+  config.joint_speed.setConstant(2);
+  config.limits.fill({0.01F, 0.1F, 5.0F});
+  config.deflection_limit = 0.01F;
+  config.chart_margin = 0.01F;
+  config.hold_time = 0.05F;
+  config.fade_time = 0.2F;
+  return config;
 }
 
 }  // namespace flexcomp::test

@@ -173,7 +173,7 @@ class Running {
                                             {1600, 20, 1e-5F, 1e-5F, 0}, words_.data(),
                                             4 * words_.size(), &size) == Result::ok &&
                  Table::open(words_.data(), size, &table_) == Result::ok &&
-                 core_.configure(config()) == Result::ok && core_.set_table(table_) == Result::ok;
+                 core_.configure(config_) == Result::ok && core_.set_table(table_) == Result::ok;
     input_.setpoint = test::loop_angles<float>(0.1);
     input_.setpoint_age = 1e-3F;
     input_.wrench << 440, 1370, 635, 0, 3, 10.5F;
@@ -191,7 +191,7 @@ class Running {
   /// From full correction to off, at rest, with a fade of so many periods.
   int ticks_to_fade_out(float periods) {
     constexpr int kMost = 2'000'000;
-    Core::Config slow = config();
+    Core::Config slow = config_;
     slow.fade_time = periods * kPeriod;
     bool ready = core_.configure(slow) == Result::ok && core_.set_table(table_) == Result::ok;
     run(20);
@@ -222,23 +222,6 @@ class Running {
   }
 
  private:
-  static Core::Config config() {
-    Core::Config config;
-    config.period = kPeriod;
-    config.model_hash = model_hash(test::kr270<float>());
-    config.force_range = 5000;
-    config.moment_range = 500;
-    config.setpoint_age_limit = 0.004F;
-    config.wrench_age_limit = 0.01F;
-    config.joint_speed.setConstant(2);
-    config.limits.fill(kLimits);
-    config.deflection_limit = 0.01F;
-    config.chart_margin = 0.01F;
-    config.hold_time = 0.05F;
-    config.fade_time = 0.2F;
-    return config;
-  }
-
   static float& number(Core::Input* input, std::size_t place) {
     if (place < 6) {
       return input->setpoint[static_cast<Eigen::Index>(place)];
@@ -276,10 +259,10 @@ class Running {
 
   bool says_what_is_wrong(std::size_t place, float value, std::uint32_t faults) const {
     if (place == 12) {
-      return faults == (value >= 0 && value <= config().setpoint_age_limit ? 0U : kSetpointStale);
+      return faults == (value >= 0 && value <= config_.setpoint_age_limit ? 0U : kSetpointStale);
     }
     if (place == 13) {
-      return faults == (value >= 0 && value <= config().wrench_age_limit ? 0U : kWrenchStale);
+      return faults == (value >= 0 && value <= config_.wrench_age_limit ? 0U : kWrenchStale);
     }
     if (!std::isfinite(value)) {
       return faults == (place < 6 ? kSetpointNotFinite : kWrenchNotFinite);
@@ -314,6 +297,7 @@ class Running {
   std::vector<std::uint32_t> words_;
   Table table_;
   TableHeader header_{};
+  const Core::Config config_ = test::compensator_config();
   Core core_;
   Core::Input input_{};
   Core::Output last_{};

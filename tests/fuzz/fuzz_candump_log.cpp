@@ -1,21 +1,7 @@
 // Any bytes as a log of candump: refused in one line, or read, decoded, and made a recording.
-#include "byte_source.hpp"
-#include "complaint.hpp"
-#include "memory_file.hpp"
-#include "recording/bus_recording.hpp"
-
-using namespace flexcomp;
-using flexcomp::fuzz::MemoryFile;
+#include "bus_log.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const MemoryFile file(data, size);
-  const std::string name = file.path().string();
-  fuzz::expect_one_line_or_none(name, [&] {
-    const auto frames = recording::read_candump_log(file.path());
-    recording::DecodingCounts counts;
-    const auto messages = recording::decode(frames, &counts);
-    fuzz::expect(messages.size() + counts.foreign <= frames.size(), "no message from nothing");
-    recording::to_recording(messages, false, name);
-  });
+  flexcomp::fuzz::expect_recording_or_one_line(data, size, flexcomp::recording::read_candump_log);
   return 0;
 }

@@ -21,17 +21,7 @@ using flexcomp::fuzz::Words;
 constexpr int kMostTicks = 1'000;  // an input
 
 Core::Config usual_config() {
-  Core::Config config;
-  config.period = 1e-3F;
-  config.model_hash = model_hash(test::kr270<float>());
-  config.force_range = 5000;
-  config.moment_range = 500;
-  config.setpoint_age_limit = 0.004F;
-  config.wrench_age_limit = 0.01F;
-  config.joint_speed.setConstant(2);
-  config.limits.fill({0.01F, 0.1F, 5.0F});
-  config.deflection_limit = 0.01F;
-  config.chart_margin = 0.01F;
+  Core::Config config = test::compensator_config();
   config.hold_time = 0.01F;
   config.fade_time = 0.02F;
   config.ready_ticks = 3;

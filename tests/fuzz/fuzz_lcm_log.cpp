@@ -1,22 +1,7 @@
 // Any bytes as an event log of LCM: refused in one line, or read, decoded, and made a recording.
-#include "byte_source.hpp"
-#include "complaint.hpp"
-#include "memory_file.hpp"
-#include "recording/bus_recording.hpp"
-
-using namespace flexcomp;
-using flexcomp::fuzz::MemoryFile;
+#include "bus_log.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const MemoryFile file(data, size);
-  const std::string name = file.path().string();
-  fuzz::expect_one_line_or_none(name, [&] {
-    const auto events = recording::read_lcm_log(file.path());
-    recording::DecodingCounts counts;
-    const auto messages = recording::decode(events, &counts);
-    fuzz::expect(messages.size() + counts.foreign <= events.size(), "no message from nothing");
-    recording::to_recording(messages, false, name);
-    recording::to_recording(messages, true, name);
-  });
+  flexcomp::fuzz::expect_recording_or_one_line(data, size, flexcomp::recording::read_lcm_log);
   return 0;
 }

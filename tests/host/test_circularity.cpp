@@ -13,6 +13,7 @@
 #include <random>
 #include <string>
 
+#include "cases.hpp"
 #include "error.hpp"
 #include "geometry/circularity.hpp"
 #include "recording/csv.hpp"
@@ -26,6 +27,7 @@ using flexcomp::geometry::maximum_inscribed_circularity;
 using flexcomp::geometry::minimum_circumscribed_circularity;
 using flexcomp::geometry::minimum_zone_circularity;
 using flexcomp::geometry::Points;
+using flexcomp::test::cases;
 
 namespace {
 
@@ -219,7 +221,7 @@ void no_small_step_of_the_centre_improves_least_squares() {
 
 void minimum_zone_is_the_best_of_all_candidates() {
   std::mt19937 random(11);
-  for (unsigned set = 0; set < 100; ++set) {
+  for (unsigned set = 0; set < cases(100U); ++set) {
     const double noise = set % 4 == 0 ? 0.3 : 0.01;
     const double arc = set % 3 == 0 ? 0.3 : 2 * kPi;
     const Points points = noisy_profile(8 + random() % 4, 1.0, noise, set, arc);
@@ -233,7 +235,7 @@ void minimum_zone_is_the_best_of_all_candidates() {
 
 void inscribed_circle_is_the_largest_of_all_candidates() {
   std::mt19937 random(12);
-  for (unsigned set = 0; set < 100; ++set) {
+  for (unsigned set = 0; set < cases(100U); ++set) {
     const double arc = set % 3 == 0 ? 1.2 * kPi : 2 * kPi;
     const Points points = noisy_profile(8 + random() % 4, 1.0, 0.2, set, arc);
     double best = 0;

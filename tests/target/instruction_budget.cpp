@@ -184,23 +184,9 @@ void count_compensator(const InstructionCounter& counter, const char* name,
 /// The controller of flexible joints, six of them, that tracks what the compensator asks for.
 void count_adaptive_robust_control(const InstructionCounter& counter) {
   const test::Arm<float, 6> arm = test::skew_arm<float>();
-  ArcGains<float, 6> gains;
-  gains.period = 1e-3F;
-  gains.link_damping = 20;
-  gains.motor_damping = 200;
-  gains.filter_frequency = 300;
-  gains.leak = 5;
-  for (auto* const part :
-       {&gains.rotor_inertia, &gains.viscous, &gains.link_rate, &gains.motor_rate,
-        &gains.motor_stiffness, &gains.link_gain, &gains.motor_gain, &gains.link_gain_limit,
-        &gains.motor_gain_limit, &gains.link_bound_limit, &gains.motor_bound_limit}) {
-    part->setConstant(10);
-  }
-  gains.torque_limit.setConstant(5000);
-  gains.link_adaptation.setOnes();
-  gains.motor_adaptation.setOnes();
   AdaptiveRobustController<float, 6> controller;
-  TEST_ASSERT_EQUAL(Result::ok, controller.configure(arm.model, arm.inertia, gains));
+  TEST_ASSERT_EQUAL(Result::ok,
+                    controller.configure(arm.model, arm.inertia, test::plain_gains<6>()));
   ArcInput<float, 6> input;
   Counts counts;
   const auto count = [&] {
