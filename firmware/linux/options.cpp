@@ -51,6 +51,9 @@ void add_links(CLI::App* app, Options* options) {
   app->add_option("--can", options->can, "CAN interface, such as can0");
   app->add_flag("--fd", options->fd, "answer with CAN FD frames");
   app->add_option("--lcm", options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
+  app->add_option("--key", options->key,
+                  "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
+                  "authenticated with it (CAN only; SECURITY.md)");
   const std::map<std::string, Trigger> triggers = {
       {"setpoint", Trigger::setpoint}, {"clock", Trigger::clock}, {"lockstep", Trigger::lockstep}};
   app->add_option("--trigger", options->settings.trigger,
@@ -162,6 +165,9 @@ void apply(const Typed& typed, Options* options) {
   }
   if (options->can.empty() && options->lcm.empty()) {
     throw CLI::ValidationError("--can or --lcm", "expected at least one of them");
+  }
+  if (!options->key.empty() && !options->lcm.empty()) {
+    throw CLI::ValidationError("--key", "authenticates CAN only: not together with --lcm");
   }
 }
 
