@@ -160,6 +160,9 @@ void apply(const Typed& typed, Options* options) {
   core.model_hash = parse_hash(typed.model_hash);
   options->settings.node.require_identity = !typed.without_identity;
   options->settings.node.use_timestamps = options->settings.trigger != Trigger::lockstep;
+  if (!options->key.empty() && !options->settings_out.empty()) {
+    throw CLI::ValidationError("--key", "a microcontroller has none: not with --settings-out");
+  }
   if (!options->settings_out.empty()) {
     return;  // the microcontroller has its own bus
   }

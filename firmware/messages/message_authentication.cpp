@@ -126,44 +126,53 @@ const FrameList& MessageAuthentication::admit(const CanFrame& frame) {
     }
     return admitted_;
   }
-  Pending& pending = pending_[static_cast<std::size_t>(layout->group)];
-  collect(frame, part != nullptr ? part->part : layout->parts, &pending);
-  if (pending.received == (2U << layout->parts) - 1U) {
-    pending.received = 0;
-    if (is_authentic(*layout, pending)) {
-      std::copy_n(pending.frames.begin(), layout->parts, admitted_.frames.begin());
-      admitted_.count = layout->parts;
-    }
+  Pending* pending = &pending_[static_cast<std::size_t>(layout->group)];
+  if (part != nullptr) {
+    collect(frame, part->part, pending);
+  } else {
+    conclude(*layout, frame, pending);
   }
   return admitted_;
 }
 
 void MessageAuthentication::collect(const CanFrame& frame, std::size_t part, Pending* pending) {
-  const std::uint32_t counter = counter_of(frame);
-  const std::uint32_t bit = 1U << part;
-  const bool begins_another = counter != pending->counter || (pending->received & bit) != 0;
-  if (pending->received != 0 && begins_another) {
+  if (part == 0) {  // a message that is given up is given up once
+    counters_.unauthenticated += (pending->received & 1U) != 0 && !pending->is_counted ? 1U : 0U;
+    pending->is_counted = false;
+  }
+  pending->received |= 1U << part;
+  pending->parts[part] = frame;
+}
+
+void MessageAuthentication::conclude(const AuthenticationLayout& layout,
+                                     const CanFrame& authentication, Pending* pending) {
+  const std::uint32_t counter = counter_of(authentication);
+  bool is_whole = pending->received == (1U << layout.parts) - 1U;
+  for (std::size_t i = 0; is_whole && i < layout.parts; ++i) {
+    is_whole = counter_of(pending->parts[i]) == counter;
+  }
+  if (!is_whole) {
     ++counters_.unauthenticated;
+  } else if (is_authentic(layout, authentication, *pending)) {
+    std::copy_n(pending->parts.begin(), layout.parts, admitted_.frames.begin());
+    admitted_.count = layout.parts;
     pending->received = 0;
   }
-  pending->counter = counter;
-  pending->received |= bit;
-  pending->frames[part] = frame;
+  pending->is_counted = true;
 }
 
 bool MessageAuthentication::is_authentic(const AuthenticationLayout& layout,
-                                         const Pending& pending) {
-  const CanFrame& received = pending.frames[layout.parts];
+                                         const CanFrame& authentication, const Pending& pending) {
   FreshnessGate& gate = gates_[static_cast<std::size_t>(layout.group)];
   const Freshness clock = clock_();
-  const Freshness freshness = unpack_freshness(received, clock);
+  const Freshness freshness = unpack_freshness(authentication, clock);
   if (!gate.is_fresh(freshness, clock)) {
     ++counters_.not_fresh;
     return false;
   }
   CanFrame expected;
-  if (!make_authentication(layout, pending.frames.data(), freshness, &expected) ||
-      !is_same(expected, received)) {
+  if (!make_authentication(layout, pending.parts.data(), freshness, &expected) ||
+      !is_same(expected, authentication)) {
     ++counters_.forged;
     return false;
   }

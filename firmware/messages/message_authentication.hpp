@@ -31,23 +31,27 @@ class MessageAuthentication {
   /// overwritten by the next call.
   const SealedFrames& seal(const FrameList& message);
 
-  /// What may go on to the decoder now that this frame has come: the frames of a covered message,
-  /// once all of them are there and authentic; any other frame itself. What is returned is
-  /// overwritten by the next call.
+  /// What may go on to the decoder now that this frame has come: the frames of a covered message
+  /// once its authentication comes, which is the last of them; any frame that is not covered
+  /// itself. What is returned is overwritten by the next call.
   const FrameList& admit(const CanFrame& frame);
 
   const AuthenticationCounters& counters() const { return counters_; }
 
  private:
-  /// Frames of a message on their way in; its authentication is the last.
+  /// Of each part of a message the last that came. They stay when an authentication does not fit
+  /// them, which may be a forged one before the genuine.
   struct Pending {
-    std::uint32_t received = 0;  ///< one bit a frame
-    std::uint32_t counter = 0;
-    std::array<CanFrame, kMaxFrameParts + 1> frames{};
+    std::uint32_t received = 0;  ///< one bit a part
+    bool is_counted = false;     ///< as refused
+    std::array<CanFrame, kMaxFrameParts> parts{};
   };
 
   void collect(const CanFrame& frame, std::size_t part, Pending* pending);
-  bool is_authentic(const AuthenticationLayout& layout, const Pending& pending);
+  void conclude(const AuthenticationLayout& layout, const CanFrame& authentication,
+                Pending* pending);
+  bool is_authentic(const AuthenticationLayout& layout, const CanFrame& authentication,
+                    const Pending& pending);
   bool make_authentication(const AuthenticationLayout& layout, const CanFrame* message,
                            Freshness freshness, CanFrame* frame);
 

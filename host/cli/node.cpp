@@ -11,6 +11,7 @@
 #include "core/crc32.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "linux/clock.hpp"
 #include "node/reply.hpp"
 #include "simulation/plant_bus.hpp"
 
@@ -26,11 +27,13 @@ struct NodeOptions {
   double pause = 100e-6;
 };
 
-/// The next message of a kind; throws if none comes in time.
+/// The next message of a kind; throws if none comes in time, however many others do.
 template <typename Kind>
 Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
+  const std::int64_t until = monotonic_now() + kPatience;
   Message message;
-  while (bus->receive(&message, kPatience)) {
+  while (bus->receive(&message, std::max<std::int64_t>(0, until - monotonic_now())) &&
+         monotonic_now() < until) {
     if (const auto* found = std::get_if<Kind>(&message)) {
       return *found;
     }

@@ -11,11 +11,14 @@ import unittest
 
 from bench_on_a_bus import (BIN, BUS, DATABASE, STATES, Flexcompd, HilTest, Job, circularity, decode, decoded,
                             flexcomp, states)
+from test_circle import LARGEST_SHARE
 from test_flexcompd import shared_library
 
 KEY = "3a7f0c9d51e2b8460f1d2c3b4a596877"
 PERIOD = 0.01
+LOCKSTEP_NODE = ("--trigger", "lockstep")
 FORGED_SHIFT = 0.05  # rad
+NOT_AVAILABLE = -6.71  # rad, or below: flexcompd has no setpoint
 PARTS = {"Setpoint": ("SetpointA", "SetpointB", "SetpointC"), "Command": ("Command",),
          "Corrected": ("CorrectedA", "CorrectedB", "CorrectedC", "UncorrectedA", "UncorrectedB",
                        "UncorrectedC", "Status")}
@@ -25,8 +28,8 @@ NAME = {number: name for name, number in IDENTIFIER.items()}
 
 def openssl_cmac(content):
     """Of another library than ours."""
-    done = subprocess.run(["openssl", "mac", "-cipher", "AES-128-CBC", "-macopt", f"hexkey:{KEY}", "-in",
-                           "/dev/stdin", "CMAC"], input=content, capture_output=True, check=True)
+    done = subprocess.run(["openssl", "mac", "-cipher", "AES-128-CBC", "-macopt", f"hexkey:{KEY}", "CMAC"],
+                          input=content, capture_output=True, check=True)
     return bytes.fromhex(done.stdout.decode())
 
 
@@ -41,9 +44,8 @@ def freshness_now():
     return time.time_ns() // 10_000
 
 
-def authenticate(client, name, frames, freshness=None, mac=None):
-    """The frames and their authentication, with a random code where it is said."""
-    freshness = freshness_now() if freshness is None else freshness
+def authenticate(client, name, frames, freshness, mac=None):
+    """The frames and their authentication: the right one, unless another is given."""
     mac = expected_mac(name, frames, freshness) if mac is None else mac
     counter = decode(frames[0])[1]["counter"]
     return [*frames, client.encode(f"{name}Authentication", counter, freshness=freshness & 0xFFFFF, mac=mac)]
@@ -76,7 +78,9 @@ class Attacker:
         self.random = random.Random(1)
         self.setpoints = Sets("Setpoint")
         self.commands = Sets("Command")
+        self.answers = Sets("Corrected")
         self.recorded = None
+        self.answer = None
         self.command = None
         self.heard = []
 
@@ -89,30 +93,37 @@ class Attacker:
             self.heard.append(frame)
             self.recorded = self.setpoints.take(frame) or self.recorded
             self.command = self.commands.take(frame) or self.command
+            self.answer = self.answers.take(frame) or self.answer
 
-    def forged_setpoint(self):
-        """The last one heard, shifted, as the next in sequence: with it the checksums all fit."""
+    def forged(self, heard):
+        """A message that was heard, with its angles shifted, as the next in sequence: its checksums fit."""
         frames = []
-        for name, heard in zip(PARTS["Setpoint"], self.recorded):
-            signals = decode(heard)[1]
-            q = {key: value + FORGED_SHIFT for key, value in signals.items() if key.startswith("q")}
-            frames.append(self.client.encode(name, (signals["counter"] + 1) % 16, **q))
+        for frame in heard:
+            name, signals = decode(frame)
+            counter = (signals.pop("counter") + 1) % 16
+            shifted = {key: value + FORGED_SHIFT if key.startswith("q") else value
+                       for key, value in signals.items() if key != "crc"}
+            frames.append(self.client.encode(name, counter, **shifted))
         return frames
 
     def attack(self):
         if self.recorded is None:
             return
-        forged = self.forged_setpoint()
+        setpoint = self.forged(self.recorded[:3])
         disarm = self.client.frames("Command", command=2)
+        answer = self.forged(self.answer[:7]) if self.answer else []
         mac = self.random.getrandbits(32)
-        for frames in (forged, authenticate(self.client, "Setpoint", forged, mac=mac), disarm,
-                       authenticate(self.client, "Command", disarm, mac=mac), self.recorded):
+        now = freshness_now()
+        for frames in (setpoint, authenticate(self.client, "Setpoint", setpoint, now, mac), disarm, answer,
+                       authenticate(self.client, "Command", disarm, now, mac), self.recorded, self.answer or []):
             for frame in frames:
                 self.client.bus.send(frame)
 
     def uncorrected(self):
         """Joint 1 of the setpoints that flexcompd says it corrected."""
-        return [decode(frame)[1]["q1"] for frame in self.heard if NAME.get(frame.arbitration_id) == "UncorrectedA"]
+        angles = [decode(frame)[1]["q1"] for frame in self.heard
+                  if NAME.get(frame.arbitration_id) == "UncorrectedA"]
+        return [angle for angle in angles if angle > NOT_AVAILABLE]
 
     def true_setpoints(self):
         """Joint 1 of those under the key."""
@@ -126,17 +137,23 @@ class Authentication(HilTest):
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
         folder = pathlib.Path(scratch.name)
-        cls.job = Job(folder, period=PERIOD, radius=0.03)
+        cls.job = Job(folder, "kr270", 0.03, period=PERIOD, radius=0.03)
         with open(cls.job.config, "a") as config:
             config.write("setpoint-age-limit = 0.25\nwrench-age-limit = 0.25\nlate-ticks = 50\n")
         cls.key = folder / "key"
         cls.key.touch(0o600)
         cls.key.write_text(KEY + "\n")
 
-    def plant(self, *options):
-        return subprocess.Popen([str(BIN / "flexcomp"), "plant", "--model", self.job.model, "--path", self.job.path,
-                                 "--period", str(PERIOD), "--bus", f"can:{BUS}", "--json", "--out",
-                                 self.folder / "run.csv", *map(str, options)], stdout=subprocess.PIPE, text=True)
+    def plant(self, *options, bus=f"can:{BUS}"):
+        command = [BIN / "flexcomp", "plant", "--model", self.job.model, "--path", self.job.path, "--period", PERIOD,
+                   "--bus", bus, "--json", "--out", self.folder / "run.csv"]
+        return subprocess.Popen(list(map(str, [*command, *options])), stdout=subprocess.PIPE, text=True)
+
+    def started(self, *options, **more):
+        """flexcompd, past the time for which it takes nothing."""
+        node = Flexcompd(self.job, *options, **more)
+        time.sleep(0.4)
+        return node
 
     def play(self, plant, attacker, pause):
         """Attacks until the plant has ended; what it says."""
@@ -145,32 +162,52 @@ class Authentication(HilTest):
             attacker.attack()
         return json.loads(plant.stdout.read())
 
-    def test_forged_and_replayed_messages_do_not_change_the_correction(self):
+    def circularity_inside(self, *options):
+        """With the compensator in the plant's own process: no bus, no key, nobody else. In lock-step a run on
+        the bus is the same, however much time the attacker takes."""
+        out = self.folder / "inside.csv"
         flexcomp("plant", "--model", self.job.model, "--path", self.job.path, "--table", self.job.table,
-                 "--period", PERIOD, "--without-compensation", "--out", self.folder / "without.csv")
+                 "--period", PERIOD, "--out", out, *options)
+        return circularity(out)
+
+    def test_forged_and_replayed_messages_do_not_change_the_correction(self):
+        undisturbed = self.circularity_inside()
+        without = self.circularity_inside("--without-compensation")
         attacker = Attacker(self.client())
-        with Flexcompd(self.job, "--key", self.key) as node, self.plant("--key", self.key) as plant:
-            summary = self.play(plant, attacker, 0.023)
-            self.assertEqual(0, node.stop())
+        library = shared_library(self.folder, "abort_on_allocation")
+        with self.started("--key", self.key, *LOCKSTEP_NODE, preload=library) as node, \
+                self.plant("--key", self.key, "--lockstep") as plant:
+            summary = self.play(plant, attacker, 0.02)
+            self.assertEqual(0, node.stop(), node.messages())
             statistics = node.statistics()
-        share = circularity(self.folder / "run.csv") / circularity(self.folder / "without.csv")
-        print(f"under attack: {100 * share:.1f} % of the circularity without compensation; "
-              f"{ {name: statistics[name] for name in statistics if name.endswith('_messages')} }")
-        self.assertLessEqual(share, 0.05)
-        self.assertTrue(summary["armed"])
+        self.assertTrue(summary["armed"], summary)
+        attacked = circularity(self.folder / "run.csv")
+        refused = {name: statistics[name] for name in statistics if name.endswith("_messages")}
+        print(f"{1e3 * attacked:.4f} mm under attack, {1e3 * undisturbed:.4f} mm without an attacker, "
+              f"{1e3 * without:.4f} mm uncorrected; {refused}")
+        # A frame that comes between those of a message spoils it, as noise would: some may be lost.
+        self.assertLessEqual(attacked, LARGEST_SHARE * without)
+        self.assertLess(statistics["setpoint"]["lost"], 0.02 * statistics["setpoint"]["received"])
         self.assertEqual(0, summary["node_status"] & 0x0FFF)
         for name in ("forged_messages", "not_fresh_messages", "unauthenticated_messages"):
             self.assertGreater(statistics[name], 50, name)
         self.assertEqual(0, statistics["setpoint"]["contradicting"])
         uncorrected = attacker.uncorrected()
         self.assertGreater(len(uncorrected), 200)
-        self.assertLessEqual({q for q in uncorrected if q == q}, attacker.true_setpoints())
+        self.assertLessEqual(set(uncorrected), attacker.true_setpoints())
+
+    def test_over_can_fd_it_corrects_under_the_key_as_without(self):
+        with self.started("--key", self.key, "--fd", *LOCKSTEP_NODE) as node, \
+                self.plant("--key", self.key, "--lockstep", bus=f"canfd:{BUS}") as plant:
+            self.assertEqual(0, plant.wait())
+            node.stop()
+        self.assertAlmostEqual(self.circularity_inside(), circularity(self.folder / "run.csv"), delta=1e-6)
 
     def test_the_same_attack_succeeds_where_there_is_no_key(self):
         attacker = Attacker(self.client())
         with Flexcompd(self.job) as node, self.plant() as plant:
             attacker.setpoints.names = PARTS["Setpoint"]
-            for _ in range(40):
+            for _ in range(25):
                 attacker.listen(0.023)
                 attacker.attack()
             plant.terminate()
@@ -181,7 +218,7 @@ class Authentication(HilTest):
 
     def test_what_was_recorded_is_refused_after_a_restart(self):
         attacker = Attacker(self.client())
-        with Flexcompd(self.job, "--key", self.key) as node:
+        with self.started("--key", self.key) as node:
             with self.plant("--key", self.key) as plant:
                 while attacker.command is None:
                     attacker.listen(0.1)
@@ -189,33 +226,38 @@ class Authentication(HilTest):
             attacker.listen(0.1)
             self.assertIn("CommandReply", {name for name, _ in decoded(attacker.heard)})
             node.process.kill()
+        attacker.listen(0.1)
         attacker.heard = []
         with Flexcompd(self.job, "--key", self.key, wait=False) as node:
-            for _ in range(40):
+            for _ in range(50):
                 for frame in (*attacker.command, *attacker.recorded):
                     attacker.client.bus.send(frame)
                 attacker.listen(0.02)
             self.assertNotIn("CommandReply", {name for name, _ in decoded(attacker.heard)})
-            self.assertTrue(all(q != q for q in attacker.uncorrected()))
+            self.assertGreater(len(attacker.heard), 50)
+            self.assertEqual([], attacker.uncorrected())
             self.assertEqual("the sender has not said which robot it works with\n",
                              flexcomp("node", "arm", "--bus", f"can:{BUS}", "--key", self.key, code=1))
             node.stop()
-            self.assertGreater(node.statistics()["forged_messages"] + node.statistics()["not_fresh_messages"], 40)
+            self.assertGreater(node.statistics()["forged_messages"] + node.statistics()["not_fresh_messages"], 10)
 
     def test_a_client_made_from_the_dbc_and_another_library_is_understood_both_ways(self):
         client = self.client()
-        with Flexcompd(self.job, "--key", self.key) as node:
-            time.sleep(0.3)
-            for frame in authenticate(client, "Command", client.frames("Command", command=4)):
-                client.bus.send(frame)
-            attacker = Attacker(client)
-            attacker.listen(0.5)
+        with self.started("--key", self.key) as node:
+            listener = Attacker(client)
+            for _ in range(5):  # a busy machine may take too long to start openssl
+                freshness = freshness_now() + 20_000  # ahead of the clock, as is allowed
+                for frame in authenticate(client, "Command", client.frames("Command", command=4), freshness):
+                    client.bus.send(frame)
+                listener.listen(0.4)
+                if any(frame.arbitration_id == IDENTIFIER["CommandReply"] for frame in listener.heard):
+                    break
             node.stop()
-        signals = decoded(attacker.heard)
+        signals = decoded(listener.heard)
         self.assertIn(4, [reply["command"] for name, reply in signals if name == "CommandReply"])
         self.assertLessEqual({9, 10, 11}, {value["name"] for name, value in signals if name == "Statistic"})
         corrected = Sets("Corrected")
-        whole = [frames for frame in attacker.heard if (frames := corrected.take(frame))]
+        whole = [frames for frame in listener.heard if (frames := corrected.take(frame))]
         now = freshness_now()
         last = decode(whole[-1][-1])[1]
         freshness = now - ((now - last["freshness"]) & 0xFFFFF)
@@ -229,18 +271,8 @@ class Authentication(HilTest):
             self.assertIn("nobody answers", done.stderr)
             node.stop()
 
-    def test_with_a_key_the_real_time_thread_does_not_touch_the_heap_either(self):
-        library = shared_library(self.folder, "abort_on_allocation")
-        with Flexcompd(self.job, "--key", self.key, preload=library) as node, \
-                self.plant("--key", self.key) as plant:
-            time.sleep(1.5)
-            plant.terminate()
-            self.assertEqual(0, node.stop(), node.messages())
-            self.assertGreater(node.statistics()["setpoint"]["received"], 50)
-
     def test_a_table_comes_over_the_bus_under_the_key(self):
-        with Flexcompd(self.job, "--key", self.key) as node:
-            time.sleep(0.3)
+        with self.started("--key", self.key) as node:
             bus = ("--bus", f"can:{BUS}")
             self.assertEqual("ok\n", flexcomp("node", "send-table", self.job.table, *bus, "--key", self.key))
             node.stop()

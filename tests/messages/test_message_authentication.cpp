@@ -126,10 +126,10 @@ void a_message_is_held_back_until_all_of_it_is_there() {
   });
 }
 
-void the_frames_of_a_message_may_come_in_any_order() {
+void the_frames_before_the_authentication_may_come_in_any_order() {
   Receiver receiver;
   const Frames frames = Sender().next(covered_messages()[0]);
-  TEST_ASSERT_EQUAL(1, receiver.take(Frames(frames.rbegin(), frames.rend())));
+  TEST_ASSERT_EQUAL(1, receiver.take({frames[2], frames[0], frames[1], frames[3]}));
 }
 
 void what_is_not_covered_goes_through() {
@@ -156,10 +156,11 @@ void a_message_without_authentication_is_refused() {
 }
 
 /// An attempt with the checksum of one frame as it is or made to fit again, which an attacker can
-/// do. A frame of another message before it takes the place of what is left of earlier attempts.
-int attempt(Receiver* receiver, Frames frames, const CanFrame& stray) {
+/// do. `other`, a message without its authentication, takes the place of what is left of earlier
+/// attempts, so that no genuine one comes of them together.
+int attempt(Receiver* receiver, const Frames& frames, const Frames& other) {
   const Freshness before = the_time;
-  frames.insert(frames.begin(), stray);
+  TEST_ASSERT_EQUAL(0, receiver->take(other));
   const int messages = receiver->take(frames);
   the_time = before;
   return messages;
@@ -170,21 +171,22 @@ void no_bit_can_be_changed() {
     Receiver receiver;
     Sender sender(fd);
     const Frames genuine = sender.next(message);
-    const CanFrame stray = sender.next(message)[0];
+    Frames other = sender.next(message);
+    other.pop_back();
     for (std::size_t frame = 0; frame < genuine.size(); ++frame) {
       const std::size_t checksum = genuine[frame].fd ? 16 : 8;
       for (std::size_t bit = 0; bit < std::size_t{8} * genuine[frame].size; ++bit) {
         Frames changed = genuine;
         changed[frame].data[bit / 8] ^= static_cast<std::uint8_t>(1U << (bit % 8));
-        TEST_ASSERT_EQUAL(0, attempt(&receiver, changed, stray));
+        TEST_ASSERT_EQUAL(0, attempt(&receiver, changed, other));
         if (bit >= checksum) {
           protect(&changed[frame]);
-          TEST_ASSERT_EQUAL(0, attempt(&receiver, changed, stray));
+          TEST_ASSERT_EQUAL(0, attempt(&receiver, changed, other));
         }
       }
     }
     TEST_ASSERT_GREATER_THAN(0, receiver.refused().forged);
-    TEST_ASSERT_EQUAL(1, attempt(&receiver, genuine, stray));
+    TEST_ASSERT_EQUAL(1, attempt(&receiver, genuine, other));
   });
 }
 
@@ -289,6 +291,24 @@ void ones_own_message_played_back_is_refused() {
   TEST_ASSERT_EQUAL(1, node.counters().not_fresh);
 }
 
+/// As an attacker's frames may come between those of two messages, and his authentication before
+/// the genuine one.
+void what_is_left_of_a_forged_message_spoils_no_genuine_one() {
+  Receiver receiver;
+  Sender sender;
+  Sender forger(false, other_key());
+  for (int i = 0; i < 100; ++i) {
+    const Frames genuine = sender.next(covered_messages()[0]);
+    const Frames forged = forger.next(covered_messages()[0]);
+    const std::ptrdiff_t first = i % 4;
+    for (std::ptrdiff_t end = first; end <= 4; ++end) {
+      TEST_ASSERT_EQUAL(0, receiver.take(Frames(forged.begin() + first, forged.begin() + end)));
+    }
+    TEST_ASSERT_EQUAL(1,
+                      receiver.take({genuine[0], genuine[1], genuine[2], forged[3], genuine[3]}));
+  }
+}
+
 /// Without a key, two senders latch the correction. With one, only who has the key can do that.
 void forged_and_replayed_messages_are_no_second_sender() {
   Receiver receiver;
@@ -312,7 +332,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(a_genuine_message_is_the_same_as_without_a_key);
   RUN_TEST(a_message_is_held_back_until_all_of_it_is_there);
-  RUN_TEST(the_frames_of_a_message_may_come_in_any_order);
+  RUN_TEST(the_frames_before_the_authentication_may_come_in_any_order);
   RUN_TEST(what_is_not_covered_goes_through);
   RUN_TEST(a_message_without_authentication_is_refused);
   RUN_TEST(no_bit_can_be_changed);
@@ -325,6 +345,7 @@ int main() {
   RUN_TEST(a_receiver_that_restarts_takes_nothing_from_before);
   RUN_TEST(a_sender_that_restarts_is_taken_at_once);
   RUN_TEST(ones_own_message_played_back_is_refused);
+  RUN_TEST(what_is_left_of_a_forged_message_spoils_no_genuine_one);
   RUN_TEST(forged_and_replayed_messages_are_no_second_sender);
   return UNITY_END();
 }
