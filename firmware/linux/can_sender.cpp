@@ -11,11 +11,11 @@ constexpr std::uint32_t kFramesAfterBusFault = 500;
 
 }  // namespace
 
-void CanSender::send(const FrameList& frames) {
-  const std::size_t taken = waiting_ > 0 ? 0 : socket_->send(frames.frames.data(), frames.count);
+void CanSender::send(const CanFrame* frames, std::size_t count) {
+  const std::size_t taken = waiting_ > 0 ? 0 : socket_->send(frames, count);
   taken_ += static_cast<std::uint32_t>(taken);
-  if (taken < frames.count) {
-    dropped_ += static_cast<std::uint32_t>(frames.count - taken);
+  if (taken < count) {
+    dropped_ += static_cast<std::uint32_t>(count - taken);
     if (waiting_ == 0) {
       back_off(kFramesAfterFullQueue);
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "linux/can_socket.hpp"
-#include "messages/can_encoder.hpp"
+#include "messages/can_frame.hpp"
 
 namespace flexcomp {
 
@@ -14,7 +14,7 @@ class CanSender {
  public:
   explicit CanSender(CanSocket* socket) : socket_(socket) {}
 
-  void send(const FrameList& frames);
+  void send(const CanFrame* frames, std::size_t count);
 
   /// To be told what the bus says of itself.
   void observe(CanSocket::Received event);

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <ctime>
 
+#include "messages/freshness.hpp"
+
 namespace flexcomp {
 
 /// The monotonic clock, ns.
@@ -10,6 +12,14 @@ inline std::int64_t monotonic_now() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
   return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+/// The time of day as messages with a key carry it.
+inline Freshness freshness_now() {
+  timespec time{};
+  clock_gettime(CLOCK_REALTIME, &time);
+  return Freshness{100'000} * static_cast<Freshness>(time.tv_sec) +
+         static_cast<Freshness>(time.tv_nsec / 10'000);
 }
 
 }  // namespace flexcomp

@@ -4,6 +4,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "linux/clock.hpp"
+#include "linux/key_file.hpp"
 #include "linux/options.hpp"
 #include "linux/real_time_loop.hpp"
 #include "linux/real_time_thread.hpp"
@@ -93,12 +95,17 @@ int serve(const Options& options, std::function<std::optional<Options>()> reread
   if (node->configure(options.settings.node) != Result::ok) {
     throw std::runtime_error(describe(Result::bad_config));
   }
+  std::unique_ptr<MessageAuthentication> authentication;
+  if (!options.key.empty()) {
+    authentication = std::make_unique<MessageAuthentication>(read_key(options.key), freshness_now);
+  }
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
   auto to_real_time = std::make_unique<Channel<ToRealTime>>();
   auto from_real_time = std::make_unique<Channel<FromRealTime>>();
   Service service(options, std::move(reread), to_real_time.get(), from_real_time.get());
   load_table(options, &slots, node.get());
-  RealTimeLoop loop(options, node.get(), &can, to_real_time.get(), from_real_time.get());
+  RealTimeLoop loop(options, node.get(), &can, authentication.get(), to_real_time.get(),
+                    from_real_time.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
   int exit_code = kDone;
   if (user && !user->become()) {

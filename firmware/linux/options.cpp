@@ -51,6 +51,9 @@ void add_links(CLI::App* app, Options* options) {
   app->add_option("--can", options->can, "CAN interface, such as can0");
   app->add_flag("--fd", options->fd, "answer with CAN FD frames");
   app->add_option("--lcm", options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
+  app->add_option("--key", options->key,
+                  "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
+                  "authenticated with it (CAN only; SECURITY.md)");
   const std::map<std::string, Trigger> triggers = {
       {"setpoint", Trigger::setpoint}, {"clock", Trigger::clock}, {"lockstep", Trigger::lockstep}};
   app->add_option("--trigger", options->settings.trigger,
@@ -157,11 +160,17 @@ void apply(const Typed& typed, Options* options) {
   core.model_hash = parse_hash(typed.model_hash);
   options->settings.node.require_identity = !typed.without_identity;
   options->settings.node.use_timestamps = options->settings.trigger != Trigger::lockstep;
+  if (!options->key.empty() && !options->settings_out.empty()) {
+    throw CLI::ValidationError("--key", "a microcontroller has none: not with --settings-out");
+  }
   if (!options->settings_out.empty()) {
     return;  // the microcontroller has its own bus
   }
   if (options->can.empty() && options->lcm.empty()) {
     throw CLI::ValidationError("--can or --lcm", "expected at least one of them");
+  }
+  if (!options->key.empty() && !options->lcm.empty()) {
+    throw CLI::ValidationError("--key", "authenticates CAN only: not together with --lcm");
   }
 }
 

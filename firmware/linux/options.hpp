@@ -12,6 +12,7 @@ struct Options {
   std::string can;  ///< interface, or empty
   bool fd = false;
   std::string lcm;              ///< address, or empty
+  std::string key;              ///< file with the key for messages on CAN, or empty
   std::string table;            ///< file to start with, or empty
   std::string state_directory;  ///< where tables from the bus are kept, or empty
   std::string statistics;       ///< file for statistics, or empty

@@ -37,11 +37,13 @@ void watch(int epoll, int number) {
 }  // namespace
 
 RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
-                           Channel<ToRealTime>* in, Channel<FromRealTime>* out)
+                           MessageAuthentication* authentication, Channel<ToRealTime>* in,
+                           Channel<FromRealTime>* out)
     : trigger_(options.settings.trigger),
       period_(std::llround(1e9 * static_cast<double>(options.settings.node.compensator.period))),
       node_(node),
       can_(can),
+      authentication_(authentication),
       link_(options.fd, options.settings.tolerated_losses),
       sender_(can),
       use_lcm_(!options.lcm.empty()),
@@ -163,9 +165,20 @@ void RealTimeLoop::take_frames(std::int64_t now) {
       sender_.observe(received);
       continue;
     }
-    if (link_.receive(frame, node_, node_time(now))) {
-      on_setpoint(now);
+    if (authentication_ == nullptr) {
+      take(frame, now);
+      continue;
     }
+    const FrameList& admitted = authentication_->admit(frame);
+    for (std::size_t k = 0; k < admitted.count; ++k) {
+      take(admitted.frames[k], now);
+    }
+  }
+}
+
+void RealTimeLoop::take(const CanFrame& frame, std::int64_t now) {
+  if (link_.receive(frame, node_, node_time(now))) {
+    on_setpoint(now);
   }
 }
 
@@ -226,6 +239,9 @@ void RealTimeLoop::tick(std::int64_t now) {
   state.wrench = state.wrench + lcm_wrench_.counters;
   state.setpoint_conflict |= lcm_setpoint_.has_conflict();
   state.wrench_conflict |= lcm_wrench_.has_conflict();
+  if (authentication_ != nullptr) {
+    state.authentication = authentication_->counters();
+  }
   state.bus_fault = sender_.has_fault();
   state.dropped_frames = sender_.dropped();
   node_->set_link(state);
@@ -250,7 +266,13 @@ void RealTimeLoop::tick(std::int64_t now) {
 
 void RealTimeLoop::send(const Message& message) {
   if (can_->is_open()) {
-    sender_.send(link_.encode(message));
+    const FrameList& frames = link_.encode(message);
+    if (authentication_ != nullptr) {
+      const SealedFrames& sealed = authentication_->seal(frames);
+      sender_.send(sealed.frames.data(), sealed.count);
+    } else {
+      sender_.send(frames.frames.data(), frames.count);
+    }
   }
   if (use_lcm_) {
     out_->send(message);

@@ -4,6 +4,7 @@
 #include "linux/can_socket.hpp"
 #include "linux/exchange.hpp"
 #include "linux/options.hpp"
+#include "messages/message_authentication.hpp"
 #include "node/can_link.hpp"
 
 namespace flexcomp {
@@ -18,8 +19,10 @@ namespace flexcomp {
 /// period is answered with the next.
 class RealTimeLoop {
  public:
-  /// Throws std::runtime_error if the system refuses what it needs.
-  RealTimeLoop(const Options& options, Node* node, CanSocket* can, Channel<ToRealTime>* in,
+  /// `authentication`: of the messages on CAN, or null for none. Throws std::runtime_error if the
+  /// system refuses what it needs.
+  RealTimeLoop(const Options& options, Node* node, CanSocket* can,
+               MessageAuthentication* authentication, Channel<ToRealTime>* in,
                Channel<FromRealTime>* out);
 
   /// Runs until told to stop and the correction is zero.
@@ -37,6 +40,7 @@ class RealTimeLoop {
   void take_messages(std::int64_t now);
   void take(LcmSample* sample, std::int64_t now);
   void take_frames(std::int64_t now);
+  void take(const CanFrame& frame, std::int64_t now);
   void on_setpoint(std::int64_t now);
   void on_timer(std::int64_t now);
   void on_period_end(std::int64_t now);
@@ -51,6 +55,7 @@ class RealTimeLoop {
   std::int64_t period_;  ///< ns
   Node* node_;
   CanSocket* can_;
+  MessageAuthentication* authentication_;
   CanLink link_;
   CanSender sender_;
   bool use_lcm_;

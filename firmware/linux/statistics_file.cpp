@@ -33,7 +33,7 @@ std::string statistics_json(const Snapshot& snapshot) {
     latency +=
         fmt::format("{}{}", bin == 0 ? "" : ", ", value(snapshot, StatisticName::latency, bin));
   }
-  constexpr std::array<std::pair<const char*, StatisticName>, 8> kNames = {{
+  constexpr std::array<std::pair<const char*, StatisticName>, 11> kNames = {{
       {"ticks", StatisticName::ticks},
       {"late_ticks", StatisticName::late_ticks},
       {"clock_jumps", StatisticName::clock_jumps},
@@ -42,9 +42,15 @@ std::string statistics_json(const Snapshot& snapshot) {
       {"implausible_samples", StatisticName::implausible_samples},
       {"foreign_frames", StatisticName::foreign_frames},
       {"dropped_frames", StatisticName::dropped_frames},
+      {"forged_messages", StatisticName::forged_messages},
+      {"not_fresh_messages", StatisticName::not_fresh_messages},
+      {"unauthenticated_messages", StatisticName::unauthenticated_messages},
   }};
   std::string text = "{\n";
   for (const auto& [name, number] : kNames) {
+    if (!snapshot.exists[static_cast<std::size_t>(number)]) {
+      continue;
+    }
     text += fmt::format("  \"{}\": {},\n", name, value(snapshot, number));
   }
   text += fmt::format("  \"setpoint\": {{{}}},\n",

@@ -11,10 +11,6 @@ namespace {
 constexpr std::uint32_t kClassicCounter = 16;
 constexpr std::uint32_t kFdCounter = 256;
 
-std::uint32_t counter_of(const CanFrame& frame) {
-  return frame.fd ? frame.data[2] : frame.data[1] & 0x0FU;
-}
-
 /// FNV-1a: tells contents apart, no more.
 std::uint32_t digest(const CanFrame& frame) {
   std::uint32_t hash = 2166136261U;

@@ -1,5 +1,6 @@
 #include "messages/can_layout.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "flexcomp_can.h"
@@ -52,6 +53,35 @@ constexpr std::array<FrameLayout, 35> kLayouts = {
 
 #undef FRAME
 
+#define AUTHENTICATION(NAME, fd, group, parts)                                                  \
+  AuthenticationLayout {                                                                        \
+    FLEXCOMP_CAN_##NAME##_AUTHENTICATION_FRAME_ID, FLEXCOMP_CAN_##NAME##_AUTHENTICATION_LENGTH, \
+        fd, group, parts                                                                        \
+  }
+
+constexpr std::array<AuthenticationLayout, 12> kAuthentications = {
+    AUTHENTICATION(SETPOINT, false, FrameGroup::setpoint, 3),
+    AUTHENTICATION(SETPOINT_FD, true, FrameGroup::setpoint_fd, 1),
+    AUTHENTICATION(WRENCH, false, FrameGroup::wrench, 2),
+    AUTHENTICATION(WRENCH_FD, true, FrameGroup::wrench_fd, 1),
+    AUTHENTICATION(COMMAND, false, FrameGroup::command, 1),
+    AUTHENTICATION(IDENTITY, false, FrameGroup::identity, 2),
+    AUTHENTICATION(TRANSFER_BEGIN, false, FrameGroup::transfer_begin, 1),
+    AUTHENTICATION(TRANSFER_DATA, false, FrameGroup::transfer_data, 1),
+    AUTHENTICATION(TRANSFER_END, false, FrameGroup::transfer_end, 1),
+    AUTHENTICATION(TRANSFER_DATA_FD, true, FrameGroup::transfer_data_fd, 1),
+    AUTHENTICATION(CORRECTED, false, FrameGroup::corrected, 7),
+    AUTHENTICATION(CORRECTED_FD, true, FrameGroup::corrected_fd, 1),
+};
+
+#undef AUTHENTICATION
+
+template <typename Condition>
+const AuthenticationLayout* first_with(const Condition& holds) {
+  const auto* found = std::find_if(kAuthentications.begin(), kAuthentications.end(), holds);
+  return found == kAuthentications.end() ? nullptr : found;
+}
+
 constexpr std::uint32_t kMostId = FLEXCOMP_CAN_COMMAND_REPLY_FRAME_ID;
 constexpr std::uint8_t kNone = 0xFF;
 
@@ -73,6 +103,14 @@ constexpr std::array<std::uint8_t, kMostId + 1> kIndex = make_index();
 
 const FrameLayout* find_layout(std::uint32_t id) {
   return id <= kMostId && kIndex[id] != kNone ? &kLayouts[kIndex[id]] : nullptr;
+}
+
+const AuthenticationLayout* find_authentication(std::uint32_t id) {
+  return first_with([id](const AuthenticationLayout& layout) { return layout.id == id; });
+}
+
+const AuthenticationLayout* find_authentication(FrameGroup group) {
+  return first_with([group](const AuthenticationLayout& layout) { return layout.group == group; });
 }
 
 }  // namespace flexcomp

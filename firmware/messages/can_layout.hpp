@@ -40,7 +40,21 @@ struct FrameLayout {
   std::uint8_t parts;  ///< frames in the group
 };
 
-/// The layout of a frame by its identifier; null for one that is not ours.
+/// The layout of a frame by its identifier; null for one that is not ours, and for the frames
+/// below.
 const FrameLayout* find_layout(std::uint32_t id);
+
+/// The frame that authenticates the messages of a group, where a key is configured.
+struct AuthenticationLayout {
+  std::uint32_t id;
+  std::uint8_t size;
+  bool fd;
+  FrameGroup group;
+  std::uint8_t parts;  ///< frames in the group, beside this one
+};
+
+/// By its own identifier, or by the group; null for one that is none, or that has none.
+const AuthenticationLayout* find_authentication(std::uint32_t id);
+const AuthenticationLayout* find_authentication(FrameGroup group);
 
 }  // namespace flexcomp

@@ -18,4 +18,9 @@ void protect(CanFrame* frame);
 /// Does the checksum fit? Also false for a frame too short to hold one or longer than 64 bytes.
 bool is_intact(const CanFrame& frame);
 
+/// The counter of a frame that is intact: 4 bits, of an FD frame 8.
+inline std::uint32_t counter_of(const CanFrame& frame) {
+  return frame.fd ? frame.data[2] : frame.data[1] & 0x0FU;
+}
+
 }  // namespace flexcomp

@@ -419,6 +419,15 @@ std::uint64_t Node::statistic(std::uint8_t name, bool* exists) const {
       return link_.dropped_frames;
     case StatisticName::stack_used:
       return link_.stack_used;
+    case StatisticName::forged_messages:
+      *exists = link_.authentication.has_key;
+      return link_.authentication.forged;
+    case StatisticName::not_fresh_messages:
+      *exists = link_.authentication.has_key;
+      return link_.authentication.not_fresh;
+    case StatisticName::unauthenticated_messages:
+      *exists = link_.authentication.has_key;
+      return link_.authentication.unauthenticated;
     default:
       *exists = false;
       return 0;

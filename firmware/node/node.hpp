@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "flexcomp/compensator.hpp"
+#include "messages/authentication_counters.hpp"
 #include "messages/messages.hpp"
 #include "messages/sequence.hpp"
 #include "node/node_status.hpp"
@@ -36,6 +37,7 @@ struct LinkState {
   bool wrench_conflict = false;
   StreamCounters setpoint;
   StreamCounters wrench;
+  AuthenticationCounters authentication;
   std::uint32_t foreign_frames = 0;
   std::uint32_t dropped_frames = 0;  ///< own frames that could not be sent
   std::uint32_t stack_used = 0;      ///< bytes, the most there was; 0: not known

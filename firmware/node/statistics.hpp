@@ -15,7 +15,10 @@ enum class StatisticName : std::uint8_t {
   implausible_samples = 5,
   foreign_frames = 6,
   dropped_frames = 7,
-  stack_used = 8,  ///< bytes, the most there was; 0 where it is not known
+  stack_used = 8,       ///< bytes, the most there was; 0 where it is not known
+  forged_messages = 9,  ///< this and the next two only where a key is configured
+  not_fresh_messages = 10,
+  unauthenticated_messages = 11,
   setpoint_received = 16,
   setpoint_lost = 17,
   setpoint_repeated = 18,

@@ -11,6 +11,7 @@
 #include "core/crc32.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "linux/clock.hpp"
 #include "node/reply.hpp"
 #include "simulation/plant_bus.hpp"
 
@@ -21,15 +22,18 @@ constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer
 
 struct NodeOptions {
   std::string bus;
+  std::string key;
   std::string table;
   double pause = 100e-6;
 };
 
-/// The next message of a kind; throws if none comes in time.
+/// The next message of a kind; throws if none comes in time, however many others do.
 template <typename Kind>
 Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
+  const std::int64_t until = monotonic_now() + kPatience;
   Message message;
-  while (bus->receive(&message, kPatience)) {
+  while (bus->receive(&message, std::max<std::int64_t>(0, until - monotonic_now())) &&
+         monotonic_now() < until) {
     if (const auto* found = std::get_if<Kind>(&message)) {
       return *found;
     }
@@ -38,7 +42,7 @@ Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
 }
 
 int command(const NodeOptions& options, Command wanted) {
-  const auto bus = simulation::open_plant_bus(options.bus);
+  const auto bus = simulation::open_plant_bus(options.bus, options.key);
   bus->send(CommandMessage{wanted});
   CommandReplyMessage reply = wait_for<CommandReplyMessage>(bus.get(), options.bus);
   while (reply.command != wanted) {
@@ -70,7 +74,7 @@ std::vector<std::uint32_t> read_words(const std::string& file, TableHeader* head
 int send_table(const NodeOptions& options) {
   TableHeader header{};
   const std::vector<std::uint32_t> words = read_words(options.table, &header);
-  const auto bus = simulation::open_plant_bus(options.bus);
+  const auto bus = simulation::open_plant_bus(options.bus, options.key);
   const std::uint32_t crc = crc32(words.data(), header.size);
   bus->send(TransferBeginMessage{header.size, crc});
   TransferReplyMessage reply = wait_for<TransferReplyMessage>(bus.get(), options.bus);
@@ -98,6 +102,8 @@ int send_table(const NodeOptions& options) {
 void add_bus(CLI::App* command, NodeOptions* options) {
   command->add_option("--bus", options->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL")
       ->required();
+  command->add_option("--key", options->key,
+                      "file with the key of flexcompd --key, 32 hexadecimal digits (CAN only)");
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct PlantOptions {
   std::string model;
   std::string path;
   std::string bus;
+  std::string key;
   std::string table;
   std::string out;
   std::string dynamic;
@@ -97,6 +98,9 @@ int run(const PlantOptions& options) {
   if (options.bus.empty() == options.table.empty()) {
     throw InputError("expected either --bus, or --table for a compensator inside this process");
   }
+  if (!options.key.empty() && options.bus.empty()) {
+    throw InputError("--key authenticates messages on a bus: it needs --bus");
+  }
   if (options.arc && options.dynamic.empty()) {
     throw InputError("--arc needs --dynamic: a robot that stands still needs no control");
   }
@@ -113,7 +117,7 @@ int run(const PlantOptions& options) {
     bus = simulation::make_inner_bus(node_config(options, known), table->table, false);
     plant_options.lockstep = true;
   } else {
-    bus = simulation::open_plant_bus(options.bus);
+    bus = simulation::open_plant_bus(options.bus, options.key);
   }
   simulation::Contour contour(robot.elastic, recording::read_recording(options.path),
                               options.process.side);
@@ -155,6 +159,9 @@ void add_plant(CLI::App* app, Action* action) {
   command->add_option("--path", options->path, "recording with t, q_cmd and the nominal wrench")
       ->required();
   command->add_option("--bus", options->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL");
+  command->add_option("--key", options->key,
+                      "file with a key of 32 hexadecimal digits: take and send only messages that "
+                      "are\nauthenticated with it, as flexcompd --key does (CAN only)");
   command->add_option("--table", options->table, "table for a compensator inside this process");
   command->add_option("--gain", options->gain, "of the compensator inside")
       ->check(CLI::Range(0.0, 1.0));

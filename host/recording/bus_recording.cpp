@@ -115,6 +115,9 @@ std::vector<LoggedMessage> decode(const std::vector<LoggedFrame>& frames, Decodi
   std::map<std::string, CanDecoder> decoders;
   std::vector<LoggedMessage> messages;
   for (const LoggedFrame& logged : frames) {
+    if (find_authentication(logged.frame.id) != nullptr) {
+      continue;  // without the key nothing can be said about it
+    }
     const Message message = decoders[logged.interface].decode(logged.frame, logged.time);
     if (message.index() != 0) {
       messages.push_back({logged.time, message});

@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "error.hpp"
 #include "linux/can_socket.hpp"
 #include "linux/clock.hpp"
+#include "linux/key_file.hpp"
 #include "linux/lcm_link.hpp"
 #include "messages/can_decoder.hpp"
 #include "messages/can_encoder.hpp"
+#include "messages/message_authentication.hpp"
 #include "node/can_link.hpp"
 
 namespace flexcomp::simulation {
@@ -29,11 +32,22 @@ bool wait_for_input(int number, std::int64_t patience) {
 
 class CanBus : public PlantBus {
  public:
-  CanBus(const std::string& interface, bool fd) : socket_(interface, fd), encoder_(fd) {}
+  /// `key_file`: empty for messages without authentication.
+  CanBus(const std::string& interface, bool fd, const std::string& key_file)
+      : socket_(interface, fd), encoder_(fd) {
+    if (!key_file.empty()) {
+      authentication_.emplace(read_key(key_file), freshness_now);
+    }
+  }
 
   void send(const Message& message) override {
-    const FrameList list = encoder_.encode(message);
-    socket_.send(list.frames.data(), list.count);
+    const FrameList& list = encoder_.encode(message);
+    if (authentication_) {
+      const SealedFrames& sealed = authentication_->seal(list);
+      socket_.send(sealed.frames.data(), sealed.count);
+    } else {
+      socket_.send(list.frames.data(), list.count);
+    }
   }
 
   bool receive(Message* message, std::int64_t patience) override {
@@ -42,8 +56,7 @@ class CanBus : public PlantBus {
       CanFrame frame;
       CanSocket::Received received = socket_.receive(&frame);
       while (received != CanSocket::Received::nothing) {
-        *message = received == CanSocket::Received::frame ? decoder_.decode(frame, monotonic_now())
-                                                          : Message();
+        *message = received == CanSocket::Received::frame ? decode(frame) : Message();
         if (message->index() != 0) {
           return true;
         }
@@ -57,7 +70,21 @@ class CanBus : public PlantBus {
   }
 
  private:
+  /// The message that this frame completes, if it may be used.
+  Message decode(const CanFrame& frame) {
+    if (!authentication_) {
+      return decoder_.decode(frame, monotonic_now());
+    }
+    Message message;
+    const FrameList& admitted = authentication_->admit(frame);
+    for (std::size_t i = 0; i < admitted.count; ++i) {
+      message = decoder_.decode(admitted.frames[i], monotonic_now());  // only the last completes it
+    }
+    return message;
+  }
+
   CanSocket socket_;
+  std::optional<MessageAuthentication> authentication_;
   CanEncoder encoder_;
   CanDecoder decoder_;
 };
@@ -163,13 +190,16 @@ class InnerBus : public PlantBus {
 
 }  // namespace
 
-std::unique_ptr<PlantBus> open_plant_bus(const std::string& address) {
+std::unique_ptr<PlantBus> open_plant_bus(const std::string& address, const std::string& key_file) {
   const std::size_t colon = address.find(':');
   const std::string kind = address.substr(0, colon);
   const std::string rest = colon == std::string::npos ? "" : address.substr(colon + 1);
   try {
     if ((kind == "can" || kind == "canfd") && !rest.empty()) {
-      return std::make_unique<CanBus>(rest, kind == "canfd");
+      return std::make_unique<CanBus>(rest, kind == "canfd", key_file);
+    }
+    if (!key_file.empty()) {
+      throw InputError("--key authenticates messages on CAN only, not on " + address);
     }
     if (kind == "lcm" && !rest.empty()) {
       return std::make_unique<LcmBus>(rest);

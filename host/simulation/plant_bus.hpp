@@ -22,8 +22,9 @@ class PlantBus {
   virtual bool receive(Message* message, std::int64_t patience) = 0;
 };
 
-/// Opens "can:IFACE", "canfd:IFACE" or "lcm:URL". Throws InputError, naming the address.
-std::unique_ptr<PlantBus> open_plant_bus(const std::string& address);
+/// Opens "can:IFACE", "canfd:IFACE" or "lcm:URL". `key_file`: authenticate messages on CAN with the
+/// key there, or empty. Throws InputError, naming the address or the file.
+std::unique_ptr<PlantBus> open_plant_bus(const std::string& address, const std::string& key_file);
 
 /// A node of its own inside this process, on a bus in memory: the same code and the same frames as
 /// on a wire, in lock-step. The table must outlive it. Throws InputError if the node refuses it.

@@ -169,6 +169,21 @@ void a_configuration_is_taken_whole_when_off_and_refused_while_correcting() {
   bus.bring_up();
 }
 
+void refused_messages_are_counted_only_where_there_is_a_key() {
+  Node node;
+  LinkState link;
+  const auto first = static_cast<std::uint8_t>(StatisticName::forged_messages);
+  for (const bool has_key : {false, true}) {
+    link.authentication = {has_key, 10, 11, 12};
+    node.set_link(link);
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      bool exists = !has_key;
+      TEST_ASSERT_EQUAL(10 + i, node.statistic(static_cast<std::uint8_t>(first + i), &exists));
+      TEST_ASSERT_EQUAL(has_key, exists);
+    }
+  }
+}
+
 void a_report_gives_every_statistic() {
   NodeOnABus bus;
   bus.bring_up();
@@ -233,6 +248,7 @@ int main() {
   RUN_TEST(a_table_that_is_damaged_foreign_or_old_is_refused_and_the_one_in_use_stays);
   RUN_TEST(a_transfer_with_a_word_missing_too_large_or_unannounced_is_refused_at_once);
   RUN_TEST(a_configuration_is_taken_whole_when_off_and_refused_while_correcting);
+  RUN_TEST(refused_messages_are_counted_only_where_there_is_a_key);
   RUN_TEST(a_report_gives_every_statistic);
   RUN_TEST(before_the_first_setpoint_it_gives_no_angles);
   RUN_TEST(messages_that_nobody_takes_do_not_pile_up);

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+
+namespace flexcomp {
+
+/// Freshness values number the messages of a sender by the time: units of 10 µs since 1970-01-01
+/// UTC, each more than the one before. So they repeat neither after a restart nor in 5 million
+/// years, and nobody has to keep them.
+using Freshness = std::uint64_t;
+
+/// The time now, in those units; as a parameter so that tests have a clock of their own.
+using FreshnessClock = Freshness (*)();
+
+/// How far a value may be from the receiver's clock: 0.25 s. The clocks have to agree so far; a
+/// message that is held back is taken this much later at most.
+constexpr Freshness kFreshnessWindow = 25'000;
+
+/// The value closest to `clock` whose low `bits` (below 64) are `low`.
+Freshness whole_freshness(Freshness low, unsigned bits, Freshness clock);
+
+/// What the sender of messages gives them.
+class FreshnessSource {
+ public:
+  Freshness next(Freshness clock) {
+    last_ = clock > last_ ? clock : last_ + 1;
+    return last_;
+  }
+
+ private:
+  Freshness last_ = 0;
+};
+
+/// What the receiver of a stream takes: more than the last value taken, and within the window about
+/// its clock. The first value taken is beyond the window at the start, so that nothing that was
+/// sent before a restart can be taken after it; the stream is refused as long.
+class FreshnessGate {
+ public:
+  explicit FreshnessGate(Freshness clock_at_start = 0) : last_(clock_at_start + kFreshnessWindow) {}
+
+  bool is_fresh(Freshness value, Freshness clock) const {
+    return value > last_ && value + kFreshnessWindow >= clock && value <= clock + kFreshnessWindow;
+  }
+
+  /// Nothing up to `value` is fresh any more.
+  void close_up_to(Freshness value) { last_ = value > last_ ? value : last_; }
+
+ private:
+  Freshness last_;
+};
+
+}  // namespace flexcomp
