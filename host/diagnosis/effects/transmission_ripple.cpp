@@ -1,13 +1,33 @@
 #include "diagnosis/effects/effects.hpp"
 
 namespace flexcomp::diagnosis {
+namespace {
+
+/// Are there angles enough for sines of them to show? Through the few postures of a usual load test
+/// some sine goes always.
+bool has_many_angles(const Observations& observations) {
+  constexpr int kEnough = 200;
+  constexpr double kMove = 0.01;  // rad
+  if (!observations.is_static) {
+    return true;
+  }
+  int postures = 0;
+  for (const Simulation& at : observations.simulations) {
+    for (Eigen::Index row = 1; row < at.q.rows(); ++row) {
+      postures += (at.q.row(row) - at.q.row(row - 1)).cwiseAbs().maxCoeff() > kMove ? 1 : 0;
+    }
+  }
+  return postures >= kEnough;
+}
+
+}  // namespace
 
 // Position error of a gear, a sinusoid of the joint's angle (eccentricity, tooth pitch; Sweet and
 // Good 1985 for robots' gears), simulated along the motion. Needs the TCP or link encoders, and two
-// periods of motion.
+// periods of motion, or, standing, many postures.
 std::vector<Hypothesis> transmission_ripple(const Observations& observations) {
   std::vector<Hypothesis> all;
-  if (!(sees_angles(observations) && !observations.is_static)) {
+  if (!(sees_angles(observations) && has_many_angles(observations))) {
     return all;
   }
   for (int joint = 1; joint <= 6; ++joint) {
