@@ -13,17 +13,19 @@ def _bars(topic):
     unit = topic.figures[0].unit
     figures = [figure for figure in topic.figures if figure.unit == unit][::-1]
     least = min(figure.value for figure in figures) / 3
-    ticks = ", ".join(f"{_quoted(figure.name)} {place}" for place, figure in enumerate(figures))
+    # In labels of tics a percent sign begins a format.
+    ticks = ", ".join(f"{_quoted(figure.name.replace('%', '%%'))} {place}" for place, figure in enumerate(figures))
     rows = "\n".join(f"{least:g} {place} {least:g} {figure.value:g} {place - 0.35} {place + 0.35} "
                      f"{_quoted(figure.text())}" for place, figure in enumerate(figures))
     most = max(figure.value for figure in figures)
+    room = (most / least) ** 0.45  # for the text behind the longest bar
     return f"""
 $bars << END
 {rows}
 END
 set logscale x
 unset logscale y
-set xrange [{least:g}:{12 * most:g}]
+set xrange [{least:g}:{room * most:g}]
 set yrange [-0.7:{len(figures) - 0.3}]
 set ytics ({ticks})
 set format x "10^{{%T}}"
@@ -36,21 +38,36 @@ plot $bars using 1:2:3:4:5:6 with boxxyerror lc rgb "#3465a4", \\
 """
 
 
+def _styles(names):
+    """A colour for each first word of a name, a dash and a mark for each name of a colour."""
+    colours, used = {}, {}
+    for name in names:
+        first = name.split()[0]
+        colour = colours.setdefault(first, len(colours) + 1)
+        used[first] = used.get(first, 0) + 1
+        yield f"lc {colour} dt {used[first]} pt {2 * used[first] + 2} lw 1.5"
+
+
+def _range(values):
+    return f"[{min(values) / 2:g}:{max(values) * 2:g}]"
+
+
 def _curves(topic):
     blocks = "\n".join(f"$curve{number} << END\n" + "\n".join(f"{x:.9g} {y:.9g}" for x, y in curve.points) + "\nEND"
                        for number, curve in enumerate(topic.curves))
-    plots = ", ".join(f"$curve{number} using 1:2 with linespoints lw 1.5 pt {number + 4} title {_quoted(curve.name)}"
-                      for number, curve in enumerate(topic.curves))
+    styles = _styles([curve.name for curve in topic.curves])
+    plots = ", ".join(f"$curve{number} using 1:2 with linespoints {style} title {_quoted(curve.name)}"
+                      for number, (curve, style) in enumerate(zip(topic.curves, styles)))
     return f"""
 {blocks}
 set logscale xy
-set autoscale
-set offsets graph 0.08, graph 0.08, graph 0.1, graph 0.1
+set xrange {_range([x for curve in topic.curves for x, _ in curve.points])}
+set yrange {_range([y for curve in topic.curves for _, y in curve.points])}
 set ytics autofreq
 set format y "10^{{%T}}"
 set xlabel {_quoted(topic.axes[0])}
 set ylabel {_quoted(topic.axes[1])}
-set key below
+set key above
 plot {plots}
 """
 

@@ -6,19 +6,19 @@ from ..result import Curve, Figure, Ratio, Topic
 FIGURES = {
     "floor: 6×6 matrix times vector, from cache": "floor_of_all<float>",
     "look-up with deflection and correction": "look_up<float>/6",
-    "the same, double": "look_up<double>/6",
-    "the same, table not in the nearer caches": "look_up_cold",
+    "look-up in double": "look_up<double>/6",
+    "look-up, the table in no near cache": "look_up_cold",
     "full guarded tick": "tick<float>",
-    "the same in double": "tick<double>",
+    "full guarded tick in double": "tick<double>",
     "flexcomp, from the model": "direct<float>",
-    "flexcomp, from the model, double": "direct<double>",
-    "Pinocchio, from the model, double": "pinocchio_direct",
-    "Orocos KDL, from the model, double": "kdl_direct",
+    "flexcomp, from the model in double": "direct<double>",
+    "Pinocchio, from the model in double": "pinocchio_direct",
+    "Orocos KDL, from the model in double": "kdl_direct",
 }
 
 
 def measure(repetitions):
-    found = google_benchmark("bench_tick", repetitions)
+    found = google_benchmark("bench_tick", 3 * repetitions, seconds=0.03)
     seconds = {name: entry["s"] for name, entry in found.items()}
     floor, look_up, tick = seconds["floor_of_all<float>"], seconds["look_up<float>/6"], seconds["tick<float>"]
     pinocchio, kdl = seconds["pinocchio_direct"], seconds["kdl_direct"]
