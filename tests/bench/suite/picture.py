@@ -18,7 +18,7 @@ def _bars(topic):
     rows = "\n".join(f"{least:g} {place} {least:g} {figure.value:g} {place - 0.35} {place + 0.35} "
                      f"{_quoted(figure.text())}" for place, figure in enumerate(figures))
     most = max(figure.value for figure in figures)
-    room = (most / least) ** 0.45  # for the text behind the longest bar
+    room = max(6, (most / least) ** 0.7)  # for the text behind the longest bar
     return f"""
 $bars << END
 {rows}
@@ -39,13 +39,13 @@ plot $bars using 1:2:3:4:5:6 with boxxyerror lc rgb "#3465a4", \\
 
 
 def _styles(names):
-    """A colour for each first word of a name, a dash and a mark for each name of a colour."""
-    colours, used = {}, {}
+    """A colour for each first word of a name, a dash and a mark for each rest of one."""
+    colours, dashes = {}, {}
     for name in names:
-        first = name.split()[0]
+        first, _, rest = name.partition(" ")
         colour = colours.setdefault(first, len(colours) + 1)
-        used[first] = used.get(first, 0) + 1
-        yield f"lc {colour} dt {used[first]} pt {2 * used[first] + 2} lw 1.5"
+        dash = dashes.setdefault(rest, len(dashes) + 1)
+        yield f"lc {colour} dt {dash} pt {2 * dash + 2} lw 1.5"
 
 
 def _range(values):

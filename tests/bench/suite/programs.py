@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
@@ -33,8 +34,7 @@ def google_benchmark(program, repetitions, *arguments, seconds=0.1):
         if entry.get("error_occurred"):
             raise Failed(f"{program}: {entry['name']}: {entry['error_message']}")
         if entry["aggregate_name"] == "median":
-            name = entry["run_name"].removesuffix("/real_time").split("/iterations:")[0]
-            found[name] = entry
+            found[re.sub(r"/(real_time|process_time|iterations:\d+)", "", entry["run_name"])] = entry
     return found
 
 

@@ -18,10 +18,10 @@ def _replace(path, name, lines):
 
 
 def _goals(measured):
-    lines = ["| | ratio | goal | |", "|---|---|---|---|"]
-    for topic in measured.values():
-        lines += [f"| {ratio.name} | {result.digits(ratio.value)} | {ratio.goal_text()} | {ratio.verdict()} |"
-                  for ratio in topic.ratios if ratio.goal is not None]
+    lines = ["| by | ratio | | goal | |", "|---|---|---|---|---|"]
+    for name, topic in measured.items():
+        lines += [f"| `tools/bench --only {name}` | {ratio.name} | {result.digits(ratio.value)} | {ratio.goal_text()} "
+                  f"| {ratio.verdict()} |" for ratio in topic.ratios if ratio.goal is not None]
     return lines
 
 

@@ -34,9 +34,9 @@ def _time(find, points, repetitions):
     """Median, s, and the value found."""
     times = []
     for _ in range(repetitions if len(points) < COUNTS[-1] else 1):
-        begin = time.perf_counter()
+        begin = time.process_time()
         found = find(points)
-        times.append(time.perf_counter() - begin)
+        times.append(time.process_time() - begin)
     return statistics.median(times), found
 
 
@@ -64,16 +64,17 @@ def measure(repetitions):
     names = list(dict.fromkeys(name for name, _ in seconds))
     most = COUNTS[-1]
 
-    def ratio(other, own, goal=None):
-        return Ratio(f"{other} / flexcomp {own}, {most:,} points",
-                     seconds[other, most] / seconds[f"{own} flexcomp", most], goal)
+    def ratio(other, goal=None):
+        method, library = other.split()
+        return Ratio(f"{method}: {library}'s time / flexcomp's",
+                     seconds[other, most] / seconds[f"{method} flexcomp", most], goal)
     return Topic(
-        "Reference circles of 1,000,000 points",
+        "Reference circles (least squares, minimum zone, inscribed, circumscribed) of 1,000,000 points",
         [Figure(name, seconds[name, most], "s") for name in sorted(names)],
-        [ratio("MZC CGAL", "MZC", 10),
-         Ratio("flexcomp's MZC of 1,000,000 points, s", seconds["MZC flexcomp", most], 1, at_most=True),
-         ratio("MZC SciPy", "MZC"), ratio("MCC CGAL", "MCC"), ratio("MIC SciPy", "MIC"),
-         ratio("LSC SciPy", "LSC"), ratio("LSC circle-fit", "LSC")],
+        [ratio("MZC CGAL", 10),
+         Ratio("MZC: flexcomp's time, s", seconds["MZC flexcomp", most], 1, at_most=True),
+         ratio("MZC SciPy"), ratio("MCC CGAL"), ratio("MIC SciPy"),
+         ratio("LSC SciPy"), ratio("LSC circle-fit")],
         [Curve(name, [[count, seconds[name, count]] for count in COUNTS]) for name in sorted(names)],
         ("points", "time, s"),
         ["SciPy's simplex searches find a local optimum, to a tolerance; flexcomp's and CGAL's are global.",
