@@ -1,5 +1,6 @@
 """A topic as a picture, by gnuplot: its figures as bars, and beside them how the cost grows."""
 
+import math
 import subprocess
 
 SIZE = (1300, 520)
@@ -13,12 +14,13 @@ def _bars(topic):
     unit = topic.figures[0].unit
     figures = [figure for figure in topic.figures if figure.unit == unit][::-1]
     least = min(figure.value for figure in figures) / 3
-    # In labels of tics a percent sign begins a format.
-    ticks = ", ".join(f"{_quoted(figure.name.replace('%', '%%'))} {place}" for place, figure in enumerate(figures))
-    rows = "\n".join(f"{least:g} {place} {least:g} {figure.value:g} {place - 0.35} {place + 0.35} "
-                     f"{_quoted(figure.text())}" for place, figure in enumerate(figures))
     most = max(figure.value for figure in figures)
     room = max(6, (most / least) ** 0.7)  # for the text behind the longest bar
+    # In labels of tics a percent sign begins a format.
+    ticks = ", ".join(f"{_quoted(figure.name.replace('%', '%%'))} {place}" for place, figure in enumerate(figures))
+    decades = math.ceil(math.log10(room * most / least) / 8)  # from one label to the next
+    rows = "\n".join(f"{least:g} {place} {least:g} {figure.value:g} {place - 0.35} {place + 0.35} "
+                     f"{_quoted(figure.text())}" for place, figure in enumerate(figures))
     return f"""
 $bars << END
 {rows}
@@ -28,6 +30,7 @@ unset logscale y
 set xrange [{least:g}:{room * most:g}]
 set yrange [-0.7:{len(figures) - 0.3}]
 set ytics ({ticks})
+set xtics {10**decades}
 set format x "10^{{%T}}"
 set xlabel {_quoted(unit or "figure")}
 unset ylabel
@@ -63,6 +66,7 @@ def _curves(topic):
 set logscale xy
 set xrange {_range([x for curve in topic.curves for x, _ in curve.points])}
 set yrange {_range([y for curve in topic.curves for _, y in curve.points])}
+set xtics autofreq
 set ytics autofreq
 set format y "10^{{%T}}"
 set xlabel {_quoted(topic.axes[0])}

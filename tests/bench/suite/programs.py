@@ -33,7 +33,7 @@ def google_benchmark(program, repetitions, *arguments, seconds=0.1):
     for entry in json.loads(text)["benchmarks"]:
         if entry.get("error_occurred"):
             raise Failed(f"{program}: {entry['name']}: {entry['error_message']}")
-        if entry["aggregate_name"] == "median":
+        if entry.get("aggregate_name", "median") == "median":  # a single one is not aggregated
             found[re.sub(r"/(real_time|process_time|iterations:\d+)", "", entry["run_name"])] = entry
     return found
 
