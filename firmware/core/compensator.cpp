@@ -260,7 +260,7 @@ std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
 
 template <typename Scalar, int Joints>
 auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
-  Output output{};
+  Output output;  // not zeroed: every field is set below, and that is a twelfth of the time
   output.deflection.setZero();
   std::uint32_t status = check(input);
   take_setpoint(input, status);

@@ -9,6 +9,7 @@
 #include <complex>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "geometry/nearly_round.hpp"
 #include "model/robot.hpp"
@@ -21,7 +22,7 @@ using study::Planar;
 
 namespace {
 
-constexpr double kStep = 0.05;
+constexpr double kStudyStep = 0.05;  // m
 
 const RobotModel<double, 6>& robot() {
   static const model::Robot loaded =
@@ -36,8 +37,8 @@ study::MilledCircle circle() {
   return strict;
 }
 
-study::CircularityMap map_of(const study::CircleStudy& study) {
-  return study::map_circularity(study, kStep, [](std::size_t, std::size_t) {});
+study::CircularityMap map_of(const study::CircleStudy& study, double step) {
+  return study::map_circularity(study, step, [](std::size_t, std::size_t) {});
 }
 
 double points_in(const study::CircularityMap& map) {
@@ -106,21 +107,23 @@ class Cores {
 void count(benchmark::State& state, double points) {
   state.counters["points"] =
       benchmark::Counter(points, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["total"] = points;
 }
 
 void flexcomp_map(benchmark::State& state) {
   const Cores cores(state.range(0) == 1);
   const study::CircleStudy study(robot(), circle());
-  const double points = points_in(map_of(study));
+  const double step = 1e-3 * static_cast<double>(state.range(1));
+  const double points = points_in(map_of(study, step));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(map_of(study).circularity.data());
+    benchmark::DoNotOptimize(map_of(study, step).circularity.data());
   }
   count(state, points);
 }
 
 void pinocchio_map(benchmark::State& state) {
   const study::CircleStudy study(robot(), circle());
-  const study::CircularityMap map = map_of(study);
+  const study::CircularityMap map = map_of(study, kStudyStep);
   PinocchioMap peer(study.arm());
   double farthest = 0;
   for (auto _ : state) {
@@ -141,13 +144,19 @@ void pinocchio_map(benchmark::State& state) {
   count(state, points_in(map));
 }
 
+const std::vector<std::int64_t> kSteps = {200, 100, 50, 25};  // mm
+
 BENCHMARK(flexcomp_map)
-    ->ArgName("cores")
-    ->Arg(1)
-    ->Arg(0)
+    ->ArgNames({"cores", "step"})
+    ->ArgsProduct({{1}, kSteps})
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(flexcomp_map)
+    ->ArgNames({"cores", "step"})  // 0 cores: all
+    ->ArgsProduct({{0}, kSteps})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(pinocchio_map)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(pinocchio_map)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

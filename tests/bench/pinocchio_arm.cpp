@@ -1,5 +1,6 @@
 #include "pinocchio_arm.hpp"
 
+#include <pinocchio/algorithm/frames.hpp>
 #include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/multibody.hpp>
 
@@ -35,7 +36,12 @@ pinocchio::Model model_of(const RobotModel<double, 6>& robot) {
 class PinocchioArm::Implementation {
  public:
   Implementation(const RobotModel<double, 6>& robot, int joint)
-      : model_(model_of(robot)), data_(model_), joint_(static_cast<pinocchio::JointIndex>(joint)) {
+      : model_(model_of(robot)),
+        tcp_(model_.addFrame(
+            pinocchio::Frame("tcp", 6, 0, pinocchio::SE3(robot.tool.rotation, robot.tool.position),
+                             pinocchio::OP_FRAME))),
+        data_(model_),
+        joint_(static_cast<pinocchio::JointIndex>(joint)) {
     for (std::size_t i = 0; i < 6; ++i) {
       compliance_[static_cast<Eigen::Index>(i)] = robot.joints[i].compliance;
     }
@@ -45,11 +51,22 @@ class PinocchioArm::Implementation {
   Twist<double> deflection(const JointVector<double, 6>& q, const Wrench<double>& wrench) {
     pinocchio::computeJointJacobians(model_, data_, q);
     pinocchio::getJointJacobian(model_, data_, joint_, pinocchio::LOCAL_WORLD_ALIGNED, jacobian_);
-    return jacobian_ * compliance_.cwiseProduct(jacobian_.transpose() * wrench);
+    return deflection_by(wrench);
+  }
+
+  Twist<double> tcp_deflection(const JointVector<double, 6>& q, const Wrench<double>& wrench) {
+    pinocchio::computeJointJacobians(model_, data_, q);
+    pinocchio::getFrameJacobian(model_, data_, tcp_, pinocchio::LOCAL_WORLD_ALIGNED, jacobian_);
+    return deflection_by(wrench);
   }
 
  private:
+  Twist<double> deflection_by(const Wrench<double>& wrench) const {
+    return jacobian_ * compliance_.cwiseProduct(jacobian_.transpose() * wrench);
+  }
+
   pinocchio::Model model_;
+  pinocchio::FrameIndex tcp_;
   pinocchio::Data data_;
   JointVector<double, 6> compliance_;
   pinocchio::JointIndex joint_;
@@ -64,6 +81,11 @@ PinocchioArm::~PinocchioArm() = default;
 Twist<double> PinocchioArm::deflection(const JointVector<double, 6>& q,
                                        const Wrench<double>& wrench) {
   return implementation_->deflection(q, wrench);
+}
+
+Twist<double> PinocchioArm::tcp_deflection(const JointVector<double, 6>& q,
+                                           const Wrench<double>& wrench) {
+  return implementation_->tcp_deflection(q, wrench);
 }
 
 }  // namespace flexcomp::bench

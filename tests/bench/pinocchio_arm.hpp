@@ -18,6 +18,9 @@ class PinocchioArm {
   /// Twist at the joint's origin (m, rad; base frame) by a wrench there (N, N·m); q in rad.
   Twist<double> deflection(const JointVector<double, 6>& q, const Wrench<double>& wrench);
 
+  /// The same of the TCP, by a wrench there.
+  Twist<double> tcp_deflection(const JointVector<double, 6>& q, const Wrench<double>& wrench);
+
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;

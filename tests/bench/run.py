@@ -1,84 +1,67 @@
-"""Usage: tools/bench [--json FILE] [--repetitions N]
+"""Usage: tools/bench [--only TOPIC]... [--json FILE] [--repetitions N] [--pictures FOLDER] [--update-readme]
 
 Measures flexcomp beside other libraries, in one run, and prints the ratios. Machines are noisy: the
 medians of several repetitions are compared, never times with times of another day.
 """
 
 import argparse
-import csv
 import json
-import os
 import pathlib
-import statistics
-import subprocess
 import sys
-import tempfile
 
-import map_numpy
-
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-BIN = pathlib.Path(os.environ["FLEXCOMP_BIN"])
-KR270 = SOURCE / "host" / "robots" / "kr270"
+from suite import machine, picture, programs, readme, result, topics
 
 
-def google_benchmark(program, repetitions):
-    """Of each of its benchmarks: {name: points per second, median}."""
-    done = subprocess.run([BIN / program, "--benchmark_format=json", f"--benchmark_repetitions={repetitions}",
-                           "--benchmark_report_aggregates_only=true", "--benchmark_enable_random_interleaving=true"],
-                          capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{program}: {done.stderr.strip()}")
-    found = {}
-    for run in json.loads(done.stdout)["benchmarks"]:
-        if run.get("error_occurred"):
-            sys.exit(f"{program}: {run['name']}: {run['error_message']}")
-        if run["aggregate_name"] == "median":
-            found[run["run_name"].removesuffix("/real_time")] = run["points"]
-    return found
+def show(topic):
+    print(f"\n{topic.title}", flush=True)
+    width = max(len(entry.name) for entry in [*topic.figures, *topic.ratios])
+    for figure in topic.figures:
+        print(f"  {figure.name:{width}}  {figure.text()}")
+    for ratio in topic.ratios:
+        goal = f"   goal {ratio.goal_text()}: {ratio.verdict()}" if ratio.goal is not None else ""
+        print(f"  {ratio.name:{width}}  {result.digits(ratio.value)}{goal}")
+    for note in topic.notes:
+        print(f"  {note}")
+    sys.stdout.flush()
 
 
-def numpy_map(repetitions, together):
-    """Points per second, median, over the nodes that flexcomp's map reaches."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([BIN / "flexcomp", "map", "--model", KR270 / "robot.yaml", "--no-limits", "--out", folder],
-                       check=True, capture_output=True)
-        rows = list(csv.reader((pathlib.Path(folder) / "map.csv").read_text().splitlines()))[1:]
-    nodes = [[float(value) for value in row] for row in rows if row[2]]
-    speeds = []
-    for _ in range(repetitions):
-        speed, off = map_numpy.measure(KR270, nodes, together)
-        if not off < 1e-11:  # m
-            sys.exit(f"the map with NumPy is off by {off} m")
-        speeds.append(speed)
-    return statistics.median(speeds)
-
-
-def measure_map(repetitions):
-    compiled = google_benchmark("bench_map", repetitions)
-    one = compiled["flexcomp_map/cores:1"]
-    numpy = numpy_map(repetitions, 64)
-    return [
-        ("flexcomp, one core", one, None),
-        (f"flexcomp, {os.cpu_count()} cores", compiled["flexcomp_map/cores:0"], None),
-        ("Pinocchio, one core", compiled["pinocchio_map"], 10),
-        ("NumPy, 64 circles at a time", numpy, 100),
-        ("NumPy, a circle at a time", numpy_map(repetitions, 1), 100),
-    ]
+def summarise(measured):
+    goals = [(name, ratio) for name, topic in measured.items() for ratio in topic.ratios if ratio.goal is not None]
+    missed = [f"{name}: {ratio.name} {result.digits(ratio.value)}, goal {ratio.goal_text()}"
+              for name, ratio in goals if not ratio.reached()]
+    if goals:
+        print(f"\n{len(goals) - len(missed)} of {len(goals)} goals are reached.")
+    for line in missed:
+        print(f"  not reached: {line}")
 
 
 def main():
     arguments = argparse.ArgumentParser(usage=__doc__)
+    arguments.add_argument("--only", action="append", choices=topics.NAMES, metavar="TOPIC")
     arguments.add_argument("--json", type=pathlib.Path)
     arguments.add_argument("--repetitions", type=int, default=5)
+    arguments.add_argument("--pictures", type=pathlib.Path, default=programs.SOURCE / "build" / "bench" / "pictures")
+    arguments.add_argument("--update-readme", action="store_true")
     options = arguments.parse_args()
-    print("Map of circularity, KR 270 at the study's 5 cm: path points a second", flush=True)
-    rows = measure_map(options.repetitions)
-    one = rows[0][1]
-    for name, speed, goal in rows:
-        ratio = f"flexcomp is {one / speed:6.1f} times as fast (goal {goal})" if goal else f"{speed / one:.2f}"
-        print(f"  {name:30} {speed:14,.0f}   {ratio}", flush=True)
+    if options.repetitions < 1:
+        arguments.error("--repetitions: expected at least 1")
+    if options.update_readme and options.only:
+        arguments.error("--update-readme needs all topics of one run")
+    options.pictures.mkdir(parents=True, exist_ok=True)
+    measured = {}
+    for name in options.only or topics.NAMES:
+        try:
+            measured[name] = topics.measure(name, options.repetitions)
+        except programs.Failed as failure:
+            sys.exit(f"bench: {name}: {failure}")
+        show(measured[name])
+        picture.draw(measured[name], options.pictures / f"{name}.png")
+    summarise(measured)
+    found = {"machine": machine.describe(), "topics": {name: topic.as_json() for name, topic in measured.items()}}
     if options.json:
-        options.json.write_text(json.dumps({name: speed for name, speed, _ in rows}, indent=2) + "\n")
+        options.json.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n")
+    if options.update_readme:
+        readme.update(found["machine"], measured)
 
 
 if __name__ == "__main__":

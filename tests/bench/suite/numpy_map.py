@@ -114,8 +114,8 @@ def measure(folder, nodes, together):
     the circularities (m) that come with the nodes."""
     robot = Robot(folder)
     x, z, expected = np.array(nodes).T
-    start = time.perf_counter()
+    start = time.process_time()
     found = np.concatenate([map_of(robot, x[i:i + together], z[i:i + together])
                             for i in range(0, len(x), together)])
-    elapsed = time.perf_counter() - start
+    elapsed = time.process_time() - start
     return POINTS * len(x) / elapsed, np.abs(found - expected).max()

@@ -1,0 +1,42 @@
+"""Rewrites the figures in README.md and in tests/bench/README.md, between their markers."""
+
+from . import result
+from .programs import SOURCE, Failed
+
+BEGIN = "<!-- written by tools/bench --update-readme: {} -->"
+END = "<!-- end of {} -->"
+
+
+def _replace(path, name, lines):
+    text = path.read_text()
+    begin, end = BEGIN.format(name), END.format(name)
+    if text.count(begin) != 1 or text.count(end) != 1:
+        raise Failed(f"{path.name}: expected the markers of {name} once")
+    head, rest = text.split(begin)
+    tail = rest.split(end)[1]
+    path.write_text(head + "\n".join([begin, *lines, end]) + tail)
+
+
+def _goals(measured):
+    lines = ["| by | ratio | | goal | |", "|---|---|---|---|---|"]
+    for name, topic in measured.items():
+        lines += [f"| `tools/bench --only {name}` | {ratio.name} | {result.digits(ratio.value)} | {ratio.goal_text()} "
+                  f"| {ratio.verdict()} |" for ratio in topic.ratios if ratio.goal is not None]
+    return lines
+
+
+def _all_figures(machine, measured):
+    lines = [f"{machine['processor']}, {machine['cores']} cores; {machine['compiler']}; {machine['flexcomp']}."]
+    for name, topic in measured.items():
+        lines += ["", f"### {topic.title}", "", f"`tools/bench --only {name}`", "", "| | |", "|---|---|"]
+        lines += [f"| {figure.name} | {figure.text()} |" for figure in topic.figures]
+        lines += ["", "| ratio | | goal | |", "|---|---|---|---|"]
+        lines += [f"| {ratio.name} | {result.digits(ratio.value)} | {ratio.goal_text()} | {ratio.verdict()} |"
+                  for ratio in topic.ratios]
+        lines += [line for note in topic.notes for line in ("", note)]
+    return lines
+
+
+def update(machine, measured):
+    _replace(SOURCE / "README.md", "goals", _goals(measured))
+    _replace(SOURCE / "tests" / "bench" / "README.md", "figures", _all_figures(machine, measured))
