@@ -336,7 +336,7 @@ class Chooser {
     const std::size_t count = choice->findings.size();
     for (std::size_t i = 0; count <= kMany && i < count; ++i) {
       for (std::size_t j = i + 1; j < count; ++j) {
-        const Fit others = without(without(choice->fit, j), i);
+        const Fit others = without(choice->findings[j].without, i);
         const Fit merged = best_with(others, kShortlist);
         if (!merged.chosen.empty() && is_as_good(merged, choice->fit) &&
             !is_confirmed(merged, choice->fit) && holds(weigh_last(others, merged))) {

@@ -1,12 +1,12 @@
 #include "diagnosis/evidence.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include "recording/noise.hpp"
+#include "statistics/distributions.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -126,9 +126,8 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
   evidence.delta_bic =
       bic_gain(evidence.effective_samples, without.train_sum, with.train_sum, parameters);
   if (ratio > 0) {
-    const boost::math::chi_squared chance(static_cast<double>(parameters));
-    evidence.p_value =
-        std::min(1.0, places * boost::math::cdf(boost::math::complement(chance, ratio)));
+    evidence.p_value = std::min(
+        1.0, places * statistics::chi_squared_above(ratio, static_cast<double>(parameters)));
   }
   evidence.confirmation = confirmation_of(observations, without.remainder, with.remainder);
   constexpr double kTiny = 1e-9;

@@ -1,7 +1,6 @@
 #include "diagnosis/locate.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -9,6 +8,7 @@
 
 #include "diagnosis/cues.hpp"
 #include "diagnosis/evidence.hpp"
+#include "statistics/distributions.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -23,8 +23,7 @@ double chance_above(double value, double freedom) {
   if (!(value > 0)) {
     return 1;
   }
-  return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared(freedom), std::min(value, 1e6)));
+  return statistics::chi_squared_above(std::min(value, 1e6), freedom);
 }
 
 /// Power (sum of squares over the noise) per independent sample, tested against that of noise,

@@ -5,13 +5,11 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "error.hpp"
 #include "flexcomp/compliance.hpp"
+#include "statistics/distributions.hpp"
 
 namespace flexcomp::study {
 namespace {
@@ -132,9 +130,8 @@ double chance_of_gain(double before, double after, Eigen::Index parameters, Eige
   }
   const auto more = static_cast<double>(parameters);
   const auto left = static_cast<double>(freedom);
-  const boost::math::fisher_f distribution(more, left);
-  return boost::math::cdf(boost::math::complement(
-      distribution, std::max((before - after) / more, 0.0) / (after / left)));
+  const double ratio = std::max((before - after) / more, 0.0) / (after / left);
+  return statistics::fisher_above(ratio, more, left);
 }
 
 /// Of the cubes of the joints' torques, beside the linear springs.
@@ -242,8 +239,7 @@ Identification identify_springs(const RobotModel<double, 6>& model,
   const Eigen::VectorXd spread = (svd.matrixV() * inverse.asDiagonal()).rowwise().norm();
   // A column that takes part in a direction that is not told is not told either.
   const Eigen::VectorXd untold = svd.matrixV().rightCols(singular.size() - rank).rowwise().norm();
-  const boost::math::students_t student(static_cast<double>(result.freedom));
-  const double reach = boost::math::quantile(boost::math::complement(student, 0.025));
+  const double reach = statistics::student_exceeds(0.025, static_cast<double>(result.freedom));
   for (Eigen::Index i = 0; i < solution.size(); ++i) {
     IdentifiedSpring spring;
     spring.name = names[static_cast<std::size_t>(i)];
@@ -263,8 +259,7 @@ Identification identify_springs(const RobotModel<double, 6>& model,
     const double share = std::sqrt(static_cast<double>(result.freedom) /
                                    static_cast<double>(problem.observed.size()));
     result.largest_residual = largest / (result.noise * share);
-    const double alone = 2 * boost::math::cdf(boost::math::complement(boost::math::normal(),
-                                                                      result.largest_residual));
+    const double alone = 2 * statistics::normal_above(result.largest_residual);
     result.outlier_chance = std::min(1.0, alone * static_cast<double>(problem.observed.size()));
     result.nonlinearity_chance = nonlinearity_chance(problem, sum, result.freedom);
   }

@@ -149,6 +149,7 @@ class InRealTime(Firmware):
         ask("corrupt")
         self.feeder.run(1.5)
         ask("mend")
+        self.feeder.run(0.5)  # what was on its way
         self.assert_latched_until_reset_and_armed()
 
     def test_a_reset_of_the_processor_leaves_it_off_until_it_is_armed(self):

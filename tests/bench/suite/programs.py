@@ -17,10 +17,15 @@ class Failed(Exception):
 
 def run(*words, **options):
     """The program's standard output."""
+    return run_both(*words, **options)[0]
+
+
+def run_both(*words, **options):
+    """The program's standard output, and its standard error."""
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
     if done.returncode != 0:
         raise Failed(f"{pathlib.Path(words[0]).name}: {done.stderr.strip() or f'exit {done.returncode}'}")
-    return done.stdout
+    return done.stdout, done.stderr
 
 
 def google_benchmark(program, repetitions, *arguments, seconds=0.1):

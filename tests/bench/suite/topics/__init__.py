@@ -2,7 +2,7 @@
 
 import importlib
 
-NAMES = ("tick", "instructions", "map", "circularity", "table", "diagnose", "bus")
+NAMES = ("tick", "instructions", "authentication", "map", "circularity", "table", "diagnose", "bus")
 
 
 def measure(name, repetitions):
