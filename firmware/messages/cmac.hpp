@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-// Of mbedTLS.
-struct mbedtls_cipher_context_t;
+struct mbedtls_cipher_context_t;  // NOLINT(readability-identifier-naming): mbedTLS's
 
 namespace flexcomp {
 
