@@ -10,6 +10,11 @@ def _quoted(text):
     return '"' + text.replace('"', "'") + '"'
 
 
+def _decades(least, step=1):
+    """Tics at powers of ten: left to itself gnuplot begins anywhere, and the label has the power alone."""
+    return f"{10.0 ** math.floor(math.log10(least)):g},{10**step}"
+
+
 def _bars(topic):
     unit = topic.figures[0].unit
     figures = [figure for figure in topic.figures if figure.unit == unit][::-1]
@@ -30,7 +35,7 @@ unset logscale y
 set xrange [{least:g}:{room * most:g}]
 set yrange [-0.7:{len(figures) - 0.3}]
 set ytics ({ticks})
-set xtics {10**decades}
+set xtics {_decades(least, decades)}
 set format x "10^{{%T}}"
 set xlabel {_quoted(unit or "figure")}
 unset ylabel
@@ -58,16 +63,18 @@ def _range(values):
 def _curves(topic):
     blocks = "\n".join(f"$curve{number} << END\n" + "\n".join(f"{x:.9g} {y:.9g}" for x, y in curve.points) + "\nEND"
                        for number, curve in enumerate(topic.curves))
+    xs = [x for curve in topic.curves for x, _ in curve.points]
+    ys = [y for curve in topic.curves for _, y in curve.points]
     styles = _styles([curve.name for curve in topic.curves])
     plots = ", ".join(f"$curve{number} using 1:2 with linespoints {style} title {_quoted(curve.name)}"
                       for number, (curve, style) in enumerate(zip(topic.curves, styles)))
     return f"""
 {blocks}
 set logscale xy
-set xrange {_range([x for curve in topic.curves for x, _ in curve.points])}
-set yrange {_range([y for curve in topic.curves for _, y in curve.points])}
-set xtics autofreq
-set ytics autofreq
+set xrange {_range(xs)}
+set yrange {_range(ys)}
+set xtics {_decades(min(xs))}
+set ytics {_decades(min(ys))}
 set format y "10^{{%T}}"
 set xlabel {_quoted(topic.axes[0])}
 set ylabel {_quoted(topic.axes[1])}
