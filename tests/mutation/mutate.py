@@ -60,10 +60,11 @@ class Workshop:
         for name in COPIED:
             origin, copy = SOURCE / name, self.folder / name
             if origin.is_dir():
-                shutil.copytree(origin, copy, dirs_exist_ok=True)
+                # With the time of now: what was built from a mutant is older then, and built again.
+                shutil.copytree(origin, copy, dirs_exist_ok=True, copy_function=shutil.copy)
             else:
                 self.folder.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(origin, copy)
+                shutil.copy(origin, copy)
         unity = SOURCE / "build" / "third_party" / "unity"
         ready = run(["cmake", "-S", self.folder, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
                      "-DCMAKE_CXX_FLAGS_DEBUG=-O1", "-DFLEXCOMP_BUILD_HOST=OFF", "-DFLEXCOMP_BUILD_TESTS=ON",
