@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <stdexcept>
 
@@ -35,11 +36,6 @@ std::string read_private(const std::string& path) {
   return text;
 }
 
-std::uint8_t value_of(char digit) {
-  const char* digits = "0123456789abcdef0123456789ABCDEF";
-  return static_cast<std::uint8_t>((std::strchr(digits, digit) - digits) % 16);
-}
-
 }  // namespace
 
 AuthenticationKey read_key(const std::string& path) {
@@ -47,13 +43,14 @@ AuthenticationKey read_key(const std::string& path) {
   if (!text.empty() && text.back() == '\n') {
     text.pop_back();
   }
-  if (text.size() != kDigits ||
-      text.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
-    throw std::runtime_error(path + ": expected a key of 32 hexadecimal digits");
-  }
   AuthenticationKey key{};
-  for (std::size_t i = 0; i < key.size(); ++i) {
-    key[i] = static_cast<std::uint8_t>(value_of(text[2 * i]) << 4 | value_of(text[2 * i + 1]));
+  bool is_key = text.size() == kDigits;
+  for (std::size_t i = 0; is_key && i < key.size(); ++i) {
+    const char* const pair = text.data() + 2 * i;
+    is_key = std::from_chars(pair, pair + 2, key[i], 16).ptr == pair + 2;
+  }
+  if (!is_key) {
+    throw std::runtime_error(path + ": expected a key of 32 hexadecimal digits");
   }
   return key;
 }

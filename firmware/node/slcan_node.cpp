@@ -14,7 +14,7 @@ constexpr std::uint8_t kDone = '\r';
 constexpr std::uint8_t kError = '\a';
 
 std::int64_t in_nanoseconds(float period) {
-  constexpr float kLongest = 4000.0F;  // s
+  constexpr float kLongest = 2000.0F;  // s, in microseconds less than the target's `long` holds
   // Whole microseconds, which a float holds exactly where nanoseconds are rounded.
   return std::int64_t{1000} * std::lround(1e6F * std::fmin(period, kLongest));
 }

@@ -32,8 +32,8 @@ template <typename Kind>
 Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
   const std::int64_t until = monotonic_now() + kPatience;
   Message message;
-  while (bus->receive(&message, std::max<std::int64_t>(0, until - monotonic_now())) &&
-         monotonic_now() < until) {
+  for (std::int64_t left = kPatience; left > 0 && bus->receive(&message, left);
+       left = until - monotonic_now()) {
     if (const auto* found = std::get_if<Kind>(&message)) {
       return *found;
     }

@@ -200,6 +200,30 @@ void a_program_that_runs_back_on_itself_is_followed() {
             2e-7, 10);
 }
 
+/// With springs of every kind and weight, anywhere between two nodes.
+void what_a_tick_reads_is_the_response_of_the_entry() {
+  const Program<double> program = loop<double>();
+  const Built<double> built(kr270_with_everything<double>(), program, requirements(1e-4));
+  TEST_ASSERT_EQUAL(Result::ok, built.result);
+  Wrench<double> wrench;
+  wrench << 440, 1370, 635, 3, -8, 10.5;
+  for (int place = 0; place < 30; ++place) {
+    const JointVector<double, 6> q = on_program(program, 7.77 * place);
+    TableCursor cursor;
+    locate<double, 6>(built.table, q, &cursor);
+    TableCursor other = cursor;
+    double outside = 1;
+    const auto read = look_up_response<double, 6>(built.table, q, wrench, &cursor, &outside);
+    const auto entry = look_up<double, 6>(built.table, q, &other);
+    const auto expected = respond<double, 6>(built.table, entry, wrench);
+    TEST_ASSERT_EQUAL_DOUBLE(entry.outside, outside);
+    TEST_ASSERT_TRUE((read.deflection - expected.deflection).norm() <
+                     1e-12 * expected.deflection.norm());
+    TEST_ASSERT_TRUE((read.correction - expected.correction).norm() <
+                     1e-12 * expected.correction.norm());
+  }
+}
+
 void repeated_points_do_no_harm() {
   Program<double> program = loop<double>();
   Program<double> doubled;
@@ -323,6 +347,7 @@ int main() {
   RUN_TEST(a_finer_tolerance_costs_about_the_square_root_in_nodes);
   RUN_TEST(corners_of_every_angle_keep_the_certificate);
   RUN_TEST(a_program_that_runs_back_on_itself_is_followed);
+  RUN_TEST(what_a_tick_reads_is_the_response_of_the_entry);
   RUN_TEST(repeated_points_do_no_harm);
   RUN_TEST(off_the_program_the_distance_is_told);
   RUN_TEST(beyond_the_ends_nothing_is_extrapolated);

@@ -77,12 +77,12 @@ class Workshop:
         return run(["cmake", "--build", self.build, "--parallel", "1"])
 
     def passes(self):
-        tests = sorted((self.build / "bin").glob("test_core_*"), key=self.seconds)
+        tests = sorted((self.build / "bin").glob("test_core_*"), key=self.place)
         return all(run([test], SLOWEST_TEST) for test in tests)
 
     @staticmethod
-    def seconds(test):
-        """The order to run tests in: those that look at much, in little time, first."""
+    def place(test):
+        """In the order to run tests in: those that look at much, in little time, first."""
         order = ("golden_vectors", "compensator", "table_file", "compliance", "chain", "model", "guard")
         name = test.name.removeprefix("test_core_")
         return order.index(name) if name in order else len(order)
