@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "instantiate.hpp"
+#include "packed_six.hpp"
 
 #ifdef __FAST_MATH__
 #error "flexcomp checks its inputs for NaN and infinity, which -ffast-math assumes away"
@@ -14,6 +15,12 @@ namespace {
 template <typename Scalar>
 bool is_positive(Scalar value) {
   return std::isfinite(value) && value > Scalar(0);
+}
+
+/// A positive number whose square is one, too.
+template <typename Scalar>
+bool is_range(Scalar value) {
+  return is_positive(value) && is_positive(value * value);
 }
 
 template <typename Scalar>
@@ -44,17 +51,15 @@ Result Compensator<Scalar, Joints>::configure(const Config& config) {
   constexpr Scalar kMostFadeTicks = Scalar(1e6);
   bool valid = is_positive(config.period) && is_positive(config.gain) && config.gain <= Scalar(1) &&
                std::isfinite(config.filter_cutoff) && config.filter_cutoff >= Scalar(0) &&
-               is_positive(config.force_range) && is_positive(config.moment_range) &&
+               is_range(config.force_range) && is_range(config.moment_range) &&
                is_positive(config.setpoint_age_limit) && is_positive(config.wrench_age_limit) &&
-               config.joint_speed.allFinite() && config.joint_speed.minCoeff() > Scalar(0) &&
-               is_positive(config.deflection_limit) && is_positive(config.chart_margin);
+               PackedSix<Scalar>(config.joint_speed).is_finite() &&
+               config.joint_speed.minCoeff() > Scalar(0) && is_positive(config.deflection_limit) &&
+               is_positive(config.chart_margin);
   const std::uint32_t hold_ticks = periods(config.hold_time, config.period, kMostHoldTicks, &valid);
   const std::uint32_t fade_ticks = periods(config.fade_time, config.period, kMostFadeTicks, &valid);
-  std::array<Guard<Scalar>, Joints> guards;
-  for (std::size_t i = 0; i < Joints && valid; ++i) {
-    valid = guards[i].configure(config.limits[i], config.period) == Result::ok;
-  }
-  if (!valid) {
+  JointGuards<Scalar, Joints> guards;
+  if (!valid || guards.configure(config.limits, config.period) != Result::ok) {
     return Result::bad_config;
   }
   *this = Compensator();
@@ -120,40 +125,40 @@ Result Compensator<Scalar, Joints>::reset() {
 
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::check_setpoint(const Input& input) const {
+  using Six = PackedSix<Scalar>;
   std::uint32_t faults =
       bit_if(!is_fresh(input.setpoint_age, config_.setpoint_age_limit), kSetpointStale);
-  if (!input.setpoint.allFinite()) {
+  const Six q(input.setpoint);
+  if (!q.is_finite()) {
     return faults | kSetpointNotFinite;
   }
-  for (std::size_t i = 0; i < Joints && table_.is_open(); ++i) {
-    const Scalar q = input.setpoint[static_cast<Eigen::Index>(i)];
-    const bool inside = q >= static_cast<Scalar>(table_.header().joint_lower[i]) &&
-                        q <= static_cast<Scalar>(table_.header().joint_upper[i]);
+  if (table_.is_open()) {
+    const bool inside =
+        q.is_within(Six::read(table_.header().joint_lower), Six::read(table_.header().joint_upper));
     faults |= bit_if(!inside, kSetpointOutOfRange);
   }
   if (has_setpoint_) {
     // The last setpoint may have been old when it was used: that much more time has passed.
-    const Scalar elapsed = config_.period + setpoint_age_;
-    const Angles step = (input.setpoint - setpoint_).cwiseAbs();
-    const bool possible = (step.array() <= (config_.joint_speed * elapsed).array()).all();
-    faults |= bit_if(!possible, kSetpointJump);
+    const Six reach = (config_.period + setpoint_age_) * Six(config_.joint_speed);
+    const Six step = q - Six(setpoint_);
+    faults |= bit_if(!step.is_within(Scalar(-1) * reach, reach), kSetpointJump);
   }
   return faults;
 }
 
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::check_wrench(const Input& input) const {
+  using Six = PackedSix<Scalar>;
   std::uint32_t faults =
       bit_if(!is_fresh(input.wrench_age, config_.wrench_age_limit), kWrenchStale);
-  if (!input.wrench.allFinite()) {
+  if (!Six(input.wrench).is_finite()) {
     return faults | kWrenchNotFinite;
   }
-  // Component by component first: squares of huge numbers overflow.
-  const Vector3<Scalar> force = input.wrench.template head<3>() / config_.force_range;
-  const Vector3<Scalar> moment = input.wrench.template tail<3>() / config_.moment_range;
-  const bool inside = force.cwiseAbs().maxCoeff() <= Scalar(1) &&
-                      moment.cwiseAbs().maxCoeff() <= Scalar(1) &&
-                      force.squaredNorm() <= Scalar(1) && moment.squaredNorm() <= Scalar(1);
+  const Scalar force = input.wrench.template head<3>().squaredNorm();
+  const Scalar moment = input.wrench.template tail<3>().squaredNorm();
+  // Squares of huge numbers overflow to infinity, which is more than the square of any range.
+  const bool inside = force <= config_.force_range * config_.force_range &&
+                      moment <= config_.moment_range * config_.moment_range;
   return faults | bit_if(!inside, kWrenchOutOfRange);
 }
 
@@ -176,8 +181,10 @@ void Compensator<Scalar, Joints>::take_setpoint(const Input& input, std::uint32_
 
 template <typename Scalar, int Joints>
 void Compensator<Scalar, Joints>::filter(const Wrench<Scalar>& wrench) {
+  using Six = PackedSix<Scalar>;
   if (has_wrench_) {
-    wrench_ += filter_share_ * (wrench - wrench_);
+    const Six last(wrench_);
+    wrench_ = (last + filter_share_ * (Six(wrench) - last)).numbers();
   } else {
     wrench_ = wrench;
     has_wrench_ = true;
@@ -187,10 +194,11 @@ void Compensator<Scalar, Joints>::filter(const Wrench<Scalar>& wrench) {
 /// Looks up, deflects, inverts and limits: sets the full correction that would be right now.
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::aim(Output* output) {
+  using Six = PackedSix<Scalar>;
   Scalar outside = 0;
   const TableResponse<Scalar, Joints> response =
       look_up_response<Scalar, Joints>(table_, setpoint_, wrench_, &cursor_, &outside);
-  if (!response.deflection.allFinite() || !response.correction.allFinite()) {
+  if (!Six(response.deflection).is_finite() || !Six(response.correction).is_finite()) {
     return kNotComputable;
   }
   if (outside > config_.chart_margin) {
@@ -208,7 +216,7 @@ std::uint32_t Compensator<Scalar, Joints>::aim(Output* output) {
     remarks |= kDeflectionLimited;
   }
   output->deflection = response.deflection;
-  aim_ = scale * response.correction;
+  aim_ = (scale * Six(response.correction)).numbers();
   return remarks;
 }
 
@@ -242,24 +250,20 @@ void Compensator<Scalar, Joints>::fade() {
 /// Moves every joint's correction towards its faded aim.
 template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
-  std::uint32_t remarks = 0;
-  bool at_rest = true;
+  using Six = PackedSix<Scalar>;
   const bool correcting = state_ != State::off && state_ != State::latched;
-  for (std::size_t i = 0; i < Joints; ++i) {
-    const auto joint = static_cast<Eigen::Index>(i);
-    output->correction[joint] = guards_[i].advance(correcting ? fade_ * aim_[joint] : Scalar(0));
-    remarks |= bit_if(guards_[i].limited_by_value(), kValueLimited);
-    remarks |= bit_if(guards_[i].limited_by_rate(), kRateLimited);
-    at_rest = at_rest && guards_[i].is_at_rest_at_zero();
-  }
-  if (state_ == State::fading_out && fade_ == Scalar(0) && at_rest) {
+  const Six aim = correcting ? fade_ * Six(aim_) : Six();
+  output->correction = guards_.advance(aim.numbers());
+  if (state_ == State::fading_out && fade_ == Scalar(0) && guards_.is_at_rest_at_zero()) {
     state_ = latched_faults_ != 0 ? State::latched : State::off;
   }
-  return remarks;
+  return bit_if(guards_.limited_by_value(), kValueLimited) |
+         bit_if(guards_.limited_by_rate(), kRateLimited);
 }
 
 template <typename Scalar, int Joints>
 auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
+  using Six = PackedSix<Scalar>;
   Output output;  // not zeroed: every field is set below, and that is a twelfth of the time
   output.deflection.setZero();
   std::uint32_t status = check(input);
@@ -276,7 +280,7 @@ auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
   change_state(faults);
   fade();
   status |= move(&output);
-  output.setpoint = setpoint_ + output.correction;
+  output.setpoint = (Six(setpoint_) + Six(output.correction)).numbers();
   output.status = status | bit_if(!has_setpoint_, kNoSetpoint);
   output.latched_faults = latched_faults_;
   output.state = state_;

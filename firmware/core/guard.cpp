@@ -4,12 +4,58 @@
 #include <cmath>
 #include <limits>
 
+#include "instantiate.hpp"
+#include "packed_six.hpp"
+
 namespace flexcomp {
 namespace {
+
+/// Of the allowed deceleration.
+template <typename Scalar>
+constexpr Scalar kPlanned = Scalar(31) / Scalar(32);
 
 template <typename Scalar>
 bool is_positive(Scalar value) {
   return std::isfinite(value) && value > Scalar(0);
+}
+
+/// Largest step from which braking ends within `distance`, the step itself included.
+template <typename Scalar>
+Scalar braking_step(Scalar distance, Scalar largest_change) {
+  // Planning with a little less than the allowed deceleration leaves room to absorb rounding.
+  const Scalar change = largest_change * kPlanned<Scalar>;
+  if (distance <= change) {
+    return distance;
+  }
+  const Scalar d = distance / change;
+  const Scalar whole = std::floor((std::sqrt(Scalar(1) + Scalar(8) * d) - Scalar(1)) / Scalar(2));
+  const Scalar rest = d - whole * (whole + Scalar(1)) / Scalar(2);
+  const Scalar fraction = std::clamp(rest / (whole + Scalar(1)), Scalar(0), Scalar(1));
+  return (whole + fraction) * change;
+}
+
+/// Where a period takes a correction.
+template <typename Scalar>
+struct Advance {
+  Scalar value;
+  Scalar step;
+  bool limited_by_value;
+  bool limited_by_rate;
+};
+
+template <typename Scalar>
+[[gnu::always_inline]] inline Advance<Scalar> advance(const GuardBounds<Scalar>& largest,
+                                                      Scalar target, Scalar value,
+                                                      Scalar last_step) {
+  const Scalar wanted = std::isfinite(target) ? target : value;
+  const Scalar goal = std::clamp(wanted, -largest.value, largest.value);
+  const Scalar distance = goal - value;
+  const Scalar reach = std::min(braking_step(std::abs(distance), largest.change), largest.step);
+  Scalar step = distance < Scalar(0) ? -reach : reach;
+  step = std::clamp(step, last_step - largest.change, last_step + largest.change);
+  const bool is_short = step != distance;
+  const Scalar next = is_short ? std::clamp(value + step, -largest.value, largest.value) : goal;
+  return {next, next - value, goal != wanted, is_short};
 }
 
 }  // namespace
@@ -30,47 +76,104 @@ Result Guard<Scalar>::configure(const CorrectionLimits<Scalar>& limits, Scalar p
     return Result::bad_config;
   }
   *this = Guard();
-  largest_value_ = limits.value - unit;
-  largest_change_ = change - Scalar(2) * unit;
-  largest_step_ = std::max(step - unit, step / Scalar(2));
+  bounds_.value = limits.value - unit;
+  bounds_.change = change - Scalar(2) * unit;
+  bounds_.step = std::max(step - unit, step / Scalar(2));
   return Result::ok;
-}
-
-/// Largest step from which braking ends within `distance`, the step itself included.
-template <typename Scalar>
-Scalar Guard<Scalar>::braking_step(Scalar distance) const {
-  // Planning with a little less than the allowed deceleration leaves room to absorb rounding.
-  const Scalar change = largest_change_ * Scalar(31) / Scalar(32);
-  if (distance <= change) {
-    return distance;
-  }
-  const Scalar d = distance / change;
-  const Scalar whole = std::floor((std::sqrt(Scalar(1) + Scalar(8) * d) - Scalar(1)) / Scalar(2));
-  const Scalar rest = d - whole * (whole + Scalar(1)) / Scalar(2);
-  const Scalar fraction = std::clamp(rest / (whole + Scalar(1)), Scalar(0), Scalar(1));
-  return (whole + fraction) * change;
 }
 
 template <typename Scalar>
 Scalar Guard<Scalar>::advance(Scalar target) {
-  const Scalar wanted = std::isfinite(target) ? target : value_;
-  const Scalar goal = std::clamp(wanted, -largest_value_, largest_value_);
-  limited_by_value_ = goal != wanted;
-
-  const Scalar distance = goal - value_;
-  const Scalar reach = std::min(braking_step(std::abs(distance)), largest_step_);
-  Scalar step = distance < Scalar(0) ? -reach : reach;
-  step = std::clamp(step, step_ - largest_change_, step_ + largest_change_);
-  limited_by_rate_ = step != distance;
-
-  const Scalar next =
-      limited_by_rate_ ? std::clamp(value_ + step, -largest_value_, largest_value_) : goal;
-  step_ = next - value_;
-  value_ = next;
+  const Advance<Scalar> next = flexcomp::advance(bounds_, target, value_, step_);
+  value_ = next.value;
+  step_ = next.step;
+  limited_by_value_ = next.limited_by_value;
+  limited_by_rate_ = next.limited_by_rate;
   return value_;
 }
 
+template <typename Scalar, int Joints>
+Result JointGuards<Scalar, Joints>::configure(
+    const std::array<CorrectionLimits<Scalar>, Joints>& limits, Scalar period) {
+  *this = JointGuards();
+  for (std::size_t i = 0; i < Joints; ++i) {
+    Guard<Scalar> guard;
+    const Result result = guard.configure(limits[i], period);
+    if (result != Result::ok) {
+      return result;
+    }
+    largest_value_[i] = guard.bounds().value;
+    largest_step_[i] = guard.bounds().step;
+    largest_change_[i] = guard.bounds().change;
+  }
+  return Result::ok;
+}
+
+template <typename Scalar, int Joints>
+JointVector<Scalar, Joints> JointGuards<Scalar, Joints>::advance(const Angles& targets) {
+  limited_by_value_ = false;
+  limited_by_rate_ = false;
+  is_at_rest_at_zero_ = true;
+  Angles values;
+  for (std::size_t i = 0; i < Joints; ++i) {
+    const auto joint = static_cast<Eigen::Index>(i);
+    const GuardBounds<Scalar> bounds = {largest_value_[i], largest_step_[i], largest_change_[i]};
+    const Advance<Scalar> next = flexcomp::advance(bounds, targets[joint], value_[i], step_[i]);
+    value_[i] = next.value;
+    step_[i] = next.step;
+    values[joint] = next.value;
+    limited_by_value_ = limited_by_value_ || next.limited_by_value;
+    limited_by_rate_ = limited_by_rate_ || next.limited_by_rate;
+    is_at_rest_at_zero_ = is_at_rest_at_zero_ && next.value == Scalar(0) && next.step == Scalar(0);
+  }
+  return values;
+}
+
+#ifdef FLEXCOMP_VECTOR_REGISTERS
+
+/// Line by line what `advance` does for one joint.
+template <>
+JointVector<float, 6> JointGuards<float, 6>::advance(const Angles& targets) {
+  using Six = PackedSix<float>;
+  const Six zero;
+  const Six most = Six::read(largest_value_.data());
+  const Six change = Six::read(largest_change_.data());
+  const Six value = Six::read(value_.data());
+  const Six last = Six::read(step_.data());
+  const Six target(targets);
+  const Six wanted = Six::choose(target.are_finite(), target, value);
+  const Six goal = Six::smaller(most, Six::larger(-most, wanted));
+  const Six distance = goal - value;
+  Six braking = distance.magnitudes();
+  if ((braking > kPlanned<float> * change).any()) {
+    Angles steps = braking.numbers();
+    for (std::size_t i = 0; i < 6; ++i) {
+      float& step = steps[static_cast<Eigen::Index>(i)];
+      step = braking_step(step, largest_change_[i]);
+    }
+    braking = Six(steps);
+  }
+  const Six reach = Six::smaller(Six::read(largest_step_.data()), braking);
+  Six step = Six::choose(distance < zero, -reach, reach);
+  step = Six::smaller(last + change, Six::larger(last - change, step));
+  const auto are_short = step != distance;
+  const Six halted = Six::smaller(most, Six::larger(-most, value + step));
+  const Six next = Six::choose(are_short, halted, goal);
+  const Six made = next - value;
+  next.write(value_.data());
+  made.write(step_.data());
+  limited_by_value_ = (goal != wanted).any();
+  limited_by_rate_ = are_short.any();
+  is_at_rest_at_zero_ = !((next != zero) | (made != zero)).any();
+  return next.numbers();
+}
+
+#endif
+
 template class Guard<float>;
 template class Guard<double>;
+
+#define FLEXCOMP_JOINT_GUARDS(Scalar, Joints) template class JointGuards<Scalar, Joints>;
+FLEXCOMP_INSTANTIATE(FLEXCOMP_JOINT_GUARDS)
 
 }  // namespace flexcomp

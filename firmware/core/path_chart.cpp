@@ -1,10 +1,10 @@
 #include "path_chart.hpp"
 
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "instantiate.hpp"
+#include "packed_six.hpp"
 
 namespace flexcomp {
 namespace {
@@ -12,17 +12,11 @@ namespace {
 /// The part of a record that all path tables have in common: up to the torques of the weights.
 constexpr RecordLayout kPath = record_layout(Chart::path, true, false);
 
-/// `Size` floats of a record in the caller's precision.
-template <typename Scalar, int Size>
-[[gnu::always_inline]] inline Eigen::Matrix<Scalar, Size, 1> read(const float* floats) {
-  return Eigen::Map<const Eigen::Matrix<float, Size, 1>>(floats).template cast<Scalar>();
-}
-
-template <typename Scalar, int Size>
-[[gnu::always_inline]] inline Eigen::Matrix<Scalar, Size, 1> blend(const float* from,
-                                                                   const float* to, Scalar t) {
-  const Eigen::Matrix<Scalar, Size, 1> a = read<Scalar, Size>(from);
-  return a + t * (read<Scalar, Size>(to) - a);
+template <typename Scalar>
+[[gnu::always_inline]] inline PackedSix<Scalar> blend(const float* from, const float* to,
+                                                      Scalar t) {
+  const PackedSix<Scalar> a = PackedSix<Scalar>::read(from);
+  return a + t * (PackedSix<Scalar>::read(to) - a);
 }
 
 /// What `q` finds on a segment: how far on, and how far (rad) off its chord.
@@ -34,16 +28,14 @@ struct SegmentFind {
 };
 
 /// A segment and where joint angles lie from its two nodes (rad).
-template <typename Scalar, int Joints>
+template <typename Scalar>
 class Segment {
-  using Angles = JointVector<Scalar, Joints>;
-
  public:
-  Segment(const float* from, const float* to, const Angles& q)
+  Segment(const float* from, const float* to, const PackedSix<Scalar>& q)
       : from_(from),
         to_(to),
-        past_from_(q - read<Scalar, Joints>(from + kPath.angles)),
-        past_to_(q - read<Scalar, Joints>(to + kPath.angles)) {}
+        past_from_(q - PackedSix<Scalar>::read(from + kPath.angles)),
+        past_to_(q - PackedSix<Scalar>::read(to + kPath.angles)) {}
 
   bool is_before() const { return along(past_from_, from_ + kPath.switching) < Scalar(0); }
   bool is_behind() const { return along(past_to_, to_ + kPath.switching) > Scalar(0); }
@@ -54,35 +46,27 @@ class Segment {
 
   /// Largest distance of a joint from the chord; where huge numbers leave none, infinitely far.
   Scalar off_chord(Scalar t) const {
-    Scalar largest = 0;
-    Scalar sum = 0;  // not a number if one of them is not
-    for (Eigen::Index i = 0; i < Joints; ++i) {
-      const Scalar off = std::abs(past_from_[i] - t * (past_from_[i] - past_to_[i]));
-      largest = off > largest ? off : largest;
-      sum += off;
-    }
-    return std::isnan(sum) ? std::numeric_limits<Scalar>::infinity() : largest;
+    return (past_from_ - t * (past_from_ - past_to_)).largest_magnitude();
   }
 
  private:
-  static Scalar along(const Angles& past, const float* normal) {
-    return past.dot(read<Scalar, Joints>(normal));
+  static Scalar along(const PackedSix<Scalar>& past, const float* normal) {
+    return past.dot(PackedSix<Scalar>::read(normal));
   }
 
   const float* from_;
   const float* to_;
-  Angles past_from_;
-  Angles past_to_;
+  PackedSix<Scalar> past_from_;
+  PackedSix<Scalar> past_to_;
 };
 
-template <typename Scalar, int Joints>
-Segment<Scalar, Joints> segment_of(const Table& table, std::uint32_t segment,
-                                   const JointVector<Scalar, Joints>& q) {
+template <typename Scalar>
+Segment<Scalar> segment_of(const Table& table, std::uint32_t segment, const PackedSix<Scalar>& q) {
   return {table.record(segment), table.record(segment + 1), q};
 }
 
-template <typename Scalar, int Joints>
-[[gnu::always_inline]] inline SegmentFind<Scalar> find_on(const Segment<Scalar, Joints>& segment,
+template <typename Scalar>
+[[gnu::always_inline]] inline SegmentFind<Scalar> find_on(const Segment<Scalar>& segment,
                                                           std::uint32_t number) {
   const Scalar t = segment.place().blend();
   return {number, t, segment.off_chord(t)};
@@ -90,15 +74,15 @@ template <typename Scalar, int Joints>
 
 /// Moves from the cursor's segment to the one that `q` lies in, by at most two segments in one
 /// direction.
-template <typename Scalar, int Joints>
+template <typename Scalar>
 [[gnu::always_inline]] inline SegmentFind<Scalar> follow(const Table& table,
-                                                         const JointVector<Scalar, Joints>& q,
+                                                         const PackedSix<Scalar>& q,
                                                          std::uint32_t number) {
   constexpr int kMaxMoves = 2;
   const std::uint32_t last = table.header().node_count - 2;
   const bool closed = table.header().closed != 0;
   number = number > last ? last : number;
-  Segment<Scalar, Joints> segment = segment_of<Scalar, Joints>(table, number, q);
+  Segment<Scalar> segment = segment_of(table, number, q);
   int direction = 0;
   for (int move = 0; move < kMaxMoves; ++move) {
     if (direction >= 0 && (number < last || closed) && segment.is_behind()) {
@@ -110,7 +94,7 @@ template <typename Scalar, int Joints>
     } else {
       break;
     }
-    segment = segment_of<Scalar, Joints>(table, number, q);
+    segment = segment_of(table, number, q);
   }
   return find_on(segment, number);
 }
@@ -121,9 +105,8 @@ Scalar width_of(const Table& table, const SegmentFind<Scalar>& find) {
 }
 
 /// Four segments further on than the last call's, for one that `q` lies nearer to.
-template <typename Scalar, int Joints>
-[[gnu::noinline]] SegmentFind<Scalar> search(const Table& table,
-                                             const JointVector<Scalar, Joints>& q,
+template <typename Scalar>
+[[gnu::noinline]] SegmentFind<Scalar> search(const Table& table, const PackedSix<Scalar>& q,
                                              SegmentFind<Scalar> find, TableCursor* cursor) {
   constexpr std::uint32_t kSearchedACall = 4;
   const std::uint32_t segments = table.header().node_count - 1;
@@ -132,21 +115,21 @@ template <typename Scalar, int Joints>
     cursor->searched = cursor->searched < segments ? cursor->searched + 1 : 1;
     const std::uint32_t ahead = cursor->searched;
     const std::uint32_t next = ahead < segments - first ? first + ahead : first + ahead - segments;
-    const SegmentFind<Scalar> other = find_on(segment_of<Scalar, Joints>(table, next, q), next);
+    const SegmentFind<Scalar> other = find_on(segment_of(table, next, q), next);
     find = other.off < find.off ? other : find;
   }
   return find;
 }
 
 /// Moves the cursor. `outside` is as in TableEntry.
-template <typename Scalar, int Joints>
+template <typename Scalar>
 [[gnu::always_inline]] inline SegmentFind<Scalar> find_segment(const Table& table,
-                                                               const JointVector<Scalar, Joints>& q,
+                                                               const PackedSix<Scalar>& q,
                                                                TableCursor* cursor,
                                                                Scalar* outside) {
-  SegmentFind<Scalar> find = follow<Scalar, Joints>(table, q, cursor->segment);
+  SegmentFind<Scalar> find = follow(table, q, cursor->segment);
   if (find.off > width_of(table, find)) {
-    find = search<Scalar, Joints>(table, q, find, cursor);
+    find = search(table, q, find, cursor);
   } else {
     cursor->searched = 0;
   }
@@ -175,17 +158,18 @@ template <typename Scalar, int Joints>
       }
     }
   }
-  for (int column = 0; column < 6; ++column) {
-    const std::uint32_t begin =
-        layout.structure_motion + static_cast<std::uint32_t>(Joints * column);
-    response->correction -= wrench[column] * blend<Scalar, Joints>(from + begin, to + begin, t);
+  PackedSix<Scalar> correction(response->correction);
+  for (Eigen::Index column = 0; column < 6; ++column) {
+    const std::uint32_t begin = layout.structure_motion + 6 * static_cast<std::uint32_t>(column);
+    correction = correction - wrench[column] * blend(from + begin, to + begin, t);
   }
   if (layout.has_weight) {
     const std::uint32_t sag = layout.structure_weight;
     const std::uint32_t motion = layout.structure_weight_motion;
-    response->deflection += blend<Scalar, 6>(from + sag, to + sag, t);
-    response->correction -= blend<Scalar, Joints>(from + motion, to + motion, t);
+    response->deflection += blend(from + sag, to + sag, t).numbers();
+    correction = correction - blend(from + motion, to + motion, t);
   }
+  response->correction = correction.numbers();
 }
 
 }  // namespace
@@ -193,7 +177,7 @@ template <typename Scalar, int Joints>
 template <typename Scalar, int Joints>
 SegmentPlace<Scalar> place_on_segment(const float* from, const float* to,
                                       const JointVector<Scalar, Joints>& q) {
-  return Segment<Scalar, Joints>(from, to, q).place();
+  return Segment<Scalar>(from, to, PackedSix<Scalar>(q)).place();
 }
 
 template <typename Scalar, int Joints>
@@ -206,7 +190,7 @@ TableEntry<Scalar, Joints> blend_segment(const float* from, const float* to,
     record[i] = a + t * (static_cast<Scalar>(to[i]) - a);
   }
   TableEntry<Scalar, Joints> entry = unpack<Scalar, Joints>(record.data(), layout);
-  entry.outside = Segment<Scalar, Joints>(from, to, q).off_chord(t);
+  entry.outside = Segment<Scalar>(from, to, PackedSix<Scalar>(q)).off_chord(t);
   return entry;
 }
 
@@ -214,7 +198,7 @@ template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up_path(const Table& table, const JointVector<Scalar, Joints>& q,
                                         TableCursor* cursor) {
   Scalar outside = 0;
-  const SegmentFind<Scalar> find = find_segment<Scalar, Joints>(table, q, cursor, &outside);
+  const SegmentFind<Scalar> find = find_segment(table, PackedSix<Scalar>(q), cursor, &outside);
   TableEntry<Scalar, Joints> entry = blend_segment<Scalar, Joints>(
       table.record(find.segment), table.record(find.segment + 1), record_layout(table), find.t, q);
   entry.outside = outside;
@@ -226,33 +210,26 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
                                               const JointVector<Scalar, Joints>& q,
                                               const Wrench<Scalar>& wrench, TableCursor* cursor,
                                               Scalar* outside) {
-  const SegmentFind<Scalar> find = find_segment<Scalar, Joints>(table, q, cursor, outside);
+  const SegmentFind<Scalar> find = find_segment(table, PackedSix<Scalar>(q), cursor, outside);
   const float* from = table.record(find.segment);
   const float* to = from + table.header().record_size;
-  const float* spring = table.header().compliance;
-  const float* cubic = table.header().cubic_compliance;
-  const bool has_weight = table.has_weight();
-  // Here and below: locals stay in registers.
-  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
-  const Wrench<Scalar> load = wrench;
-  Twist<Scalar> deflection = Twist<Scalar>::Zero();
-  TableResponse<Scalar, Joints> response;
+  using Six = PackedSix<Scalar>;
+  std::array<Six, 6> jacobian;
 #pragma GCC unroll 6
   for (std::uint32_t joint = 0; joint < Joints; ++joint) {
     const std::uint32_t place = kPath.jacobian + 6 * joint;
-    const Twist<Scalar> column = blend<Scalar, 6>(from + place, to + place, find.t);
-    Scalar torque = column.dot(load);
-    if (has_weight) {
-      const auto a = static_cast<Scalar>(from[kPath.weight_torque + joint]);
-      torque += a + find.t * (static_cast<Scalar>(to[kPath.weight_torque + joint]) - a);
-    }
-    const Scalar windup =
-        (static_cast<Scalar>(spring[joint]) + static_cast<Scalar>(cubic[joint]) * torque * torque) *
-        torque;
-    deflection += windup * column;
-    response.correction[static_cast<Eigen::Index>(joint)] = -windup;
+    jacobian[joint] = blend(from + place, to + place, find.t);
   }
-  response.deflection = deflection;
+  Six torque = Six::dots(jacobian, Six(wrench));
+  if (table.has_weight()) {
+    torque = torque + blend(from + kPath.weight_torque, to + kPath.weight_torque, find.t);
+  }
+  const Six spring = Six::read(table.header().compliance);
+  const Six cubic = Six::read(table.header().cubic_compliance);
+  const Six windup = spring * torque + cubic * torque * (torque * torque);
+  TableResponse<Scalar, Joints> response;
+  response.deflection = Six::sum(jacobian, windup).numbers();
+  response.correction = (-windup).numbers();
   if (table.has_structure()) {
     add_structure<Scalar, Joints>(from, to, record_layout(table), find.t, wrench, &response);
   }
@@ -264,10 +241,10 @@ void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCurso
   if (table.chart() != Chart::path) {
     return;
   }
-  SegmentFind<Scalar> nearest = find_on(segment_of<Scalar, Joints>(table, 0, q), 0);
-  for (std::uint32_t segment = 1; segment + 1 < table.header().node_count; ++segment) {
-    const SegmentFind<Scalar> other =
-        find_on(segment_of<Scalar, Joints>(table, segment, q), segment);
+  const PackedSix<Scalar> place(q);
+  SegmentFind<Scalar> nearest = {0, 0, std::numeric_limits<Scalar>::infinity()};
+  for (std::uint32_t segment = 0; segment + 1 < table.header().node_count; ++segment) {
+    const SegmentFind<Scalar> other = find_on(segment_of(table, segment, place), segment);
     nearest = other.off < nearest.off ? other : nearest;
   }
   *cursor = TableCursor{nearest.segment, 0};

@@ -158,7 +158,7 @@ class Compensator {
   bool has_wrench_ = false;
   Angles aim_ = Angles::Zero();  ///< full correction for the last good input
   Scalar fade_ = 0;              ///< 0 to 1
-  std::array<Guard<Scalar>, Joints> guards_{};
+  JointGuards<Scalar, Joints> guards_;
 };
 
 }  // namespace flexcomp

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+
 #include "flexcomp/status.hpp"
+#include "flexcomp/types.hpp"
 
 namespace flexcomp {
 
@@ -10,6 +13,14 @@ struct CorrectionLimits {
   Scalar value;         ///< rad, largest magnitude
   Scalar rate;          ///< rad/s
   Scalar acceleration;  ///< rad/s²
+};
+
+/// What limits come to in control periods, less what rounding needs.
+template <typename Scalar>
+struct GuardBounds {
+  Scalar value = 0;   ///< largest magnitude
+  Scalar step = 0;    ///< largest difference of two values in a row
+  Scalar change = 0;  ///< largest difference of two steps in a row
 };
 
 /// Moves one joint's correction towards a target, one control period a step, as fast as its limits
@@ -35,6 +46,7 @@ class Guard {
   Scalar advance(Scalar target);
 
   Scalar value() const { return value_; }
+  const GuardBounds<Scalar>& bounds() const { return bounds_; }
 
   /// Is the correction at zero and at rest?
   bool is_at_rest_at_zero() const { return value_ == Scalar(0) && step_ == Scalar(0); }
@@ -44,15 +56,42 @@ class Guard {
   bool limited_by_rate() const { return limited_by_rate_; }
 
  private:
-  Scalar braking_step(Scalar distance) const;
-
-  Scalar largest_value_ = 0;
-  Scalar largest_step_ = 0;    ///< largest difference of two values in a row
-  Scalar largest_change_ = 0;  ///< largest difference of two steps in a row
+  GuardBounds<Scalar> bounds_;
   Scalar value_ = 0;
   Scalar step_ = 0;
   bool limited_by_value_ = false;
   bool limited_by_rate_ = false;
+};
+
+/// A guard for each joint: the same numbers to the bit, side by side in vector registers where the
+/// processor has them.
+template <typename Scalar, int Joints>
+class JointGuards {
+  using Angles = JointVector<Scalar, Joints>;
+
+ public:
+  /// Returns bad_config if a guard does for one joint; they are not to be used then.
+  Result configure(const std::array<CorrectionLimits<Scalar>, Joints>& limits, Scalar period);
+
+  /// One period further, towards targets in rad; returns the corrections.
+  Angles advance(const Angles& targets);
+
+  /// Are all corrections at zero and at rest?
+  bool is_at_rest_at_zero() const { return is_at_rest_at_zero_; }
+
+  /// Did the last call fall short of a target, of any joint, and why?
+  bool limited_by_value() const { return limited_by_value_; }
+  bool limited_by_rate() const { return limited_by_rate_; }
+
+ private:
+  std::array<Scalar, Joints> largest_value_{};
+  std::array<Scalar, Joints> largest_step_{};
+  std::array<Scalar, Joints> largest_change_{};
+  std::array<Scalar, Joints> value_{};
+  std::array<Scalar, Joints> step_{};
+  bool limited_by_value_ = false;
+  bool limited_by_rate_ = false;
+  bool is_at_rest_at_zero_ = true;
 };
 
 }  // namespace flexcomp

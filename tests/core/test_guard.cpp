@@ -1,12 +1,15 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "flexcomp/guard.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::CorrectionLimits;
 using flexcomp::Guard;
+using flexcomp::JointGuards;
+using flexcomp::JointVector;
 using flexcomp::Result;
 
 namespace {
@@ -189,6 +192,54 @@ void limits_that_are_not_positive_finite_or_representable_are_refused() {
   TEST_ASSERT_EQUAL(Result::bad_config, guard.configure({1, 3e38F, 1}, 10.0F));
 }
 
+/// Each joint with limits and targets of its own.
+template <typename Scalar>
+void joints_move_together_as_they_do_alone() {
+  std::array<CorrectionLimits<Scalar>, 6> limits;
+  std::array<Guard<Scalar>, 6> alone;
+  std::vector<HostileTargets> targets;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto factor = static_cast<Scalar>(i + 1);
+    limits[i] = {Scalar(0.01) * factor, Scalar(0.3) / factor, 20 * factor};
+    alone[i] = make_guard<Scalar>(limits[i]);
+    targets.emplace_back(static_cast<unsigned>(i));
+  }
+  JointGuards<Scalar, 6> together;
+  TEST_ASSERT_EQUAL(Result::ok, together.configure(limits, static_cast<Scalar>(kPeriod)));
+  TEST_ASSERT_TRUE(together.is_at_rest_at_zero());
+  for (int tick = 0; tick < 20000; ++tick) {
+    JointVector<Scalar, 6> wanted = JointVector<Scalar, 6>::Zero();
+    for (std::size_t i = 0; i < 6 && tick % 1000 < 800; ++i) {
+      wanted[static_cast<Eigen::Index>(i)] =
+          static_cast<Scalar>(targets[i].next(static_cast<double>(limits[i].value)));
+    }
+    const JointVector<Scalar, 6> values = together.advance(wanted);
+    bool by_value = false;
+    bool by_rate = false;
+    bool at_rest = true;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto joint = static_cast<Eigen::Index>(i);
+      TEST_ASSERT_TRUE(alone[i].advance(wanted[joint]) == values[joint]);
+      by_value = by_value || alone[i].limited_by_value();
+      by_rate = by_rate || alone[i].limited_by_rate();
+      at_rest = at_rest && alone[i].is_at_rest_at_zero();
+    }
+    TEST_ASSERT_EQUAL(by_value, together.limited_by_value());
+    TEST_ASSERT_EQUAL(by_rate, together.limited_by_rate());
+    TEST_ASSERT_EQUAL(at_rest, together.is_at_rest_at_zero());
+  }
+}
+
+void bad_limits_of_any_joint_are_refused() {
+  for (std::size_t bad = 0; bad < 6; ++bad) {
+    std::array<CorrectionLimits<float>, 6> limits;
+    limits.fill({0.01F, 1, 10});
+    limits[bad].rate = 0;
+    JointGuards<float, 6> guards;
+    TEST_ASSERT_EQUAL(Result::bad_config, guards.configure(limits, 1e-3F));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -200,6 +251,9 @@ int main() {
   RUN_TEST(a_target_beyond_the_largest_value_stops_there_and_says_so);
   RUN_TEST(a_target_that_is_not_finite_brings_it_to_rest);
   RUN_TEST(it_returns_to_exactly_zero);
+  RUN_TEST(joints_move_together_as_they_do_alone<float>);
+  RUN_TEST(joints_move_together_as_they_do_alone<double>);
+  RUN_TEST(bad_limits_of_any_joint_are_refused);
   RUN_TEST(limits_that_are_not_positive_finite_or_representable_are_refused);
   return UNITY_END();
 }

@@ -1,0 +1,274 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace flexcomp {
+
+/// Six numbers, of a joint vector, a twist or a wrench, as a tick computes with them: in vector
+/// registers where the processor has them.
+///
+/// Of six floats Eigen takes four together and two one by one; here the two are in a register too,
+/// beside two zeros.
+template <typename Scalar>
+class PackedSix {
+  using Numbers = Eigen::Matrix<Scalar, 6, 1>;
+
+ public:
+  PackedSix() = default;
+  explicit PackedSix(const Numbers& numbers) {
+    each([&](int i) { numbers_[i] = numbers.data()[i]; });
+  }
+
+  /// Of a table's record.
+  static PackedSix read(const float* floats) {
+    return of([&](int i) { return static_cast<Scalar>(floats[i]); });
+  }
+
+  Numbers numbers() const {
+    Numbers numbers;
+    each([&](int i) { numbers.data()[i] = numbers_[i]; });
+    return numbers;
+  }
+
+  friend PackedSix operator+(const PackedSix& a, const PackedSix& b) {
+    return of([&](int i) { return a.numbers_[i] + b.numbers_[i]; });
+  }
+  friend PackedSix operator-(const PackedSix& a, const PackedSix& b) {
+    return of([&](int i) { return a.numbers_[i] - b.numbers_[i]; });
+  }
+  friend PackedSix operator*(Scalar factor, const PackedSix& a) {
+    return of([&](int i) { return factor * a.numbers_[i]; });
+  }
+  friend PackedSix operator*(const PackedSix& a, const PackedSix& b) {
+    return of([&](int i) { return a.numbers_[i] * b.numbers_[i]; });
+  }
+  PackedSix operator-() const {
+    return of([&](int i) { return -numbers_[i]; });
+  }
+  Scalar dot(const PackedSix& other) const {
+    Scalar sum = numbers_[0] * other.numbers_[0];
+#pragma GCC unroll 6
+    for (int i = 1; i < 6; ++i) {
+      sum += numbers_[i] * other.numbers_[i];
+    }
+    return sum;
+  }
+
+  bool is_finite() const {
+    Scalar sum = 0;  // of zeros, or not a number
+    each([&](int i) { sum += numbers_[i] - numbers_[i]; });
+    return sum == Scalar(0);
+  }
+  /// Is each number between those of the same place, which may be the bounds themselves? Not where
+  /// one is not a number.
+  bool is_within(const PackedSix& lower, const PackedSix& upper) const {
+    bool within = true;
+    each([&](int i) {
+      within = within && numbers_[i] >= lower.numbers_[i] && numbers_[i] <= upper.numbers_[i];
+    });
+    return within;
+  }
+
+  /// Infinite if one of them is not a number.
+  Scalar largest_magnitude() const {
+    Scalar largest = 0;
+    Scalar sum = 0;  // not a number if one of them is not
+    each([&](int i) {
+      const Scalar magnitude = std::abs(numbers_[i]);
+      largest = magnitude > largest ? magnitude : largest;
+      sum += magnitude;
+    });
+    return std::isnan(sum) ? std::numeric_limits<Scalar>::infinity() : largest;
+  }
+
+  /// Of each column with one vector: Aᵀ b.
+  static PackedSix dots(const std::array<PackedSix, 6>& columns, const PackedSix& with) {
+    return of([&](int i) { return columns[static_cast<std::size_t>(i)].dot(with); });
+  }
+  /// Columns times their factors: A b.
+  static PackedSix sum(const std::array<PackedSix, 6>& columns, const PackedSix& factors) {
+    PackedSix sum;
+    each([&](int i) { sum = sum + factors.numbers_[i] * columns[static_cast<std::size_t>(i)]; });
+    return sum;
+  }
+
+ private:
+  template <typename Do>
+  [[gnu::always_inline]] static void each(const Do& visit) {
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) {
+      visit(i);
+    }
+  }
+  template <typename Of>
+  [[gnu::always_inline]] static PackedSix of(const Of& number) {
+    PackedSix six;
+    each([&](int i) { six.numbers_[i] = number(i); });
+    return six;
+  }
+
+  Scalar numbers_[6] = {};
+};
+
+#if defined(__SSE2__) || defined(__ARM_NEON)
+#define FLEXCOMP_VECTOR_REGISTERS
+
+template <>
+class PackedSix<float> {
+  using Four [[gnu::vector_size(16)]] = float;
+  using FourBits [[gnu::vector_size(16)]] = std::uint32_t;
+  using TwoPairs [[gnu::vector_size(16)]] = std::uint64_t;
+  using FourTruths = decltype(Four() < Four());  ///< all bits of a number, or none
+  using Numbers = Eigen::Matrix<float, 6, 1>;
+
+ public:
+  PackedSix() = default;
+  explicit PackedSix(const Numbers& numbers) : PackedSix(read(numbers.data())) {}
+
+  static PackedSix read(const float* floats) {
+    PackedSix six;
+    std::uint64_t pair = 0;
+    std::memcpy(&six.first_, floats, sizeof six.first_);
+    std::memcpy(&pair, floats + 4, sizeof pair);
+    six.last_ = reinterpret_cast<Four>(TwoPairs{pair, 0});
+    return six;
+  }
+
+  void write(float* floats) const {
+    const std::uint64_t pair = reinterpret_cast<TwoPairs>(last_)[0];
+    std::memcpy(floats, &first_, sizeof first_);
+    std::memcpy(floats + 4, &pair, sizeof pair);
+  }
+  Numbers numbers() const {
+    Numbers numbers;
+    write(numbers.data());
+    return numbers;
+  }
+
+  friend PackedSix operator+(const PackedSix& a, const PackedSix& b) {
+    return {a.first_ + b.first_, a.last_ + b.last_};
+  }
+  friend PackedSix operator-(const PackedSix& a, const PackedSix& b) {
+    return {a.first_ - b.first_, a.last_ - b.last_};
+  }
+  friend PackedSix operator*(float factor, const PackedSix& a) {
+    return {factor * a.first_, factor * a.last_};
+  }
+  friend PackedSix operator*(const PackedSix& a, const PackedSix& b) {
+    return {a.first_ * b.first_, a.last_ * b.last_};
+  }
+  PackedSix operator-() const { return {-first_, -last_}; }
+  float dot(const PackedSix& other) const { return total(products(other)); }
+
+  static PackedSix dots(const std::array<PackedSix, 6>& columns, const PackedSix& with) {
+    const Four a = columns[0].products(with), b = columns[1].products(with);
+    const Four c = columns[2].products(with), d = columns[3].products(with);
+    const Four e = columns[4].products(with), f = columns[5].products(with);
+    const Four ab = halves(a, b), cd = halves(c, d), ef = halves(e, f);
+    const Four none = {};
+    return {
+        __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
+        __builtin_shufflevector(ef, none, 0, 1, 4, 5) +
+            __builtin_shufflevector(ef, none, 2, 3, 6, 7)};
+  }
+  static PackedSix sum(const std::array<PackedSix, 6>& columns, const PackedSix& factors) {
+    const PackedSix a = factors.first_[0] * columns[0] + factors.first_[1] * columns[1];
+    const PackedSix b = factors.first_[2] * columns[2] + factors.first_[3] * columns[3];
+    const PackedSix c = factors.last_[0] * columns[4] + factors.last_[1] * columns[5];
+    return (a + b) + c;
+  }
+
+  /// Number by number: a if a < b, else b; a if a > b, else b.
+  static PackedSix smaller(const PackedSix& a, const PackedSix& b) {
+    return {a.first_ < b.first_ ? a.first_ : b.first_, a.last_ < b.last_ ? a.last_ : b.last_};
+  }
+  static PackedSix larger(const PackedSix& a, const PackedSix& b) {
+    return {a.first_ > b.first_ ? a.first_ : b.first_, a.last_ > b.last_ ? a.last_ : b.last_};
+  }
+  PackedSix magnitudes() const { return {magnitude(first_), magnitude(last_)}; }
+
+  /// What holds number by number.
+  class Truth {
+   public:
+    bool any() const { return (bits()[0] | bits()[1]) != 0; }
+    friend Truth operator|(const Truth& a, const Truth& b) {
+      return {a.first_ | b.first_, a.last_ | b.last_};
+    }
+
+   private:
+    friend class PackedSix;
+    Truth(FourTruths first, FourTruths last) : first_(first), last_(last) {}
+    TwoPairs bits() const { return reinterpret_cast<TwoPairs>(first_ | last_); }
+    FourTruths first_;
+    FourTruths last_;
+  };
+  Truth operator<(const PackedSix& other) const {
+    return {first_ < other.first_, last_ < other.last_};
+  }
+  Truth operator>(const PackedSix& other) const {
+    return {first_ > other.first_, last_ > other.last_};
+  }
+  Truth operator!=(const PackedSix& other) const {
+    return {first_ != other.first_, last_ != other.last_};
+  }
+  Truth are_finite() const {
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    return {magnitude(first_) <= kLargest, magnitude(last_) <= kLargest};
+  }
+  static PackedSix choose(const Truth& where, const PackedSix& a, const PackedSix& b) {
+    return {where.first_ ? a.first_ : b.first_, where.last_ ? a.last_ : b.last_};
+  }
+
+  bool is_finite() const {
+    const Truth truth = are_finite();
+    return all(truth.first_ & truth.last_);
+  }
+  bool is_within(const PackedSix& lower, const PackedSix& upper) const {
+    return all((first_ >= lower.first_) & (first_ <= upper.first_) & (last_ >= lower.last_) &
+               (last_ <= upper.last_));
+  }
+
+  float largest_magnitude() const {
+    const Four a = magnitude(first_);
+    const Four b = magnitude(last_);
+    const Four larger = a > b ? a : b;
+    const float even = larger[0] > larger[2] ? larger[0] : larger[2];
+    const float odd = larger[1] > larger[3] ? larger[1] : larger[3];
+    return std::isnan(total(a + b)) ? std::numeric_limits<float>::infinity()
+                                    : (even > odd ? even : odd);
+  }
+
+ private:
+  PackedSix(Four first, Four last) : first_(first), last_(last) {}
+
+  static bool all(FourTruths truth) {
+    const TwoPairs pairs = reinterpret_cast<TwoPairs>(truth);
+    return (pairs[0] & pairs[1]) == ~std::uint64_t{0};
+  }
+  Four products(const PackedSix& other) const {
+    return first_ * other.first_ + last_ * other.last_;
+  }
+  /// Each of two in turn: its first and third number, its second and fourth.
+  static Four halves(Four a, Four b) {
+    return __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  }
+  static float total(Four four) {
+    const Four pairs = four + __builtin_shufflevector(four, four, 2, 3, 2, 3);
+    return pairs[0] + pairs[1];
+  }
+  static Four magnitude(Four four) {
+    return reinterpret_cast<Four>(reinterpret_cast<FourBits>(four) & 0x7fffffffU);
+  }
+
+  Four first_ = {};
+  Four last_ = {};  ///< the fifth, the sixth, two zeros
+};
+
+#endif
+
+}  // namespace flexcomp

@@ -1,0 +1,130 @@
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "packed_six.hpp"
+#include "unity_main.hpp"
+
+using flexcomp::PackedSix;
+
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+template <typename Scalar>
+using Numbers = Eigen::Matrix<Scalar, 6, 1>;
+
+template <typename Scalar>
+Numbers<Scalar> any(std::mt19937* random) {
+  std::uniform_real_distribution<Scalar> between(-10, 10);
+  return Numbers<Scalar>::NullaryExpr([&] { return between(*random); });
+}
+
+template <typename Scalar>
+void expect_near(const Numbers<Scalar>& expected, const Numbers<Scalar>& found) {
+  constexpr Scalar kUnits = 4 * std::numeric_limits<Scalar>::epsilon();
+  TEST_ASSERT_TRUE((found - expected).norm() <= kUnits * expected.norm());
+}
+
+template <typename Scalar>
+void try_arithmetic() {
+  std::mt19937 random(1);
+  for (int round = 0; round < 100; ++round) {
+    const Numbers<Scalar> a = any<Scalar>(&random);
+    const Numbers<Scalar> b = any<Scalar>(&random);
+    const PackedSix<Scalar> p(a);
+    const PackedSix<Scalar> q(b);
+    expect_near<Scalar>(a + b, (p + q).numbers());
+    expect_near<Scalar>(a - b, (p - q).numbers());
+    expect_near<Scalar>(Scalar(0.3) * a, (Scalar(0.3) * p).numbers());
+    const auto scale = static_cast<double>((a.cwiseAbs()).dot(b.cwiseAbs()));
+    constexpr auto kUnits = 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+    TEST_ASSERT_DOUBLE_WITHIN(kUnits * scale, static_cast<double>(a.dot(b)),
+                              static_cast<double>(p.dot(q)));
+    TEST_ASSERT_TRUE(p.largest_magnitude() == a.cwiseAbs().maxCoeff());
+  }
+}
+
+void arithmetic_is_that_of_vectors() {
+  try_arithmetic<float>();
+  try_arithmetic<double>();
+}
+
+template <typename Scalar>
+void try_columns() {
+  std::mt19937 random(2);
+  for (int round = 0; round < 100; ++round) {
+    Eigen::Matrix<Scalar, 6, 6> matrix;
+    std::array<PackedSix<Scalar>, 6> columns;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      matrix.col(column) = any<Scalar>(&random);
+      columns[i] = PackedSix<Scalar>(Numbers<Scalar>(matrix.col(column)));
+    }
+    const Numbers<Scalar> b = any<Scalar>(&random);
+    const PackedSix<Scalar> packed(b);
+    const Scalar units = 8 * std::numeric_limits<Scalar>::epsilon() * matrix.norm() * b.norm();
+    const Numbers<Scalar> dots = PackedSix<Scalar>::dots(columns, packed).numbers();
+    const Numbers<Scalar> sum = PackedSix<Scalar>::sum(columns, packed).numbers();
+    TEST_ASSERT_TRUE((dots - matrix.transpose() * b).norm() <= units);
+    TEST_ASSERT_TRUE((sum - matrix * b).norm() <= units);
+    expect_near<Scalar>(b.cwiseProduct(dots), (packed * PackedSix<Scalar>(dots)).numbers());
+    expect_near<Scalar>(-b, (-packed).numbers());
+  }
+}
+
+void columns_multiply_as_a_matrix_and_its_transpose() {
+  try_columns<float>();
+  try_columns<double>();
+}
+
+void nothing_but_six_floats_is_read() {
+  const std::vector<float> floats = {1, 2, 3, 4, 5, 6};  // the address sanitizer watches its ends
+  expect_near<float>({1, 2, 3, 4, 5, 6}, PackedSix<float>::read(floats.data()).numbers());
+  expect_near<double>({1, 2, 3, 4, 5, 6}, PackedSix<double>::read(floats.data()).numbers());
+}
+
+template <typename Scalar>
+void try_each_place() {
+  const Numbers<Scalar> low = Numbers<Scalar>::Constant(-1);
+  const Numbers<Scalar> high = Numbers<Scalar>::Constant(2);
+  const auto is_within = [&](const Numbers<Scalar>& numbers) {
+    return PackedSix<Scalar>(numbers).is_within(PackedSix<Scalar>(low), PackedSix<Scalar>(high));
+  };
+  TEST_ASSERT_TRUE(is_within(low));
+  TEST_ASSERT_TRUE(is_within(high));
+  for (Eigen::Index place = 0; place < 6; ++place) {
+    for (const float odd : {kNaN, kInfinity, -kInfinity, -1.0001F, 2.0001F}) {
+      Numbers<Scalar> numbers = Numbers<Scalar>::Ones();
+      numbers[place] = static_cast<Scalar>(odd);
+      const PackedSix<Scalar> six(numbers);
+      TEST_ASSERT_EQUAL(std::isfinite(odd), six.is_finite());
+      TEST_ASSERT_FALSE(is_within(numbers));
+      const float most = std::isnan(odd) ? kInfinity : std::max(1.0F, std::abs(odd));
+      TEST_ASSERT_TRUE(six.largest_magnitude() == static_cast<Scalar>(most));
+    }
+  }
+}
+
+void each_number_counts() {
+  try_each_place<float>();
+  try_each_place<double>();
+}
+
+void without_numbers_all_are_zero() {
+  TEST_ASSERT_TRUE(PackedSix<float>().numbers().isZero(0));
+  TEST_ASSERT_TRUE(PackedSix<double>().numbers().isZero(0));
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(arithmetic_is_that_of_vectors);
+  RUN_TEST(columns_multiply_as_a_matrix_and_its_transpose);
+  RUN_TEST(nothing_but_six_floats_is_read);
+  RUN_TEST(each_number_counts);
+  RUN_TEST(without_numbers_all_are_zero);
+  return UNITY_END();
+}
