@@ -135,30 +135,41 @@ class Chooser {
     return sought_;
   }
 
-  /// The best fit of a pair, if it is better than a fit that is there.
-  bool pair_up(Fit* current) const {
+  /// The fits of the best pairs whose parts do not cancel each other.
+  std::vector<Fit> pairs() const {
     constexpr std::size_t kPairs = 3;
-    bool bettered = false;
+    std::vector<Fit> fits;
     for (const ScreenedPair& pair :
          screen_pairs(*observations_, hypotheses_, dictionary_, kPairs)) {
-      const Fit tried = fit(*observations_,
-                            {chosen_of(hypotheses_, dictionary_, pair.first),
-                             chosen_of(hypotheses_, dictionary_, pair.second)},
-                            kSteps, &dictionary_);
-      if (criterion(tried) < criterion(*current) - kStrong &&
-          cancellation(*observations_, tried) < kMostCancellation && all_hold(tried)) {
-        *current = tried;
-        bettered = true;
+      Fit tried = fit(*observations_,
+                      {chosen_of(hypotheses_, dictionary_, pair.first),
+                       chosen_of(hypotheses_, dictionary_, pair.second)},
+                      kSteps, &dictionary_);
+      if (cancellation(*observations_, tried) < kMostCancellation) {
+        fits.push_back(std::move(tried));
       }
     }
-    return bettered;
+    return fits;
   }
 
-  /// BIC but for a constant: the smaller the better, fits of any hypotheses beside each other.
+  /// By strong evidence, or by any with fewer findings.
+  bool is_better(const Fit& one, const Fit& other) const {
+    const double margin = one.chosen.size() < other.chosen.size() ? 0 : kStrong;
+    return criterion(one) < criterion(other) - margin && all_hold(one);
+  }
+
+  /// BIC but for a constant: the smaller the better, fits of any hypotheses beside each other. What
+  /// rests at a bound, like the directions in which a base does not give, is not fitted.
   double criterion(const Fit& fit) const {
+    int fitted = 0;
+    for (const Chosen& each : fit.chosen) {
+      for (std::size_t i = 0; i < each.values.size(); ++i) {
+        const Parameter& parameter = each.hypothesis->parameters[i];
+        fitted += each.values[i] > parameter.lower && each.values[i] < parameter.upper ? 1 : 0;
+      }
+    }
     const auto samples = static_cast<double>(observations_->train);
-    return samples * std::log(std::max(fit.train_sum, 1e-9)) +
-           static_cast<double>(fit.parameters()) * std::log(samples);
+    return samples * std::log(std::max(fit.train_sum, 1e-9)) + fitted * std::log(samples);
   }
 
   bool all_hold(const Fit& whole) const {
@@ -212,6 +223,9 @@ class Chooser {
   Evidence weigh_last(const Fit& before, const Fit& after) const {
     return weigh(*observations_, before, after, static_cast<double>(dictionary_.entries.size()));
   }
+
+  /// From another fit on.
+  void begin() { found_in_.clear(); }
 
   bool grow(Fit* current) {
     Fit grown = best_with(*current, shortlist_beside(*current));
@@ -473,19 +487,28 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
   Choice choice;
   choice.fit = fit(*observations, {}, 0);
   choice.ranking = chooser.ranking(choice.fit);
-  const auto grow = [&] {
-    while (choice.fit.chosen.size() < kMostFindings && chooser.grow(&choice.fit)) {
-      tell(choice.fit.chosen.size(), kMostFindings);
-      chooser.revise(&choice.fit);
-      chooser.seek(choice.fit);
+  const auto grow = [&](Fit* current) {
+    chooser.begin();
+    while (current->chosen.size() < kMostFindings && chooser.grow(current)) {
+      tell(current->chosen.size(), kMostFindings);
+      chooser.revise(current);
+      chooser.seek(*current);
     }
   };
-  grow();
+  grow(&choice.fit);
   const bool is_settled =
       choice.fit.parameters() <= 2 && largest_ratio(*observations, choice.fit.remainder) < kSettled;
-  if (!is_settled && chooser.pair_up(&choice.fit)) {
-    chooser.seek(choice.fit);
-    grow();
+  if (!is_settled) {
+    const std::vector<Fit> pairs = chooser.pairs();
+    // What grows from a pair may be better in the end; in a load test it is soon found out.
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      Fit rival = pairs[i];
+      if (chooser.is_better(rival, choice.fit) || (observations->is_static && i == 0)) {
+        chooser.seek(rival);
+        grow(&rival);
+        choice.fit = chooser.is_better(rival, choice.fit) ? rival : choice.fit;
+      }
+    }
   }
   choice.fit = fit(*observations, choice.fit.chosen, kLastSteps);
   chooser.prune(&choice);

@@ -141,6 +141,16 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   }
 }
 
+/// The estimate with the most deviations from zero: in which direction a base gives, for one.
+Estimate surest_of(const std::vector<Estimate>& all) {
+  const auto deviations = [](const Estimate& each) {
+    return each.deviation > 0 ? std::abs(each.value) / each.deviation : 0;
+  };
+  return *std::max_element(all.begin(), all.end(), [&](const Estimate& a, const Estimate& b) {
+    return deviations(a) < deviations(b);
+  });
+}
+
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -191,7 +201,7 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
                       std::size_t finding) {
   const Finding& found = diagnosis.choice.findings[finding];
   const Fit& fit = diagnosis.choice.fit;
-  const Estimate first = estimates(observations, fit, finding).front();
+  const Estimate surest = surest_of(estimates(observations, fit, finding));
   std::string clause = fit.chosen[finding].hypothesis->statement;
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
   const Channel channel = main_channel(observations, found.without, fit);
@@ -201,7 +211,7 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   };
   return fmt::format(
       "{} ({} {}), which the model lacks: held-out error of {} falls from {} to {}, noise {}.",
-      clause, first.name, readable(first.value, first.unit), simulation::kChannels[channel],
+      clause, surest.name, readable(surest.value, surest.unit), simulation::kChannels[channel],
       written(found.without.remainder, true), written(fit.remainder, true),
       written(Eigen::VectorXd::Ones(observations.size()), false));
 }

@@ -14,45 +14,47 @@ namespace {
 constexpr double kLeastWhole = 0.4;
 constexpr double kMostWhole = 2.5;
 
-/// Which of its linear parameters is the most out of bounds, in steps of it; -1 where none is.
-Eigen::Index most_out_of_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitude) {
+Eigen::Index columns_of(const Hypothesis& hypothesis) {
+  return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(hypothesis.linear));
+}
+
+/// Which of the linear parameters of hypotheses, whose columns follow each other, is the most out
+/// of bounds, in steps of it; -1 where none is.
+Eigen::Index most_out_of_bounds(const std::vector<const Hypothesis*>& hypotheses,
+                                const Eigen::VectorXd& amplitude) {
+  constexpr double kTolerance = 2;  // noise may take a parameter that is nothing so far below zero
   Eigen::Index most = -1;
-  // Noise may take a parameter that is nothing a little below its bound.
-  double distance = amplitude.size() > 1 ? 2 : 0;
-  for (Eigen::Index i = 0; i < amplitude.size(); ++i) {
-    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
-    const double out =
-        std::max(parameter.lower - amplitude[i], amplitude[i] - parameter.upper) / parameter.step;
-    if (out > distance) {
-      distance = out;
-      most = i;
+  double distance = 0;
+  Eigen::Index first = 0;
+  for (const Hypothesis* hypothesis : hypotheses) {
+    for (std::size_t i = 0; i < hypothesis->linear; ++i) {
+      const Parameter& parameter = hypothesis->parameters[i];
+      const Eigen::Index at = first + static_cast<Eigen::Index>(i);
+      const double out =
+          std::max(parameter.lower - amplitude[at], amplitude[at] - parameter.upper) /
+          parameter.step;
+      if (out > std::max(distance, hypothesis->linear > 1 ? kTolerance : 0.0)) {
+        distance = out;
+        most = at;
+      }
     }
+    first += columns_of(*hypothesis);
   }
   return most;
 }
 
-/// The amplitudes of an entry within its hypothesis' bounds. Parameters that leave them (a mass
-/// that a recording cannot tell from its moments) are held at zero, the farthest first.
-LeastSquares solve_within_bounds(const Hypothesis& hypothesis, const Eigen::MatrixXd& gram,
-                                 const Eigen::VectorXd& moment, const Eigen::VectorXd& length) {
+/// Least squares by normal equations, in columns over their `length`, slightly damped so that a
+/// column that is a mixture of others gets next to nothing.
+LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
+                          const Eigen::VectorXd& length) {
   constexpr double kDamping = 1e-10;
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < moment.size(); ++i) {
-    free.push_back(i);
-  }
-  while (!free.empty()) {
-    const LeastSquares solved =
-        solve_scaled(gram(free, free), moment(free), length(free), kDamping);
-    Eigen::VectorXd amplitude = Eigen::VectorXd::Zero(moment.size());
-    amplitude(free) = solved.amplitude;
-    const Eigen::Index out =
-        hypothesis.linear > 0 ? most_out_of_bounds(hypothesis, amplitude) : Eigen::Index{-1};
-    if (out < 0 || !amplitude.allFinite()) {
-      return {amplitude, solved.gain};
-    }
-    free.erase(std::remove(free.begin(), free.end(), out), free.end());
-  }
-  return {Eigen::VectorXd::Zero(moment.size()), 0};
+  const Eigen::VectorXd scale = length.cwiseMax(1e-300);
+  Eigen::MatrixXd inner =
+      scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
+  inner.diagonal().array() += kDamping;
+  const Eigen::VectorXd scaled = moment.cwiseQuotient(scale);
+  const Eigen::VectorXd solved = inner.ldlt().solve(scaled);
+  return {solved.cwiseQuotient(scale), 2 * scaled.dot(solved) - solved.dot(inner * solved)};
 }
 
 }  // namespace
@@ -157,15 +159,24 @@ const Entry* Dictionary::find(const Hypothesis& hypothesis) const {
   return nullptr;
 }
 
-LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
-                          const Eigen::VectorXd& length, double damping) {
-  const Eigen::VectorXd scale = length.cwiseMax(1e-300);
-  Eigen::MatrixXd inner =
-      scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
-  inner.diagonal().array() += damping;
-  const Eigen::VectorXd scaled = moment.cwiseQuotient(scale);
-  const Eigen::VectorXd solved = inner.ldlt().solve(scaled);
-  return {solved.cwiseQuotient(scale), 2 * scaled.dot(solved) - solved.dot(inner * solved)};
+LeastSquares solve_within_bounds(const std::vector<const Hypothesis*>& hypotheses,
+                                 const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
+                                 const Eigen::VectorXd& length) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < moment.size(); ++i) {
+    free.push_back(i);
+  }
+  while (!free.empty()) {
+    const LeastSquares solved = solve_scaled(gram(free, free), moment(free), length(free));
+    Eigen::VectorXd amplitude = Eigen::VectorXd::Zero(moment.size());
+    amplitude(free) = solved.amplitude;
+    const Eigen::Index out = most_out_of_bounds(hypotheses, amplitude);
+    if (out < 0 || !amplitude.allFinite()) {
+      return {amplitude, solved.gain};
+    }
+    free.erase(std::remove(free.begin(), free.end(), out), free.end());
+  }
+  return {Eigen::VectorXd::Zero(moment.size()), 0};
 }
 
 std::vector<Screened> screen(const Observations& observations,
@@ -191,7 +202,7 @@ std::vector<Screened> screen(const Observations& observations,
     const Eigen::MatrixXd own =
         dictionary.gram.block(entry.first, entry.first, entry.count, entry.count);
     const LeastSquares solved =
-        solve_within_bounds(hypotheses[entry.hypothesis], own - common.transpose() * common,
+        solve_within_bounds({&hypotheses[entry.hypothesis]}, own - common.transpose() * common,
                             product.segment(entry.first, entry.count), own.diagonal().cwiseSqrt());
     if (solved.gain > 0 && solved.amplitude.allFinite() &&
         within_bounds(hypotheses[entry.hypothesis], solved.amplitude)) {
@@ -234,7 +245,7 @@ bool within_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitud
   if (hypothesis.linear == 0) {
     return amplitude[0] > kLeastWhole && amplitude[0] < kMostWhole;
   }
-  return most_out_of_bounds(hypothesis, amplitude) < 0;
+  return most_out_of_bounds({&hypothesis}, amplitude) < 0;
 }
 
 Values values_of(const Hypothesis& hypothesis, const Entry& entry,

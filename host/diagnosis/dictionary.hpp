@@ -58,10 +58,13 @@ struct LeastSquares {
   double gain = 0;
 };
 
-/// Least squares by normal equations, in columns over their `length`, slightly damped so that a
-/// column that is a mixture of others gets next to nothing.
-LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
-                          const Eigen::VectorXd& length, double damping);
+/// Least squares by normal equations (`gram` and `moment` of the columns of entries of these
+/// hypotheses, one after the other, of these lengths), within the hypotheses' bounds: parameters
+/// that leave them (a mass that a recording cannot tell from its moments) are held at zero, the
+/// farthest first.
+LeastSquares solve_within_bounds(const std::vector<const Hypothesis*>& hypotheses,
+                                 const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
+                                 const Eigen::VectorXd& length);
 
 /// What an entry would explain beside what is fitted already.
 struct Screened {

@@ -25,11 +25,11 @@ bool are_neighbours(const Observations& observations, const Sample& a, const Sam
          b.row - a.row <= nearest;
 }
 
-/// Deviations by which the squares that were held out fall, block by block of time: what varies is
-/// the product of the change with what is left.
+/// Deviations by which the squares that were held out fall, block by block of time, or row by row
+/// of a load test: what varies is the product of the change with what is left.
 double confirmation_of(const Observations& observations, const Eigen::VectorXd& before,
                        const Eigen::VectorXd& after) {
-  constexpr Eigen::Index kBlock = 25;  // rows
+  const Eigen::Index block_size = observations.is_static ? 1 : 25;  // rows
   double fall = 0;
   std::map<std::tuple<std::size_t, int, Eigen::Index, Eigen::Index>, double> products;
   for (Eigen::Index i = observations.train; i < observations.size(); ++i) {
@@ -39,7 +39,7 @@ double confirmation_of(const Observations& observations, const Eigen::VectorXd& 
     const double b = std::clamp(before[i], after[i] - limit, after[i] + limit);
     const double a = std::clamp(after[i], -limit, limit);
     fall += b * b - a * a;
-    products[{at.scene, at.channel, at.component, at.row / kBlock}] += a * (b - a);
+    products[{at.scene, at.channel, at.component, at.row / block_size}] += a * (b - a);
   }
   double variance = 0;
   for (const auto& [block, product] : products) {

@@ -19,10 +19,7 @@ constexpr Channel kAllChannels[] = {tcp_position, joint_torque, joint_deflection
 constexpr double kLeastNoise[] = {1e-9, 1e-3, 1e-9};
 
 /// A quarter of the time, in whole stretches.
-bool is_held_out(Eigen::Index row, Eigen::Index rows) {
-  constexpr Eigen::Index kHoldoutStretches = 20;
-  return (row * kHoldoutStretches / rows) % 4 == 2;
-}
+bool is_held_out(Eigen::Index row, Eigen::Index rows) { return stretch_of(row, rows) % 4 == 2; }
 
 /// Rows over which differentiation correlates the encoders' noise.
 Eigen::Index memory_of(const Scene& scene) {
@@ -51,6 +48,10 @@ double largest(const std::vector<Values>& all) {
 }
 
 }  // namespace
+
+Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows) {
+  return row * kHoldoutStretches / rows;
+}
 
 simulation::Wanted wanted_of(const Machine& machine, const Scene& scene) {
   simulation::Wanted wanted;

@@ -21,6 +21,12 @@ struct Sample {
   Eigen::Index component;
 };
 
+/// Stretches of time that a recording is divided into: what lies within one may hang together.
+constexpr Eigen::Index kHoldoutStretches = 20;
+
+/// Which of them a row of a recording is in, from zero.
+Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows);
+
 /// What the motion's differentiation brings into predictions, by channel; empty where nothing.
 struct PredictionNoise {
   std::array<Eigen::RowVectorXd, 3> deviation;  ///< by the encoders' noise, of each component

@@ -35,13 +35,14 @@ class PairSolver {
     inner.bottomLeftCorner(n - m, m) = inner.topRightCorner(m, n - m).transpose();
     Eigen::VectorXd moment(n);
     moment << product_.segment(first.first, m), product_.segment(second.first, n - m);
-    const LeastSquares solved = solve_scaled(inner, moment, inner.diagonal().cwiseSqrt(), 1e-9);
+    const Hypothesis& one = hypotheses_[first.hypothesis];
+    const Hypothesis& other = hypotheses_[second.hypothesis];
+    const LeastSquares solved =
+        solve_within_bounds({&one, &other}, inner, moment, inner.diagonal().cwiseSqrt());
     const Eigen::VectorXd& amplitude = solved.amplitude;
     pair->sum = std::max(sum_ - solved.gain, 1e-9);
     pair->first = {a, pair->sum, amplitude.head(m)};
     pair->second = {b, pair->sum, amplitude.tail(n - m)};
-    const Hypothesis& one = hypotheses_[first.hypothesis];
-    const Hypothesis& other = hypotheses_[second.hypothesis];
     if (!amplitude.allFinite() || !within_bounds(one, amplitude.head(m)) ||
         !within_bounds(other, amplitude.tail(n - m))) {
       return std::numeric_limits<double>::infinity();

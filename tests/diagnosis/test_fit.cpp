@@ -1,0 +1,115 @@
+// Stated deviations against errors that are known, and amplitudes within bounds.
+#include <cmath>
+
+#include "diagnosis/fit.hpp"
+#include "diagnosis/effects/effects.hpp"
+#include "diagnosis/swinging_robot.hpp"
+#include "unity_main.hpp"
+
+using namespace flexcomp::diagnosis;
+using flexcomp::test::kTcpNoise;
+using flexcomp::test::SwingingRobot;
+
+namespace {
+
+constexpr int kJoint = 3;
+
+/// Each with the one before in common, by as much as makes them hang together for half a second.
+Eigen::MatrixXd hanging_together(const SwingingRobot& swinging, double deviation, unsigned seed) {
+  constexpr double kStays = 0.98;  // from one row, of 10 ms, to the next
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, deviation * std::sqrt(1 - kStays * kStays));
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(swinging.rows(), 3);
+  for (Eigen::Index row = 1; row < errors.rows(); ++row) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      errors(row, axis) = kStays * errors(row - 1, axis) + normal(random);
+    }
+  }
+  return errors;
+}
+
+struct Estimated {
+  double value;
+  double deviation;
+};
+
+Estimated offset_of(const Observations& observations) {
+  for (const Hypothesis& hypothesis : joint_offset(observations)) {
+    if (hypothesis.joint == kJoint) {
+      const Fit found = fit(observations, {{&hypothesis, {0.0}}}, 12);
+      return {found.chosen[0].values[0], std::sqrt(found.covariance(0, 0))};
+    }
+  }
+  TEST_FAIL_MESSAGE("no hypothesis of an offset");
+  return {0, 0};
+}
+
+/// Of true values that are known, within 1.96 stated deviations.
+int intervals_that_hold(double together, double* mean_deviation) {
+  constexpr double kOffset = 1e-4;  // rad
+  constexpr int kRounds = 40;
+  int hold = 0;
+  *mean_deviation = 0;
+  for (unsigned seed = 1; seed <= kRounds; ++seed) {
+    const SwingingRobot swinging(seed);
+    const Eigen::MatrixXd error =
+        swinging.moved_by(kJoint, Eigen::VectorXd::Constant(swinging.rows(), kOffset)) +
+        hanging_together(swinging, together, 100 + seed);
+    const Estimated found = offset_of(swinging.observed(error));
+    hold += std::abs(found.value - kOffset) < 1.96 * found.deviation ? 1 : 0;
+    *mean_deviation += found.deviation / kRounds;
+  }
+  return hold;
+}
+
+void intervals_hold_in_noise_and_are_no_wider_than_they_must() {
+  double stated = 0;
+  TEST_ASSERT_TRUE(intervals_that_hold(0, &stated) >= 35);  // 38 of 40; fewer than 35 by chance 1 %
+  const SwingingRobot swinging(1);
+  const Eigen::MatrixXd lever = swinging.moved_by(kJoint, Eigen::VectorXd::Ones(swinging.rows()));
+  const double least = kTcpNoise / (std::sqrt(0.75) * lever.norm());  // a quarter is held out
+  TEST_ASSERT_TRUE(stated > 0.95 * least);
+  TEST_ASSERT_TRUE(stated < 1.25 * least);
+}
+
+void intervals_hold_where_errors_hang_together() {
+  double stated = 0;
+  TEST_ASSERT_TRUE(intervals_that_hold(kTcpNoise, &stated) >= 34);
+}
+
+Hypothesis of_two(double lower) {
+  Hypothesis hypothesis;
+  hypothesis.parameters = {{"a", "1", lower, 10, 1e-3}, {"b", "1", lower, 10, 1e-3}};
+  hypothesis.linear = 2;
+  return hypothesis;
+}
+
+void amplitudes_of_two_hypotheses_that_leave_their_bounds_are_held_at_zero() {
+  const Hypothesis one = of_two(0);
+  const Hypothesis other = of_two(-10);
+  const Eigen::MatrixXd columns = Eigen::MatrixXd::Random(50, 4);
+  const Eigen::VectorXd target =
+      columns * Eigen::Vector4d(1, -2, -3, 4) + 0.01 * Eigen::VectorXd::Random(50);
+  const Eigen::MatrixXd gram = columns.transpose() * columns;
+  const LeastSquares found = solve_within_bounds({&one, &other}, gram, columns.transpose() * target,
+                                                 gram.diagonal().cwiseSqrt());
+  Eigen::MatrixXd left(50, 3);
+  left << columns.col(0), columns.col(2), columns.col(3);
+  const Eigen::Vector3d expected = left.colPivHouseholderQr().solve(target);
+  TEST_ASSERT_EQUAL_DOUBLE(0, found.amplitude[1]);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6, expected[0], found.amplitude[0]);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6, expected[1], found.amplitude[2]);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6, expected[2], found.amplitude[3]);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6, target.squaredNorm() - (target - left * expected).squaredNorm(),
+                            found.gain);
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(intervals_hold_in_noise_and_are_no_wider_than_they_must);
+  RUN_TEST(intervals_hold_where_errors_hang_together);
+  RUN_TEST(amplitudes_of_two_hypotheses_that_leave_their_bounds_are_held_at_zero);
+  return UNITY_END();
+}
