@@ -30,9 +30,10 @@ def _all_figures(machine, measured):
     for name, topic in measured.items():
         lines += ["", f"### {topic.title}", "", f"`tools/bench --only {name}`", "", "| | |", "|---|---|"]
         lines += [f"| {figure.name} | {figure.text()} |" for figure in topic.figures]
-        lines += ["", "| ratio | | goal | |", "|---|---|---|---|"]
-        lines += [f"| {ratio.name} | {result.digits(ratio.value)} | {ratio.goal_text()} | {ratio.verdict()} |"
-                  for ratio in topic.ratios]
+        if topic.ratios:
+            lines += ["", "| ratio | | goal | |", "|---|---|---|---|"]
+            lines += [f"| {ratio.name} | {result.digits(ratio.value)} | {ratio.goal_text()} | {ratio.verdict()} |"
+                      for ratio in topic.ratios]
         lines += [line for note in topic.notes for line in ("", note)]
     return lines
 
