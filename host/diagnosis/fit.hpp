@@ -19,8 +19,10 @@ struct Fit {
   Machine machine;             ///< the model with them
   Eigen::VectorXd remainder;   ///< all samples: measured less predicted, over the noise
   Eigen::MatrixXd derivative;  ///< samples × parameters, of the prediction over the noise
-  Eigen::MatrixXd covariance;  ///< parameters × parameters; zero where nothing depends on one
-  double train_sum = 0;        ///< robust sum of squares of the remainder
+  /// Parameters × parameters; zero where nothing depends on one. Wider than for independent errors
+  /// where they hang together over time.
+  Eigen::MatrixXd covariance;
+  double train_sum = 0;  ///< robust sum of squares of the remainder
 
   std::size_t parameters() const;
 };
