@@ -1,8 +1,8 @@
 // Stated deviations against errors that are known, and amplitudes within bounds.
 #include <cmath>
 
-#include "diagnosis/fit.hpp"
 #include "diagnosis/effects/effects.hpp"
+#include "diagnosis/fit.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
 
