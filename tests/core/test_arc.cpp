@@ -190,7 +190,25 @@ void a_configuration_that_cannot_work_is_refused() {
       TEST_ASSERT_TRUE(refused(gains));
     }
   }
+  using Angles = JointVector<double, 1>;
+  for (Angles Gains::*const part :
+       {&Gains::rotor_inertia, &Gains::viscous, &Gains::link_rate, &Gains::motor_rate,
+        &Gains::motor_stiffness, &Gains::link_gain, &Gains::motor_gain, &Gains::link_gain_limit,
+        &Gains::motor_gain_limit, &Gains::link_bound_limit, &Gains::motor_bound_limit,
+        &Gains::torque_limit}) {
+    for (const double bad : {-1.0, std::nan("")}) {
+      Gains gains = pendulum_gains<double>();
+      (gains.*part)[0] = bad;
+      TEST_ASSERT_TRUE(refused(gains));
+    }
+  }
   Gains gains = pendulum_gains<double>();
+  gains.link_adaptation(0, 1) = 0;
+  TEST_ASSERT_TRUE(refused(gains));
+  gains = pendulum_gains<double>();
+  gains.motor_adaptation(0, 2) = std::nan("");
+  TEST_ASSERT_TRUE(refused(gains));
+  gains = pendulum_gains<double>();
   gains.filter_frequency = 1001;
   TEST_ASSERT_TRUE(refused(gains));
   gains = pendulum_gains<double>();

@@ -434,6 +434,7 @@ void configurations_that_make_no_sense_are_refused() {
       [](Core::Config* c) { c->filter_cutoff = kInf; },
       [](Core::Config* c) { c->force_range = 0; },
       [](Core::Config* c) { c->moment_range = kInf; },
+      [](Core::Config* c) { c->force_range = 1e30F; },  // whose square is no number
       [](Core::Config* c) { c->setpoint_age_limit = -1; },
       [](Core::Config* c) { c->wrench_age_limit = kNan; },
       [](Core::Config* c) { c->joint_speed[4] = 0; },

@@ -161,6 +161,25 @@ void the_orientation_too_is_held_to_its_tolerance() {
   TEST_ASSERT_TRUE(fine > coarse);
 }
 
+void what_a_tick_reads_is_the_response_of_the_entry() {
+  const Built built(kr270<double>(), kArmAndWrist, 2e-5);
+  Wrench<double> wrench;
+  wrench << 440, 1370, 635, 3, -8, 10.5;
+  for (int place = 0; place < 8; ++place) {
+    const double places[4] = {0.11 * place, 0.5, 0.9 - 0.1 * place, 0.3};
+    const JointVector<double, 6> q = chart_angles<double, 6>(built.table, places);
+    double outside = 1;
+    const auto read = look_up_response<double, 6>(built.table, q, wrench, nullptr, &outside);
+    const auto entry = look_up<double, 6>(built.table, q, nullptr);
+    const auto expected = respond<double, 6>(built.table, entry, wrench);
+    TEST_ASSERT_EQUAL_DOUBLE(entry.outside, outside);
+    TEST_ASSERT_TRUE(read.deflection == expected.deflection);
+    TEST_ASSERT_TRUE(read.correction == expected.correction);
+    const auto exact = deflection<double, 6>(kr270<double>(), q, wrench).tcp;
+    TEST_ASSERT_TRUE((read.deflection - exact).head<3>().norm() < 2e-5);
+  }
+}
+
 void what_cannot_be_built_is_named() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Ranges none = {{0, 0}, {0, 0}, {0, 0}, {0, 0}};
@@ -188,6 +207,7 @@ int main() {
   RUN_TEST(a_cursor_is_left_as_it_is);
   RUN_TEST(a_fault_of_the_arguments_goes_before_all_else);
   RUN_TEST(the_orientation_too_is_held_to_its_tolerance);
+  RUN_TEST(what_a_tick_reads_is_the_response_of_the_entry);
   RUN_TEST(what_cannot_be_built_is_named);
   return UNITY_END();
 }
