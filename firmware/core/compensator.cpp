@@ -141,7 +141,7 @@ std::uint32_t Compensator<Scalar, Joints>::check_setpoint(const Input& input) co
     // The last setpoint may have been old when it was used: that much more time has passed.
     const Six reach = (config_.period + setpoint_age_) * Six(config_.joint_speed);
     const Six step = q - Six(setpoint_);
-    faults |= bit_if(!step.is_within(Scalar(-1) * reach, reach), kSetpointJump);
+    faults |= bit_if(!step.is_within(-reach, reach), kSetpointJump);
   }
   return faults;
 }

@@ -113,7 +113,6 @@ template <typename Scalar, int Joints>
 JointVector<Scalar, Joints> JointGuards<Scalar, Joints>::advance(const Angles& targets) {
   limited_by_value_ = false;
   limited_by_rate_ = false;
-  is_at_rest_at_zero_ = true;
   Angles values;
   for (std::size_t i = 0; i < Joints; ++i) {
     const auto joint = static_cast<Eigen::Index>(i);
@@ -124,7 +123,6 @@ JointVector<Scalar, Joints> JointGuards<Scalar, Joints>::advance(const Angles& t
     values[joint] = next.value;
     limited_by_value_ = limited_by_value_ || next.limited_by_value;
     limited_by_rate_ = limited_by_rate_ || next.limited_by_rate;
-    is_at_rest_at_zero_ = is_at_rest_at_zero_ && next.value == Scalar(0) && next.step == Scalar(0);
   }
   return values;
 }
@@ -164,7 +162,6 @@ JointVector<float, 6> JointGuards<float, 6>::advance(const Angles& targets) {
   made.write(step_.data());
   limited_by_value_ = (goal != wanted).any();
   limited_by_rate_ = are_short.any();
-  is_at_rest_at_zero_ = !((next != zero) | (made != zero)).any();
   return next.numbers();
 }
 

@@ -196,9 +196,6 @@ class PackedSix<float> {
   class Truth {
    public:
     bool any() const { return (bits()[0] | bits()[1]) != 0; }
-    friend Truth operator|(const Truth& a, const Truth& b) {
-      return {a.first_ | b.first_, a.last_ | b.last_};
-    }
 
    private:
     friend class PackedSix;

@@ -77,7 +77,10 @@ class JointGuards {
   Angles advance(const Angles& targets);
 
   /// Are all corrections at zero and at rest?
-  bool is_at_rest_at_zero() const { return is_at_rest_at_zero_; }
+  bool is_at_rest_at_zero() const {
+    constexpr std::array<Scalar, Joints> kZero{};
+    return value_ == kZero && step_ == kZero;
+  }
 
   /// Did the last call fall short of a target, of any joint, and why?
   bool limited_by_value() const { return limited_by_value_; }
@@ -91,7 +94,6 @@ class JointGuards {
   std::array<Scalar, Joints> step_{};
   bool limited_by_value_ = false;
   bool limited_by_rate_ = false;
-  bool is_at_rest_at_zero_ = true;
 };
 
 }  // namespace flexcomp
