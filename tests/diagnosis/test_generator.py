@@ -246,7 +246,8 @@ class Effects(unittest.TestCase):
         for name in ("coulomb_friction", "viscous_friction", "stribeck_friction", "rotor_inertia",
                      "torque_ripple", "torque_offset", "resonance"):
             change = np.abs(self.changed(CATALOGUE[name], 3)["tau"]).max(0)
-            self.assertEqual([2], list(np.flatnonzero(change)), name)
+            # The last bits of a sum depend on where NumPy's arrays happen to lie in memory.
+            self.assertEqual([2], list(np.flatnonzero(change > 1e-9)), name)
 
     def test_a_wrench_bias_is_constant_in_the_tool_frame(self):
         change = self.changed(CATALOGUE["wrench_bias"], None)["wrench"][:, :3]
