@@ -4,6 +4,7 @@
 #include <cmath>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainidsolver_recursive_newton_euler.hpp>
 
 #include "model/kdl.hpp"
 
@@ -19,21 +20,29 @@ KDL::RigidBodyInertia body(double mass, const Vector3<double>& center,
                                                       inertia(0, 1), inertia(0, 2), inertia(1, 2)));
 }
 
+/// A segment a link: KDL counts a segment from its joint to the next one, and wants its inertia
+/// there.
 template <int Joints>
 KDL::Chain chain_of(const FlexibleArm<Joints>& arm) {
+  constexpr auto kJoints = static_cast<std::size_t>(Joints);
   KDL::Chain chain;
-  const KDL::RigidBodyInertia nothing = KDL::RigidBodyInertia::Zero();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Joints); ++i) {
+  chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed),
+                                model::to_kdl(arm.model.joints.front().origin),
+                                KDL::RigidBodyInertia::Zero()));
+  for (std::size_t i = 0; i < kJoints; ++i) {
     const Joint<double>& joint = arm.model.joints[i];
-    chain.addSegment(
-        KDL::Segment(KDL::Joint(KDL::Joint::Fixed), model::to_kdl(joint.origin), nothing));
+    const bool last = i + 1 == kJoints;
+    const KDL::Frame end = model::to_kdl(last ? arm.model.tool : arm.model.joints[i + 1].origin);
+    KDL::RigidBodyInertia inertia =
+        end.Inverse() * body(joint.mass, joint.center_of_mass, arm.inertia[i]);
+    if (last) {
+      inertia =
+          inertia + body(arm.model.payload_mass, arm.model.payload_center, Matrix3<double>::Zero());
+    }
     chain.addSegment(KDL::Segment(
-        KDL::Joint(KDL::Vector::Zero(), model::to_kdl(joint.axis), KDL::Joint::RotAxis),
-        KDL::Frame::Identity(), body(joint.mass, joint.center_of_mass, arm.inertia[i])));
+        KDL::Joint(KDL::Vector::Zero(), model::to_kdl(joint.axis), KDL::Joint::RotAxis), end,
+        inertia));
   }
-  chain.addSegment(KDL::Segment(
-      KDL::Joint(KDL::Joint::Fixed), model::to_kdl(arm.model.tool),
-      body(arm.model.payload_mass, arm.model.payload_center, Matrix3<double>::Zero())));
   return chain;
 }
 
@@ -55,6 +64,8 @@ struct FlexibleJointPlant<Joints>::RigidBody {
       : chain(chain_of(arm)),
         gravity(model::to_kdl(arm.model.gravity)),
         solver(chain, gravity),
+        inverse(chain, gravity),
+        nothing(chain.getNrOfSegments(), KDL::Wrench::Zero()),
         matrix(Joints),
         array(Joints) {}
 
@@ -68,8 +79,9 @@ struct FlexibleJointPlant<Joints>::RigidBody {
     return array.data;
   }
 
-  Angles coriolis(const Angles& q, const Angles& velocity) {
-    solver.JntToCoriolis(joints(q), joints(velocity), array);
+  /// Weight, centrifugal and Coriolis torques.
+  Angles bias(const Angles& q, const Angles& velocity) {
+    inverse.CartToJnt(joints(q), joints(velocity), KDL::JntArray(Joints), nothing, array);
     return array.data;
   }
 
@@ -88,6 +100,8 @@ struct FlexibleJointPlant<Joints>::RigidBody {
   KDL::Chain chain;
   KDL::Vector gravity;
   KDL::ChainDynParam solver;
+  KDL::ChainIdSolver_RNE inverse;
+  KDL::Wrenches nothing;
   KDL::JntSpaceInertiaMatrix matrix;
   KDL::JntArray array;
 };
@@ -118,7 +132,7 @@ template <int Joints>
 auto FlexibleJointPlant<Joints>::slope(const State& at, const Angles& torque,
                                        const Angles& external) const -> State {
   const Angles elastic = stiffness_.cwiseProduct(at.motor - at.link);
-  const Angles bias = rigid_->weight(at.link) + rigid_->coriolis(at.link, at.link_velocity);
+  const Angles bias = rigid_->bias(at.link, at.link_velocity);
   const Angles friction =
       arm_.viscous.cwiseProduct(at.motor_velocity) +
       arm_.coulomb.cwiseProduct((at.motor_velocity / kFrictionSpeed).array().tanh().matrix());
