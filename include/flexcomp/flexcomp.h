@@ -318,13 +318,13 @@ typedef struct flexcomp_arc_output {
   uint32_t status;                     ///< bits of this tick
 } flexcomp_arc_output_t;
 
-/// Room for a controller. Do not touch the member.
+/// Room for a controller, aligned for the widest vector registers. Do not touch the member.
 #define FLEXCOMP_ARC_BYTES 3072
 typedef struct flexcomp_arc {
 #ifdef __cplusplus
-  alignas(16) unsigned char bytes[FLEXCOMP_ARC_BYTES];
+  alignas(64) unsigned char bytes[FLEXCOMP_ARC_BYTES];
 #else
-  _Alignas(16) unsigned char bytes[FLEXCOMP_ARC_BYTES];
+  _Alignas(64) unsigned char bytes[FLEXCOMP_ARC_BYTES];
 #endif
 } flexcomp_arc_t;
 
