@@ -96,6 +96,9 @@ void summarize(const diagnosis::Observations& observations, const diagnosis::Dia
   for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
     fmt::print("{}\n", diagnosis::statement(observations, result, i));
   }
+  if (!result.retuned.chosen.empty()) {
+    fmt::print("{}\n", diagnosis::statement_of_retuned(observations, result));
+  }
   if (!result.suggested_experiment.empty()) {
     fmt::print("{}\n", result.suggested_experiment);
   }
@@ -128,7 +131,7 @@ int run(const DiagnoseOptions& options) {
   files::write_text(folder / "diagnosis.json", json);
   files::write_text(folder / "report.html", html);
   model::write_robot(folder / "updated_model.yaml",
-                     diagnosis::updated_robot(observations, result.choice.fit));
+                     diagnosis::updated_robot(observations, result.updated()));
   summarize(observations, result, options.out);
   return kDone;
 }

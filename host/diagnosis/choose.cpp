@@ -220,6 +220,11 @@ class Chooser {
            evidence.share > kLeastShare;
   }
 
+  /// In the end no finding is made that does not lower the held-out error itself.
+  bool stands(const Evidence& evidence) const {
+    return holds(evidence) && evidence.lowers_held_out;
+  }
+
   Evidence weigh_last(const Fit& before, const Fit& after) const {
     return weigh(*observations_, before, after, static_cast<double>(dictionary_.entries.size()));
   }
@@ -293,7 +298,7 @@ class Chooser {
       for (std::size_t i = 0; i < choice->fit.chosen.size(); ++i) {
         choice->findings.push_back(judge(choice->fit, i));
         const Evidence& evidence = choice->findings.back().evidence;
-        if (!holds(evidence) && evidence.delta_bic < least) {
+        if (!stands(evidence) && evidence.delta_bic < least) {
           least = evidence.delta_bic;
           weakest = i;
         }

@@ -41,9 +41,6 @@ struct Choice {
   bool mispredicts = false;  ///< some came near the noise there, but not of what was held out
 };
 
-/// Above it, effects imitate something else by large parts that cancel.
-constexpr double kMostCancellation = 10;
-
 /// Tells how far it is: done, of how many.
 using Tell = std::function<void(std::size_t, std::size_t)>;
 

@@ -1,6 +1,7 @@
 #include "diagnosis/diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -151,6 +152,19 @@ Estimate surest_of(const std::vector<Estimate>& all) {
   });
 }
 
+/// "held-out error of … falls from … to …, noise …", in the channel where it falls most.
+std::string fall(const Observations& observations, const Fit& before, const Fit& after) {
+  const Channel channel = main_channel(observations, before, after);
+  const auto written = [&](const Eigen::VectorXd& values, bool held_out) {
+    return readable(observations.rms(values, channel, held_out),
+                    simulation::kChannelUnits[channel]);
+  };
+  return fmt::format("held-out error of {} falls from {} to {}, noise {}",
+                     simulation::kChannels[channel], written(before.remainder, true),
+                     written(after.remainder, true),
+                     written(Eigen::VectorXd::Ones(observations.size()), false));
+}
+
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -187,6 +201,9 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
       diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
     }
   }
+  if (diagnosis.verdict == "unexplained") {
+    diagnosis.retuned = retune(*observations, hypotheses, dictionary);
+  }
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;
     if (diagnosis.suggested_experiment.empty() && !others.empty() &&
@@ -204,16 +221,23 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   const Estimate surest = surest_of(estimates(observations, fit, finding));
   std::string clause = fit.chosen[finding].hypothesis->statement;
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
-  const Channel channel = main_channel(observations, found.without, fit);
-  const auto written = [&](const Eigen::VectorXd& values, bool held_out) {
-    return readable(observations.rms(values, channel, held_out),
-                    simulation::kChannelUnits[channel]);
-  };
+  return fmt::format("{} ({} {}), which the model lacks: {}.", clause, surest.name,
+                     readable(surest.value, surest.unit), fall(observations, found.without, fit));
+}
+
+std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis) {
+  const Fit& fit = diagnosis.retuned;
+  if (fit.chosen.empty()) {
+    return "";
+  }
+  std::vector<std::string> numbers;
+  for (const Chosen& each : fit.chosen) {
+    numbers.push_back(place_name(each.hypothesis->effect, each.hypothesis->joint));
+  }
   return fmt::format(
-      "{} ({} {}), which the model lacks: held-out error of {} falls from {} to {}, noise {}.",
-      clause, surest.name, readable(surest.value, surest.unit), simulation::kChannels[channel],
-      written(found.without.remainder, true), written(fit.remainder, true),
-      written(Eigen::VectorXd::Ones(observations.size()), false));
+      "No finding, but a stand-in until one is made: with other numbers in updated_model.yaml ({}) "
+      "{}.",
+      fmt::join(numbers, "; "), fall(observations, diagnosis.choice.fit, fit));
 }
 
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {

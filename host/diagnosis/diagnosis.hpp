@@ -9,6 +9,7 @@
 #include "diagnosis/excitation.hpp"
 #include "diagnosis/locate.hpp"
 #include "diagnosis/proposal.hpp"
+#include "diagnosis/retune.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -30,8 +31,13 @@ struct Diagnosis {
   Location location;           ///< of the mismatch
   Location left;               ///< of what is unexplained
   std::vector<ProposedTerm> proposal;  ///< a form of what is unexplained; empty where none is found
+  /// Nothing was found, but these of the model's own numbers stand in for what is missing.
+  Fit retuned;
   std::vector<std::vector<Place>> indistinguishable;
   std::string suggested_experiment;  ///< empty where none is needed
+
+  /// What the updated model has: what was found, or what stands in for it.
+  const Fit& updated() const { return retuned.chosen.empty() ? choice.fit : retuned; }
 };
 
 struct Settings {
@@ -56,6 +62,9 @@ nlohmann::ordered_json to_json(const Observations& observations, const Diagnosis
 /// One plain sentence about a finding.
 std::string statement(const Observations& observations, const Diagnosis& diagnosis,
                       std::size_t finding);
+
+/// One plain sentence about the numbers that stand in for what is unexplained; empty without any.
+std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis);
 
 /// One plain sentence about the whole.
 std::string headline(const Observations& observations, const Diagnosis& diagnosis);

@@ -52,16 +52,20 @@ Json location(const Location& location) {
           {"correlates_with", correlates}, {"places_looked_at", location.places}};
 }
 
-Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
-  const Choice& choice = diagnosis.choice;
-  const Finding& finding = choice.findings[index];
-  const Hypothesis& hypothesis = *choice.fit.chosen[index].hypothesis;
+Json parameters_of(const Observations& observations, const Fit& fit, std::size_t index) {
   Json parameters = Json::object();
-  for (const Estimate& estimate : estimates(observations, choice.fit, index)) {
+  for (const Estimate& estimate : estimates(observations, fit, index)) {
     parameters[estimate.name] = {{"value", estimate.value},
                                  {"std", finite_or_null(estimate.deviation)},
                                  {"unit", estimate.unit}};
   }
+  return parameters;
+}
+
+Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
+  const Choice& choice = diagnosis.choice;
+  const Finding& finding = choice.findings[index];
+  const Hypothesis& hypothesis = *choice.fit.chosen[index].hypothesis;
   Json alternatives = Json::array();
   for (const Alternative& other : finding.alternatives) {
     alternatives.push_back({{"effect", other.effect},
@@ -71,7 +75,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
   const Channel channel = main_channel(observations, finding.without, choice.fit);
   return {{"effect", hypothesis.effect},
           {"joint", joint_or_null(hypothesis.joint)},
-          {"parameters", parameters},
+          {"parameters", parameters_of(observations, choice.fit, index)},
           {"evidence",
            {{"delta_bic", finding.evidence.delta_bic},
             {"p_value", finding.evidence.p_value},
@@ -115,6 +119,22 @@ Json proposal(const std::vector<ProposedTerm>& terms) {
   return json;
 }
 
+/// The model's own numbers that stand in for what is unexplained, and what they do for each
+/// channel.
+Json retuned(const Observations& observations, const Fit& fit) {
+  if (fit.chosen.empty()) {
+    return nullptr;
+  }
+  Json numbers = Json::array();
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
+    numbers.push_back({{"number", hypothesis.effect},
+                       {"joint", hypothesis.joint},
+                       {"parameters", parameters_of(observations, fit, i)}});
+  }
+  return {{"numbers", numbers}, {"updated_model", rms_of(observations, fit.remainder)}};
+}
+
 }  // namespace
 
 Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
@@ -136,7 +156,8 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
     json["unexplained"] = {{"reason", diagnosis.reason},
                            {"location", location(diagnosis.left)},
                            {"nearest", places(diagnosis.nearest)},
-                           {"proposal", proposal(diagnosis.proposal)}};
+                           {"proposal", proposal(diagnosis.proposal)},
+                           {"retuned", retuned(observations, diagnosis.retuned)}};
   }
   json["indistinguishable"] = Json::array();
   for (const std::vector<Place>& group : diagnosis.indistinguishable) {

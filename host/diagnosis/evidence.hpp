@@ -15,9 +15,11 @@ struct Evidence {
   double delta_bic = 0;     ///< BIC without it less BIC with it
   double p_value = 1;       ///< of so large a gain by chance, times the places looked at
   double confirmation = 0;  ///< deviations by which the held-out sum of squares falls
-  double strength = 0;      ///< root mean square of its share in the component that shows it most,
-                            ///< over the noise
-  Group group;              ///< that shows it most; what follows is of that group
+  /// The held-out error falls in some channel, as it is: single samples far off count there.
+  bool lowers_held_out = false;
+  double strength = 0;  ///< root mean square of its share in the component that shows it most,
+                        ///< over the noise
+  Group group;          ///< that shows it most; what follows is of that group
   double relative_strength = 0;  ///< to that of the whole fit
   double share = 0;              ///< of the power that is left beyond the noise without it; the
                                  ///< noise is no more than what is left with it

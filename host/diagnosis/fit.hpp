@@ -46,4 +46,7 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
 /// is large parts that cancel.
 double cancellation(const Observations& observations, const Fit& fit);
 
+/// Above it, effects imitate something else.
+constexpr double kMostCancellation = 10;
+
 }  // namespace flexcomp::diagnosis

@@ -77,6 +77,10 @@ Channel main_channel(const Observations& observations, const Fit& without, const
   return best;
 }
 
+std::string place_name(const std::string& effect, int joint) {
+  return joint > 0 ? fmt::format("{}, joint {}", effect, joint) : effect;
+}
+
 std::string readable(double value, const std::string& unit) {
   if (unit == "1") {
     return fmt::format("{:.3g}", value);

@@ -23,6 +23,9 @@ std::vector<Estimate> estimates(const Observations& observations, const Fit& fit
 /// The channel in which a finding lowers the held-out error most, over the noise.
 Channel main_channel(const Observations& observations, const Fit& without, const Fit& with);
 
+/// "joint_stiffness, joint 2"
+std::string place_name(const std::string& effect, int joint);
+
 /// A value with its unit as people write it: 0.21 mrad, 14 µm.
 std::string readable(double value, const std::string& unit);
 

@@ -41,27 +41,32 @@ std::string channel_rows(const Observations& observations, const Eigen::VectorXd
          rows + "</table>\n";
 }
 
+std::string parameters(const Observations& observations, const Fit& fit, std::size_t index) {
+  std::string values;
+  for (const Estimate& each : estimates(observations, fit, index)) {
+    const std::string deviation =
+        std::isfinite(each.deviation) ? fmt::format(" ± {:.1g}", 1.96 * each.deviation) : "";
+    const std::string unit = each.unit == "1" ? "" : " " + each.unit;
+    values += fmt::format("{} = {:.4g}{}{}<br>", each.name, each.value, deviation, unit);
+  }
+  return values;
+}
+
 std::string finding_rows(const Observations& observations, const Diagnosis& diagnosis) {
   std::string rows;
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const Finding& finding = diagnosis.choice.findings[i];
     const Hypothesis& hypothesis = *diagnosis.choice.fit.chosen[i].hypothesis;
-    std::string values;
-    for (const Estimate& each : estimates(observations, diagnosis.choice.fit, i)) {
-      const std::string deviation =
-          std::isfinite(each.deviation) ? fmt::format(" ± {:.1g}", 1.96 * each.deviation) : "";
-      const std::string unit = each.unit == "1" ? "" : " " + each.unit;
-      values += fmt::format("{} = {:.4g}{}{}<br>", each.name, each.value, deviation, unit);
-    }
     std::string others;
     for (const Alternative& other : finding.alternatives) {
       others += fmt::format("{}: {:.0f} worse<br>", place_name(other.effect, other.joint),
                             other.delta_bic);
     }
-    rows += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.1g}</td><td>{}</td></tr>\n",
-        place_name(hypothesis.effect, hypothesis.joint), values, finding.evidence.delta_bic,
-        finding.evidence.p_value, others.empty() ? "none comes near" : others);
+    rows +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.1g}</td><td>{}</td></tr>\n",
+                    place_name(hypothesis.effect, hypothesis.joint),
+                    parameters(observations, diagnosis.choice.fit, i), finding.evidence.delta_bic,
+                    finding.evidence.p_value, others.empty() ? "none comes near" : others);
   }
   if (rows.empty()) {
     return "<p>No effect is proved.</p>\n";
@@ -159,6 +164,23 @@ std::string proposal(const std::vector<ProposedTerm>& terms) {
          rows + "</table>\n";
 }
 
+std::string retuned(const Observations& observations, const Diagnosis& diagnosis) {
+  const Fit& fit = diagnosis.retuned;
+  if (fit.chosen.empty()) {
+    return "";
+  }
+  std::string rows;
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
+    rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n",
+                        place_name(hypothesis.effect, hypothesis.joint),
+                        parameters(observations, fit, i));
+  }
+  return "<p>" + escaped(statement_of_retuned(observations, diagnosis)) +
+         "</p>\n<table><tr><th>number of the model</th><th>± 95 %</th></tr>\n" + rows +
+         "</table>\n" + channel_rows(observations, fit.remainder);
+}
+
 }  // namespace
 
 std::string to_html(const Observations& observations, const Diagnosis& diagnosis,
@@ -193,6 +215,7 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
             ".</p>\n";
   }
   html += proposal(diagnosis.proposal);
+  html += retuned(observations, diagnosis);
   html += "<h2>Hypotheses</h2>\n" + ranking_picture(diagnosis.choice.ranking);
   html += "<h2>What cannot be told apart</h2>\n" + groups(diagnosis);
   html += "<h2>What to record next</h2>\n<p>" +

@@ -47,10 +47,6 @@ std::string block(const std::string& name, const Eigen::VectorXd& x, const Eigen
 
 }  // namespace
 
-std::string place_name(const std::string& effect, int joint) {
-  return joint > 0 ? fmt::format("{}, joint {}", effect, joint) : effect;
-}
-
 std::string time_picture(const Observations& observations, const Eigen::VectorXd& after,
                          Channel channel) {
   const Scene& scene = observations.scenes.front();

@@ -17,7 +17,4 @@ std::string path_picture(const Observations& observations, const Eigen::VectorXd
 /// What each effect would explain alone, as bars (SVG); empty without any.
 std::string ranking_picture(const std::vector<Ranked>& ranking);
 
-/// "joint_stiffness, joint 2"
-std::string place_name(const std::string& effect, int joint);
-
 }  // namespace flexcomp::diagnosis

@@ -1,0 +1,97 @@
+// The model's own numbers in the place of physics that no effect of the catalogue has.
+#include <cmath>
+#include <random>
+
+#include "diagnosis/retune.hpp"
+#include "diagnosis/swinging_robot.hpp"
+#include "unity_main.hpp"
+
+using namespace flexcomp;
+using flexcomp::diagnosis::Dictionary;
+using flexcomp::diagnosis::Fit;
+using flexcomp::diagnosis::Hypothesis;
+using flexcomp::diagnosis::Observations;
+using flexcomp::test::SwingingRobot;
+
+namespace {
+
+constexpr double kTorqueNoise = 2;  // N·m
+constexpr double kFriction = 40;    // N·m
+
+/// The swinging robot with its torques besides, noisy, those of one joint in error (n, N·m).
+Observations with_torques(const SwingingRobot& swinging, int joint, const Eigen::VectorXd& error) {
+  recording::Recording shown = swinging.recording;
+  shown.tau = recording::Samples::Zero(shown.size(), 6);
+  simulation::Preparation preparation;
+  const simulation::Scene scene = simulation::prepare(shown, shown.size(), &preparation);
+  simulation::Machine machine = diagnosis::machine_of(swinging.robot, {scene});
+  *shown.tau = simulate(machine, scene).prediction.channel[simulation::joint_torque];
+  shown.tau->col(joint - 1) += error;
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, kTorqueNoise);
+  for (Eigen::Index row = 0; row < shown.size(); ++row) {
+    for (Eigen::Index column = 0; column < 6; ++column) {
+      (*shown.tau)(row, column) += noise(random);
+    }
+  }
+  std::vector<simulation::Scene> scenes = {simulation::prepare(shown, shown.size(), &preparation)};
+  return Observations(std::move(machine), std::move(scenes), 0);
+}
+
+Fit retuned(const Observations& observations, const std::vector<Hypothesis>& hypotheses) {
+  const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
+  return retune(observations, hypotheses, dictionary);
+}
+
+double held_out(const Observations& observations, const Eigen::VectorXd& values) {
+  return observations.rms(values, simulation::joint_torque, true);
+}
+
+/// Friction of joint 2 that joint 1 makes larger and smaller: on average it is dry friction.
+void friction_that_varies_is_stood_in_for_by_its_mean() {
+  const SwingingRobot swinging(1);
+  const Eigen::ArrayXd varying = 1 + 0.4 * (20 * swinging.scene.q.col(0).array()).sin();
+  const Observations observations = with_torques(
+      swinging, 2, kFriction * varying * swinging.scene.velocity.col(1).array().sign());
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const Fit fit = retuned(observations, hypotheses);
+  TEST_ASSERT_EQUAL_UINT64(1, fit.chosen.size());
+  TEST_ASSERT_EQUAL_STRING("coulomb_friction", fit.chosen.front().hypothesis->effect.c_str());
+  TEST_ASSERT_EQUAL_INT(2, fit.chosen.front().hypothesis->joint);
+  TEST_ASSERT_DOUBLE_WITHIN(0.1 * kFriction, kFriction, fit.chosen.front().values.front());
+  // What varies about the mean is left, and the noise of six joints.
+  const double noise = 6 * kTorqueNoise * kTorqueNoise;
+  const double left = 0.08 * kFriction * kFriction + noise;
+  const double whole = 1.08 * kFriction * kFriction + noise;
+  TEST_ASSERT_DOUBLE_WITHIN(
+      0.05, std::sqrt(left / whole),
+      held_out(observations, fit.remainder) / held_out(observations, observations.residual));
+}
+
+void a_model_that_agrees_keeps_its_numbers() {
+  const SwingingRobot swinging(2);
+  const Observations observations =
+      with_torques(swinging, 2, Eigen::VectorXd::Zero(swinging.rows()));
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  TEST_ASSERT_TRUE(retuned(observations, hypotheses).chosen.empty());
+}
+
+/// A hum that goes with no speed and no load: friction fitted to it would be chance.
+void what_no_number_can_stand_in_for_leaves_them_as_they_are() {
+  const SwingingRobot swinging(3);
+  const Eigen::ArrayXd time = swinging.recording.time.array();
+  const Observations observations =
+      with_torques(swinging, 2, kFriction * (2 * M_PI * 3.1 * time).sin());
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  TEST_ASSERT_TRUE(retuned(observations, hypotheses).chosen.empty());
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(friction_that_varies_is_stood_in_for_by_its_mean);
+  RUN_TEST(a_model_that_agrees_keeps_its_numbers);
+  RUN_TEST(what_no_number_can_stand_in_for_leaves_them_as_they_are);
+  return UNITY_END();
+}
