@@ -382,18 +382,33 @@ class Chooser {
     return weigh_last(plain, rich).confirmation > kConfirmed;
   }
 
-  /// Of fewer parameters, and no evidence speaks for the other; or the very same in numbers, of
-  /// what is changed more often than a joint's own: the payload, not the last link's mass.
+  /// The largest of its parameters, in sizes that matter.
+  static double change(const Chosen& chosen) {
+    double most = 0;
+    for (std::size_t i = 0; i < chosen.values.size(); ++i) {
+      most = std::max(most, std::abs(chosen.values[i]) / chosen.hypothesis->parameters[i].step);
+    }
+    return most;
+  }
+
+  /// Of fewer parameters, and no evidence speaks for the other; or as many, with no strong evidence
+  /// for the other, of what is changed more often than a joint's own: the payload, not the last
+  /// link's mass; or the very same in numbers by a smaller change: the rotor half as heavy again,
+  /// not the link ten times as heavy.
   static bool is_plainer(const Alternative& one, const Chosen& other) {
-    constexpr double kIdentical = 0.1;  // of BIC
+    constexpr double kSame = 6;  // of BIC: below "strong" (Kass and Raftery 1995)
+    constexpr double kIdentical = 0.1;
     if (one.chosen.hypothesis->is_shape_only) {
       return false;
     }
     const bool is_smaller = one.chosen.values.size() < other.values.size();
-    const bool is_identical = one.chosen.values.size() == other.values.size() &&
-                              one.delta_bic < kIdentical && one.joint == 0 &&
-                              other.hypothesis->joint != 0;
-    return (is_smaller && one.delta_bic <= 0) || is_identical;
+    const bool is_as_rich = one.chosen.values.size() == other.values.size();
+    const bool is_likelier =
+        is_as_rich && one.delta_bic < kSame && one.joint == 0 && other.hypothesis->joint != 0;
+    const bool changes_less = is_as_rich && one.delta_bic < kIdentical &&
+                              one.joint == other.hypothesis->joint &&
+                              change(one.chosen) < change(other);
+    return (is_smaller && one.delta_bic <= 0) || is_likelier || changes_less;
   }
 
   /// A law of the same joint that fits as well as a mere shape: that it has more parameters, some
