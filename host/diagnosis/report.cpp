@@ -15,7 +15,8 @@ using report::escaped;
 
 constexpr const char* kStyle =
     "body{font-family:sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;margin:.8em 0}td,th{padding:.3em .8em;text-align:left;vertical-align:top;"
+    "table{border-collapse:collapse;margin:.8em 0}td,th{padding:.3em "
+    ".8em;text-align:left;vertical-align:top;"
     "border-bottom:1px solid #ddd}svg{max-width:100%;height:auto}.lead{font-size:1.2em}"
     "h2{margin-top:1.6em}";
 

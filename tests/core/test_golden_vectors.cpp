@@ -1,7 +1,7 @@
 /// The core's numbers on this machine against those of another: golden_vectors.inc holds what a
 /// host made of them (`test_core_golden_vectors --print`), to the bit. On the Cortex-M7 look-ups
-/// multiply and add with one rounding, and sine and cosine are another library's. Compiled for wider
-/// registers (AVX), sums are in another order.
+/// multiply and add with one rounding, and sine and cosine are another library's. Compiled for
+/// wider registers (AVX), sums are in another order.
 #include <cstdio>
 #include <cstring>
 #include <limits>
