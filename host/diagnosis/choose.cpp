@@ -9,7 +9,6 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kConfirmed = 2;
 /// Such a fall of what was held out outweighs the estimate of the noise.
 constexpr double kOverwhelming = 20;
@@ -154,7 +153,7 @@ class Chooser {
 
   /// By strong evidence, or by any with fewer findings.
   bool is_better(const Fit& one, const Fit& other) const {
-    const double margin = one.chosen.size() < other.chosen.size() ? 0 : kStrong;
+    const double margin = one.chosen.size() < other.chosen.size() ? 0 : kStrongEvidence;
     return criterion(one) < criterion(other) - margin && all_hold(one);
   }
 
@@ -212,7 +211,7 @@ class Chooser {
   }
 
   bool holds(const Evidence& evidence) const {
-    return evidence.delta_bic > kStrong && evidence.p_value < false_discovery_ &&
+    return evidence.delta_bic > kStrongEvidence && evidence.p_value < false_discovery_ &&
            evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
            (observations_->is_static || evidence.relative_strength > kExactness) &&
            (observations_->is_static || evidence.beyond_noise > kLeastBeyondNoise ||
@@ -278,7 +277,7 @@ class Chooser {
         continue;
       }
       const bool better = replaced.train_sum < current->train_sum &&
-                          criterion(replaced) < criterion(*current) - kStrong;
+                          criterion(replaced) < criterion(*current) - kStrongEvidence;
       const bool simpler = replaced.parameters() < current->parameters() &&
                            criterion(replaced) < criterion(*current);
       if ((better || simpler) && holds(weigh_last(others, replaced))) {
@@ -370,11 +369,7 @@ class Chooser {
 
   /// Does no strong evidence speak for the richer fit?
   bool is_as_good(const Fit& plain, const Fit& rich) const {
-    const double samples = independent_samples(*observations_, rich.remainder);
-    const double parameters =
-        static_cast<double>(rich.parameters()) - static_cast<double>(plain.parameters());
-    return bic_gain(samples, plain.train_sum, rich.train_sum, 0) - parameters * std::log(samples) <
-           kStrong;
+    return bic_gain(*observations_, plain, rich) < kStrongEvidence;
   }
 
   /// Does what was held out speak for the richer fit?
@@ -396,15 +391,14 @@ class Chooser {
   /// link's mass; or the very same in numbers by a smaller change: the rotor half as heavy again,
   /// not the link ten times as heavy.
   static bool is_plainer(const Alternative& one, const Chosen& other) {
-    constexpr double kSame = 6;  // of BIC: below "strong" (Kass and Raftery 1995)
-    constexpr double kIdentical = 0.1;
+    constexpr double kIdentical = 0.1;  // of BIC
     if (one.chosen.hypothesis->is_shape_only) {
       return false;
     }
     const bool is_smaller = one.chosen.values.size() < other.values.size();
     const bool is_as_rich = one.chosen.values.size() == other.values.size();
-    const bool is_likelier =
-        is_as_rich && one.delta_bic < kSame && one.joint == 0 && other.hypothesis->joint != 0;
+    const bool is_likelier = is_as_rich && one.delta_bic < kSameEvidence && one.joint == 0 &&
+                             other.hypothesis->joint != 0;
     const bool changes_less = is_as_rich && one.delta_bic < kIdentical &&
                               one.joint == other.hypothesis->joint &&
                               change(one.chosen) < change(other);
@@ -457,7 +451,7 @@ class Chooser {
       const Fit tried = with(finding->without, candidate, kQuickSteps);
       const double gain =
           bic_gain(samples, finding->without.train_sum, tried.train_sum, candidate.values.size());
-      if (gain > kStrong) {
+      if (gain > kStrongEvidence) {
         finding->alternatives.push_back({other.effect, other.joint,
                                          std::max(finding->evidence.delta_bic - gain, 0.0),
                                          tried.chosen.back()});

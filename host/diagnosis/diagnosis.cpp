@@ -12,7 +12,6 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kSameEvidence = 6;      // of BIC: below "strong" (Kass and Raftery 1995)
 constexpr double kNoiseLike = 1.15;      // times the noise: nothing left to explain
 constexpr double kNearNoise = 1.05;      // times the noise: nothing that a rival could better
 constexpr double kFarMoreEvidence = 20;  // of BIC

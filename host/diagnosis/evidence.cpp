@@ -117,6 +117,13 @@ double bic_gain(double samples, double sum_before, double sum_after, std::size_t
          static_cast<double>(parameters) * std::log(samples);
 }
 
+double bic_gain(const Observations& observations, const Fit& plain, const Fit& rich) {
+  const double samples = independent_samples(observations, rich.remainder);
+  const double parameters =
+      static_cast<double>(rich.parameters()) - static_cast<double>(plain.parameters());
+  return bic_gain(samples, plain.train_sum, rich.train_sum, 0) - parameters * std::log(samples);
+}
+
 Evidence weigh(const Observations& observations, const Fit& without, const Fit& with,
                double places) {
   Evidence evidence;

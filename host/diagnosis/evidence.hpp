@@ -28,6 +28,9 @@ struct Evidence {
   double effective_samples = 0;
 };
 
+constexpr double kStrongEvidence = 10;  ///< of BIC: "very strong" (Kass and Raftery 1995)
+constexpr double kSameEvidence = 6;     ///< of BIC: below "strong" (the same)
+
 /// Compares two fits to the same observations; `with` has one hypothesis more, its last.
 /// `places`: how many hypotheses were looked at to find it.
 Evidence weigh(const Observations& observations, const Fit& without, const Fit& with,
@@ -38,6 +41,9 @@ double independent_samples(const Observations& observations, const Eigen::Vector
 
 /// Schwarz's criterion: n·ln(before/after) less ln(n) for each parameter; n independent samples.
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters);
+
+/// The same of a fit over a plainer one, which may all the same have more parameters.
+double bic_gain(const Observations& observations, const Fit& plain, const Fit& rich);
 
 /// Does a remainder that comes near the noise in what was fitted to fail on what was held out,
 /// where a group shows it? Then the fit fits without being so. In a load test samples are too few,

@@ -9,8 +9,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kStrong = 10;  // of BIC: "very strong" (Kass and Raftery 1995)
-constexpr double kKnown = 2;    // deviations from what the model has
+constexpr double kKnown = 2;  // deviations from what the model has
 constexpr int kSteps = 8;
 
 bool is_number_of_model(const Hypothesis& hypothesis) {
@@ -63,11 +62,6 @@ bool predicts_better(const Observations& observations, const Fit& before, const 
   return best < kNoticeable && worst <= 1;
 }
 
-bool has_strong_evidence(const Observations& observations, const Fit& before, const Fit& after) {
-  const double samples = independent_samples(observations, after.remainder);
-  return bic_gain(samples, before.train_sum, after.train_sum, after.parameters()) > kStrong;
-}
-
 }  // namespace
 
 Fit retune(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
@@ -83,7 +77,8 @@ Fit retune(const Observations& observations, const std::vector<Hypothesis>& hypo
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(weakest));
     tuned = fit(observations, std::move(others), kSteps, &dictionary);
   }
-  const bool stands = !tuned.chosen.empty() && has_strong_evidence(observations, nothing, tuned) &&
+  const bool stands = !tuned.chosen.empty() &&
+                      bic_gain(observations, nothing, tuned) > kStrongEvidence &&
                       predicts_better(observations, nothing, tuned) &&
                       cancellation(observations, tuned) < kMostCancellation;
   return stands ? tuned : nothing;
