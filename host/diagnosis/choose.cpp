@@ -20,6 +20,7 @@ constexpr double kExactness = 0.02;
 constexpr double kLeastBeyondNoise = 0.75;
 constexpr double kLeastShare = 0.1;      // of what is left: many small steps are a wrong way
 constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
+constexpr double kFarFromNoise = 2;      // times the noise: too much for what is left of a sum
 constexpr std::size_t kMostFindings = 20;
 constexpr int kMostInGroup = 5;  // more would be a sum that fits anything
 /// A load test's poses lie all over: its many small errors of geometry tell themselves apart.
@@ -311,32 +312,55 @@ class Chooser {
   }
 
   /// Withdraws what leaves most of the mismatch standing where it shows, and several findings that
-  /// fail together on what was held out there: that proves nothing. What is kept may have stood by
-  /// what is not: true where it is to be looked at anew.
-  bool withdraw_unproved(Choice* choice) const {
-    std::vector<Chosen> kept;
-    for (std::size_t i = 0; i < choice->findings.size(); ++i) {
+  /// fail together on what was held out there: that proves nothing. Nor does what remains in such a
+  /// place (`fallen`: those of others that were withdrawn), unless it comes near the noise by
+  /// itself. What is kept may have stood by what is not: true where it is to be looked at anew.
+  bool withdraw_unproved(Choice* choice, std::vector<Group>* fallen) const {
+    std::vector<bool> stays(choice->findings.size(), true);
+    for (std::size_t i = 0; i < stays.size(); ++i) {
       const Evidence& evidence = choice->findings[i].evidence;
       const bool explains = evidence.explained >= kLeastExplained;
-      const auto shows_there = [&](const Finding& other) {
-        return other.evidence.group == evidence.group;
-      };
-      // One law that accounts for so much is not so by accident; a sum of several may be.
-      const bool is_sum =
-          std::count_if(choice->findings.begin(), choice->findings.end(), shows_there) > 1;
-      const bool fails =
-          is_sum && fails_held_out(*observations_, choice->fit.remainder, evidence.group);
-      (explains && !fails ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
+      const bool fails = explains && falls_with_others(*choice, i);
+      const bool is_remnant = evidence.left > kFarFromNoise &&
+                              std::any_of(fallen->begin(), fallen->end(), [&](const Group& other) {
+                                return are_of_one_place(other, evidence.group);
+                              });
+      stays[i] = explains && !fails && !is_remnant;
       choice->explained =
           explains ? choice->explained : std::max(choice->explained, evidence.explained);
-      choice->mispredicts = choice->mispredicts || (explains && fails);
+      choice->mispredicts = choice->mispredicts || fails;
     }
-    if (kept.size() == choice->findings.size()) {
+    std::vector<Chosen> kept;
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+      (stays[i] ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
+      if (!stays[i]) {
+        fallen->push_back(choice->findings[i].evidence.group);
+      }
+    }
+    if (kept.size() == stays.size()) {
       return false;
     }
     choice->fit = fit(*observations_, std::move(kept), kLastSteps);
     prune(choice);
     return true;
+  }
+
+  /// One law that accounts for so much is not so by accident; a sum of several may be: does this
+  /// finding fall because all that show in its place fail together on what was held out there? Of
+  /// two, one may be right, and only the weaker falls.
+  bool falls_with_others(const Choice& choice, std::size_t index) const {
+    const Evidence& own = choice.findings[index].evidence;
+    int others = 0;
+    bool is_weakest = true;
+    for (std::size_t i = 0; i < choice.findings.size(); ++i) {
+      const Evidence& other = choice.findings[i].evidence;
+      if (i != index && other.group == own.group) {
+        ++others;
+        is_weakest = is_weakest && own.delta_bic <= other.delta_bic;
+      }
+    }
+    return (others > 1 || (others == 1 && is_weakest)) &&
+           fails_held_out(*observations_, choice.fit.remainder, own.group);
   }
 
   Finding judge(const Fit& whole, std::size_t index) const {
@@ -388,17 +412,22 @@ class Chooser {
 
   /// Of fewer parameters, and no evidence speaks for the other; or as many, with no strong evidence
   /// for the other, of what is changed more often than a joint's own: the payload, not the last
-  /// link's mass; or the very same in numbers by a smaller change: the rotor half as heavy again,
-  /// not the link ten times as heavy.
-  static bool is_plainer(const Alternative& one, const Chosen& other) {
-    constexpr double kIdentical = 0.1;  // of BIC
+  /// link's mass (of these two, each a body simplified in its own way, no evidence to speak of
+  /// beside what either explains); or the very same in numbers by a smaller change: the rotor half
+  /// as heavy again, not the link ten times as heavy.
+  static bool is_plainer(const Alternative& one, const Finding& finding, const Chosen& other) {
+    constexpr double kIdentical = 0.1;    // of BIC
+    constexpr double kNegligible = 1e-3;  // of what a finding gains: no simulation is so exact
     if (one.chosen.hypothesis->is_shape_only) {
       return false;
     }
+    const bool are_bodies = one.effect == "payload" && other.hypothesis->effect == "link_mass";
+    const double same = std::max(
+        kSameEvidence, are_bodies ? kNegligible * finding.evidence.delta_bic : kSameEvidence);
     const bool is_smaller = one.chosen.values.size() < other.values.size();
     const bool is_as_rich = one.chosen.values.size() == other.values.size();
-    const bool is_likelier = is_as_rich && one.delta_bic < kSameEvidence && one.joint == 0 &&
-                             other.hypothesis->joint != 0;
+    const bool is_likelier =
+        is_as_rich && one.delta_bic < same && one.joint == 0 && other.hypothesis->joint != 0;
     const bool changes_less = is_as_rich && one.delta_bic < kIdentical &&
                               one.joint == other.hypothesis->joint &&
                               change(one.chosen) < change(other);
@@ -424,7 +453,8 @@ class Chooser {
     for (std::size_t i = 0; i < choice->findings.size(); ++i) {
       for (const Alternative& other : choice->findings[i].alternatives) {
         const Chosen& own = choice->fit.chosen[i];
-        if (is_plainer(other, own) || is_the_law(other, choice->findings[i], own)) {
+        if (is_plainer(other, choice->findings[i], own) ||
+            is_the_law(other, choice->findings[i], own)) {
           std::vector<Chosen> chosen = choice->fit.chosen;
           chosen[i] = other.chosen;
           Fit better = fit(*observations_, std::move(chosen), kLastSteps);
@@ -526,7 +556,8 @@ Choice choose(Observations* observations, const std::vector<Hypothesis>& hypothe
   }
   choice.fit = fit(*observations, choice.fit.chosen, kLastSteps);
   chooser.prune(&choice);
-  while (chooser.withdraw_unproved(&choice)) {
+  std::vector<Group> fallen;
+  while (chooser.withdraw_unproved(&choice, &fallen)) {
   }
   // Each time a finding, a parameter or a joint less.
   while (chooser.merge(&choice) || chooser.simplify(&choice)) {

@@ -51,8 +51,9 @@ using Tell = std::function<void(std::size_t, std::size_t)>;
 /// some component by more than a third of its noise; and if, where it shows most, it accounts for a
 /// tenth of what was left beyond the noise, for a fiftieth of the whole fit, and takes away what
 /// is beyond the noise rather than noise. In the end nine tenths of the mismatch there must be
-/// accounted for by all of them together, or it is withdrawn; and so it is if several of them come
-/// near the noise there together, but fail on what was held out.
+/// accounted for by all of them together, or it is withdrawn; and so are several that come near the
+/// noise there together, but fail on what was held out (of two the weaker), and what remains there
+/// then if it leaves more than twice the noise.
 ///
 /// The starts of hypotheses that are sought in the residual are sought anew after every step (the
 /// observations' `unexplained` is used for that). In the end the best pairs of hypotheses are tried

@@ -199,9 +199,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     if (diagnosis.proposal.empty()) {
       diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
     }
-  }
-  if (diagnosis.verdict == "unexplained") {
-    diagnosis.retuned = retune(*observations, hypotheses, dictionary);
+    diagnosis.retuned = retune(*observations, diagnosis.choice.fit, hypotheses, dictionary);
   }
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;
@@ -229,14 +227,17 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
   if (fit.chosen.empty()) {
     return "";
   }
+  const std::size_t found = diagnosis.choice.fit.chosen.size();
   std::vector<std::string> numbers;
-  for (const Chosen& each : fit.chosen) {
-    numbers.push_back(place_name(each.hypothesis->effect, each.hypothesis->joint));
+  for (std::size_t i = found; i < fit.chosen.size(); ++i) {
+    const Hypothesis& number = *fit.chosen[i].hypothesis;
+    numbers.push_back(place_name(number.effect, number.joint));
   }
   return fmt::format(
-      "No finding, but a stand-in until one is made: with other numbers in updated_model.yaml ({}) "
-      "{}.",
-      fmt::join(numbers, "; "), fall(observations, diagnosis.choice.fit, fit));
+      "No finding, but a stand-in until one is made{}: with other numbers in updated_model.yaml "
+      "({}) {}.",
+      found == 0 ? "" : " of what is left", fmt::join(numbers, "; "),
+      fall(observations, diagnosis.choice.fit, fit));
 }
 
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {

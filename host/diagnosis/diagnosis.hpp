@@ -31,12 +31,13 @@ struct Diagnosis {
   Location location;           ///< of the mismatch
   Location left;               ///< of what is unexplained
   std::vector<ProposedTerm> proposal;  ///< a form of what is unexplained; empty where none is found
-  /// Nothing was found, but these of the model's own numbers stand in for what is missing.
+  /// The findings, fitted anew, and behind them those of the model's own numbers that stand in for
+  /// what is unexplained; nothing chosen where none do.
   Fit retuned;
   std::vector<std::vector<Place>> indistinguishable;
   std::string suggested_experiment;  ///< empty where none is needed
 
-  /// What the updated model has: what was found, or what stands in for it.
+  /// What the updated model has: what was found, and what stands in for the rest.
   const Fit& updated() const { return retuned.chosen.empty() ? choice.fit : retuned; }
 };
 

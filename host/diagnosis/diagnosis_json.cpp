@@ -121,12 +121,13 @@ Json proposal(const std::vector<ProposedTerm>& terms) {
 
 /// The model's own numbers that stand in for what is unexplained, and what they do for each
 /// channel.
-Json retuned(const Observations& observations, const Fit& fit) {
+Json retuned(const Observations& observations, const Diagnosis& diagnosis) {
+  const Fit& fit = diagnosis.retuned;
   if (fit.chosen.empty()) {
     return nullptr;
   }
   Json numbers = Json::array();
-  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+  for (std::size_t i = diagnosis.choice.fit.chosen.size(); i < fit.chosen.size(); ++i) {
     const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
     numbers.push_back({{"number", hypothesis.effect},
                        {"joint", hypothesis.joint},
@@ -157,7 +158,7 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
                            {"location", location(diagnosis.left)},
                            {"nearest", places(diagnosis.nearest)},
                            {"proposal", proposal(diagnosis.proposal)},
-                           {"retuned", retuned(observations, diagnosis.retuned)}};
+                           {"retuned", retuned(observations, diagnosis)}};
   }
   json["indistinguishable"] = Json::array();
   for (const std::vector<Place>& group : diagnosis.indistinguishable) {

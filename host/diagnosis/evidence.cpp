@@ -92,6 +92,11 @@ std::vector<Squares> squares_of(const Observations& observations, const Fit& wit
 
 }  // namespace
 
+bool are_of_one_place(const Group& a, const Group& b) {
+  const bool is_joint = a.first != simulation::tcp_position && b.first != simulation::tcp_position;
+  return a == b || (is_joint && a.second == b.second);
+}
+
 double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder) {
   const auto count = static_cast<double>(observations.train);
   if (observations.is_static) {
@@ -159,6 +164,7 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
       evidence.share = fall / std::max(each.before - noise, kTiny);
       evidence.beyond_noise = (each.before - each.count) / std::max(fall, kTiny);
       evidence.explained = 1 - (each.after - each.count) / std::max(each.first - each.count, kTiny);
+      evidence.left = std::sqrt(each.after / each.count);
     }
   }
   return evidence;

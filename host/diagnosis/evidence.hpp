@@ -10,6 +10,9 @@ namespace flexcomp::diagnosis {
 /// Channel, and joint less one: the TCP's position (0), or the torque or deflection of one joint.
 using Group = std::pair<Channel, Eigen::Index>;
 
+/// Both of the TCP's position, or both of one joint, whose torque winds it up.
+bool are_of_one_place(const Group& a, const Group& b);
+
 /// What speaks for a hypothesis, the others of a fit being there.
 struct Evidence {
   double delta_bic = 0;     ///< BIC without it less BIC with it
@@ -25,6 +28,7 @@ struct Evidence {
                                  ///< noise is no more than what is left with it
   double beyond_noise = 0;       ///< what was beyond the noise over what it takes away
   double explained = 0;          ///< part of the mismatch's power that the whole fit accounts for
+  double left = 0;               ///< by the whole fit, times the noise
   double effective_samples = 0;
 };
 

@@ -171,7 +171,7 @@ std::string retuned(const Observations& observations, const Diagnosis& diagnosis
     return "";
   }
   std::string rows;
-  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+  for (std::size_t i = diagnosis.choice.fit.chosen.size(); i < fit.chosen.size(); ++i) {
     const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
     rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n",
                         place_name(hypothesis.effect, hypothesis.joint),

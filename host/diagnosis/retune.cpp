@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kKnown = 2;  // deviations from what the model has
 constexpr int kSteps = 8;
+constexpr double kTiny = 1e-300;
 
 bool is_number_of_model(const Hypothesis& hypothesis) {
   constexpr const char* kEffects[] = {"joint_stiffness", "viscous_friction", "coulomb_friction"};
@@ -18,31 +19,59 @@ bool is_number_of_model(const Hypothesis& hypothesis) {
                                               hypothesis.effect) != std::end(kEffects);
 }
 
-std::vector<Chosen> unchanged_numbers(const std::vector<Hypothesis>& hypotheses,
-                                      const Dictionary& dictionary) {
-  std::vector<Chosen> all;
+/// Findings, and behind them the numbers that they do not alter, as they are.
+std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothesis>& hypotheses,
+                                 const Dictionary& dictionary) {
+  std::vector<Chosen> all = findings.chosen;
   for (const Hypothesis& each : hypotheses) {
-    if (is_number_of_model(each) && dictionary.find(each) != nullptr) {
+    const bool is_found =
+        std::any_of(findings.chosen.begin(), findings.chosen.end(),
+                    [&](const Chosen& found) { return are_the_same(*found.hypothesis, each); });
+    if (is_number_of_model(each) && !is_found && dictionary.find(each) != nullptr) {
       all.push_back({&each, Values(each.parameters.size(), 0.0)});
     }
   }
   return all;
 }
 
-/// The one whose surest parameter is the least deviations from zero, and by how many.
-std::pair<std::size_t, double> least_known(const Fit& fit) {
-  std::pair<std::size_t, double> least = {0, std::numeric_limits<double>::infinity()};
-  Eigen::Index at = 0;
-  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
-    double most = 0;
-    for (const double value : fit.chosen[i].values) {
-      const double deviation = std::sqrt(fit.covariance(at, at));
-      most = std::max(most, deviation > 0 ? std::abs(value) / deviation : 0);
-      ++at;
+void drop(Eigen::Index index, Eigen::VectorXd* value, Eigen::MatrixXd* covariance) {
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index i = 0; i < value->size(); ++i) {
+    if (i != index) {
+      others.push_back(i);
     }
-    least = most < least.second ? std::make_pair(i, most) : least;
   }
-  return least;
+  *value = (*value)(others).eval();
+  *covariance = (*covariance)(others, others).eval();
+}
+
+/// Findings, and behind them the numbers that can be told from what they are: one at a time the one
+/// that is fewest deviations from zero is put back, as far as this is so, and what the others are
+/// without it follows from the covariance.
+std::vector<Chosen> known_of(const Fit& fit, std::size_t findings) {
+  std::vector<Chosen> known = fit.chosen;
+  const auto count = static_cast<Eigen::Index>(known.size() - findings);
+  Eigen::VectorXd value(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    value[i] = known[findings + static_cast<std::size_t>(i)].values.front();
+  }
+  Eigen::MatrixXd covariance = fit.covariance.bottomRightCorner(count, count);
+  while (value.size() > 0) {
+    Eigen::Index weakest = 0;
+    const Eigen::ArrayXd deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    const double least =
+        (deviation > 0).select(value.array().abs() / deviation.max(kTiny), 0).minCoeff(&weakest);
+    if (least >= kKnown) {
+      break;
+    }
+    const double variance = std::max(covariance(weakest, weakest), kTiny);
+    const Eigen::VectorXd share = covariance.col(weakest) / variance;
+    value -= share * value[weakest];
+    covariance -= variance * share * share.transpose();
+    drop(weakest, &value, &covariance);
+    known.erase(known.begin() + static_cast<std::ptrdiff_t>(findings) + weakest);
+  }
+  return known;
 }
 
 /// Does the held-out error fall noticeably in a channel, and rise in none?
@@ -64,24 +93,20 @@ bool predicts_better(const Observations& observations, const Fit& before, const 
 
 }  // namespace
 
-Fit retune(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
-           const Dictionary& dictionary) {
-  const Fit nothing = fit(observations, {}, 0);
-  Fit tuned = fit(observations, unchanged_numbers(hypotheses, dictionary), kSteps, &dictionary);
-  while (!tuned.chosen.empty()) {
-    const auto [weakest, deviations] = least_known(tuned);
-    if (deviations >= kKnown) {
-      break;
-    }
-    std::vector<Chosen> others = tuned.chosen;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(weakest));
-    tuned = fit(observations, std::move(others), kSteps, &dictionary);
+Fit retune(const Observations& observations, const Fit& findings,
+           const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+  const std::size_t found = findings.chosen.size();
+  Fit tuned =
+      fit(observations, with_numbers(findings, hypotheses, dictionary), kSteps, &dictionary);
+  for (std::vector<Chosen> known = known_of(tuned, found); known.size() < tuned.chosen.size();
+       known = known_of(tuned, found)) {
+    tuned = fit(observations, std::move(known), kSteps, &dictionary);
   }
-  const bool stands = !tuned.chosen.empty() &&
-                      bic_gain(observations, nothing, tuned) > kStrongEvidence &&
-                      predicts_better(observations, nothing, tuned) &&
+  const bool stands = tuned.chosen.size() > found &&
+                      bic_gain(observations, findings, tuned) > kStrongEvidence &&
+                      predicts_better(observations, findings, tuned) &&
                       cancellation(observations, tuned) < kMostCancellation;
-  return stands ? tuned : nothing;
+  return stands ? tuned : Fit{};
 }
 
 }  // namespace flexcomp::diagnosis

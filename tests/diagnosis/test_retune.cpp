@@ -1,4 +1,5 @@
 // The model's own numbers in the place of physics that no effect of the catalogue has.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -7,6 +8,7 @@
 #include "unity_main.hpp"
 
 using namespace flexcomp;
+using flexcomp::diagnosis::Chosen;
 using flexcomp::diagnosis::Dictionary;
 using flexcomp::diagnosis::Fit;
 using flexcomp::diagnosis::Hypothesis;
@@ -18,15 +20,22 @@ namespace {
 constexpr double kTorqueNoise = 2;  // N·m
 constexpr double kFriction = 40;    // N·m
 
-/// The swinging robot with its torques besides, noisy, those of one joint in error (n, N·m).
-Observations with_torques(const SwingingRobot& swinging, int joint, const Eigen::VectorXd& error) {
+/// Errors of the torques (n × 6), of one joint (n), N·m.
+Eigen::MatrixXd at_joint(int joint, const Eigen::VectorXd& error) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(error.size(), 6);
+  all.col(joint - 1) = error;
+  return all;
+}
+
+/// The swinging robot with its torques besides, noisy and in error (n × 6, N·m).
+Observations with_torques(const SwingingRobot& swinging, const Eigen::MatrixXd& error) {
   recording::Recording shown = swinging.recording;
   shown.tau = recording::Samples::Zero(shown.size(), 6);
   simulation::Preparation preparation;
   const simulation::Scene scene = simulation::prepare(shown, shown.size(), &preparation);
   simulation::Machine machine = diagnosis::machine_of(swinging.robot, {scene});
   *shown.tau = simulate(machine, scene).prediction.channel[simulation::joint_torque];
-  shown.tau->col(joint - 1) += error;
+  *shown.tau += error;
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, kTorqueNoise);
   for (Eigen::Index row = 0; row < shown.size(); ++row) {
@@ -38,21 +47,27 @@ Observations with_torques(const SwingingRobot& swinging, int joint, const Eigen:
   return Observations(std::move(machine), std::move(scenes), 0);
 }
 
-Fit retuned(const Observations& observations, const std::vector<Hypothesis>& hypotheses) {
+/// Beside findings, by default none.
+Fit retuned(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+            const std::vector<Chosen>& findings = {}) {
+  constexpr int kSteps = 10;
   const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
-  return retune(observations, hypotheses, dictionary);
+  return retune(observations, fit(observations, findings, kSteps), hypotheses, dictionary);
+}
+
+/// Friction (N·m) of joint 2 that joint 1 makes larger and smaller: on average it is dry friction.
+Eigen::VectorXd varying_friction(const SwingingRobot& swinging) {
+  const Eigen::ArrayXd varying = 1 + 0.4 * (20 * swinging.scene.q.col(0).array()).sin();
+  return kFriction * varying * swinging.scene.velocity.col(1).array().sign();
 }
 
 double held_out(const Observations& observations, const Eigen::VectorXd& values) {
   return observations.rms(values, simulation::joint_torque, true);
 }
 
-/// Friction of joint 2 that joint 1 makes larger and smaller: on average it is dry friction.
 void friction_that_varies_is_stood_in_for_by_its_mean() {
   const SwingingRobot swinging(1);
-  const Eigen::ArrayXd varying = 1 + 0.4 * (20 * swinging.scene.q.col(0).array()).sin();
-  const Observations observations = with_torques(
-      swinging, 2, kFriction * varying * swinging.scene.velocity.col(1).array().sign());
+  const Observations observations = with_torques(swinging, at_joint(2, varying_friction(swinging)));
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   const Fit fit = retuned(observations, hypotheses);
   TEST_ASSERT_EQUAL_UINT64(1, fit.chosen.size());
@@ -68,10 +83,28 @@ void friction_that_varies_is_stood_in_for_by_its_mean() {
       held_out(observations, fit.remainder) / held_out(observations, observations.residual));
 }
 
+void numbers_stand_in_for_what_findings_leave() {
+  constexpr double kOffset = 60;  // N·m
+  const SwingingRobot swinging(4);
+  const Observations observations =
+      with_torques(swinging, at_joint(5, Eigen::VectorXd::Constant(swinging.rows(), kOffset)) +
+                                 at_joint(2, varying_friction(swinging)));
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const auto offset = std::find_if(
+      hypotheses.begin(), hypotheses.end(),
+      [](const Hypothesis& each) { return each.effect == "torque_offset" && each.joint == 5; });
+  const Fit fit = retuned(observations, hypotheses, {{&*offset, {0}}});
+  TEST_ASSERT_EQUAL_UINT64(2, fit.chosen.size());
+  TEST_ASSERT_EQUAL_PTR(&*offset, fit.chosen.front().hypothesis);
+  TEST_ASSERT_DOUBLE_WITHIN(1, kOffset, fit.chosen.front().values.front());
+  TEST_ASSERT_EQUAL_STRING("coulomb_friction", fit.chosen.back().hypothesis->effect.c_str());
+  TEST_ASSERT_DOUBLE_WITHIN(0.1 * kFriction, kFriction, fit.chosen.back().values.front());
+}
+
 void a_model_that_agrees_keeps_its_numbers() {
   const SwingingRobot swinging(2);
   const Observations observations =
-      with_torques(swinging, 2, Eigen::VectorXd::Zero(swinging.rows()));
+      with_torques(swinging, Eigen::MatrixXd::Zero(swinging.rows(), 6));
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   TEST_ASSERT_TRUE(retuned(observations, hypotheses).chosen.empty());
 }
@@ -81,7 +114,7 @@ void what_no_number_can_stand_in_for_leaves_them_as_they_are() {
   const SwingingRobot swinging(3);
   const Eigen::ArrayXd time = swinging.recording.time.array();
   const Observations observations =
-      with_torques(swinging, 2, kFriction * (2 * M_PI * 3.1 * time).sin());
+      with_torques(swinging, at_joint(2, kFriction * (2 * M_PI * 3.1 * time).sin()));
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   TEST_ASSERT_TRUE(retuned(observations, hypotheses).chosen.empty());
 }
@@ -91,6 +124,7 @@ void what_no_number_can_stand_in_for_leaves_them_as_they_are() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(friction_that_varies_is_stood_in_for_by_its_mean);
+  RUN_TEST(numbers_stand_in_for_what_findings_leave);
   RUN_TEST(a_model_that_agrees_keeps_its_numbers);
   RUN_TEST(what_no_number_can_stand_in_for_leaves_them_as_they_are);
   return UNITY_END();

@@ -2,9 +2,9 @@
 
 namespace flexcomp::diagnosis {
 
-// Friction in proportion to speed, the same both ways or with an asymmetry between them:
-// coefficient · v + asymmetry · |v| (Armstrong-Helouvry, Dupont and Canudas de Wit 1994). Needs
-// torques, and several speeds.
+// Friction in proportion to speed, the same both ways or with a coefficient for each (Armstrong-
+// Helouvry, Dupont and Canudas de Wit 1994). In no direction does friction drive: no coefficient
+// falls below zero in all. Needs torques, and several speeds.
 std::vector<Hypothesis> viscous_friction(const Observations& observations) {
   std::vector<Hypothesis> all;
   if (!(observations.has(simulation::joint_torque) && !observations.is_static)) {
@@ -28,7 +28,8 @@ std::vector<Hypothesis> viscous_friction(const Observations& observations) {
     all.push_back(hypothesis);
 
     hypothesis.form = "by_direction";
-    hypothesis.parameters.push_back({"asymmetry", "N·m·s/rad", -100 * size, 100 * size, size});
+    hypothesis.parameters = {{"forward", "N·m·s/rad", -known, 100 * size, size},
+                             {"backward", "N·m·s/rad", -known, 100 * size, size}};
     hypothesis.linear = 2;
     hypothesis.alters_model = false;
     hypothesis.statement =
@@ -38,7 +39,8 @@ std::vector<Hypothesis> viscous_friction(const Observations& observations) {
           {simulation::Term::output,
            [=](const Scene&, const Simulation& at, Prediction* prediction) {
              const Eigen::VectorXd speed = at.velocity.col(joint - 1);
-             add_torque(joint, values[0] * speed + values[1] * speed.cwiseAbs(), prediction);
+             add_torque(joint, values[0] * speed.cwiseMax(0) + values[1] * speed.cwiseMin(0),
+                        prediction);
            }});
     };
     all.push_back(hypothesis);
