@@ -253,12 +253,9 @@ class Chooser {
     const auto width = [](const Chosen& each) {
       return static_cast<Eigen::Index>(each.values.size());
     };
-    Eigen::Index first = 0;
-    for (std::size_t i = 0; i < index; ++i) {
-      first += width(whole.chosen[i]);
-    }
-    const Eigen::MatrixXd own = whole.derivative.middleCols(first, width(whole.chosen[index]))
-                                    .topRows(observations_->train);
+    const Eigen::MatrixXd own =
+        whole.derivative.middleCols(whole.first_parameter(index), width(whole.chosen[index]))
+            .topRows(observations_->train);
     const Eigen::MatrixXd last =
         whole.derivative.rightCols(width(whole.chosen.back())).topRows(observations_->train);
     const Eigen::MatrixXd cosine =

@@ -13,19 +13,9 @@ Json joint_or_null(int joint) { return joint > 0 ? Json(joint) : Json(nullptr); 
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::vector<Channel> channels_of(const Observations& observations) {
-  std::vector<Channel> channels;
-  for (std::size_t i = 0; i < kChannels.size(); ++i) {
-    if (observations.has(static_cast<Channel>(i))) {
-      channels.push_back(static_cast<Channel>(i));
-    }
-  }
-  return channels;
-}
-
 Json rms_of(const Observations& observations, const Eigen::VectorXd& values) {
   Json json = Json::object();
-  for (const Channel channel : channels_of(observations)) {
+  for (const Channel channel : observations.channels()) {
     json[kChannels[channel]] = {{"train_rms", observations.rms(values, channel, false)},
                                 {"holdout_rms", observations.rms(values, channel, true)}};
   }
@@ -34,7 +24,7 @@ Json rms_of(const Observations& observations, const Eigen::VectorXd& values) {
 
 Json noise_floor(const Observations& observations) {
   Json json = Json::object();
-  for (const Channel channel : channels_of(observations)) {
+  for (const Channel channel : observations.channels()) {
     json[kChannels[channel]] =
         observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
   }
@@ -141,7 +131,7 @@ Json retuned(const Observations& observations, const Diagnosis& diagnosis) {
 Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
   Json json = {{"schema", "flexcomp/diagnosis/1"}, {"verdict", diagnosis.verdict}};
   json["channels"] = Json::array();
-  for (const Channel channel : channels_of(observations)) {
+  for (const Channel channel : observations.channels()) {
     json["channels"].push_back(kChannels[channel]);
   }
   json["noise_floor_rms"] = noise_floor(observations);

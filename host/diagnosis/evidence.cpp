@@ -142,12 +142,10 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
         1.0, places * statistics::chi_squared_above(ratio, static_cast<double>(parameters)));
   }
   evidence.confirmation = confirmation_of(observations, without.remainder, with.remainder);
-  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
-    const auto channel = static_cast<Channel>(i);
+  for (const Channel channel : observations.channels()) {
     evidence.lowers_held_out =
-        evidence.lowers_held_out ||
-        (observations.has(channel) && observations.rms(with.remainder, channel, true) <
-                                          observations.rms(without.remainder, channel, true));
+        evidence.lowers_held_out || observations.rms(with.remainder, channel, true) <
+                                        observations.rms(without.remainder, channel, true);
   }
   constexpr double kTiny = 1e-9;
   for (const Squares& each : squares_of(observations, without, with, false)) {

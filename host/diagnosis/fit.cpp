@@ -328,11 +328,15 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::Mat
 }  // namespace
 
 std::size_t Fit::parameters() const {
+  return static_cast<std::size_t>(first_parameter(chosen.size()));
+}
+
+Eigen::Index Fit::first_parameter(std::size_t index) const {
   std::size_t count = 0;
-  for (const Chosen& each : chosen) {
-    count += each.values.size();
+  for (std::size_t i = 0; i < index; ++i) {
+    count += chosen[i].values.size();
   }
-  return count;
+  return static_cast<Eigen::Index>(count);
 }
 
 Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen) {

@@ -25,6 +25,8 @@ struct Fit {
   double train_sum = 0;  ///< robust sum of squares of the remainder
 
   std::size_t parameters() const;
+  /// Column of `derivative` and of `covariance` where those of one that was chosen begin.
+  Eigen::Index first_parameter(std::size_t index) const;
 };
 
 /// The machine with hypotheses added to the observations' model.

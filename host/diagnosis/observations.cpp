@@ -190,6 +190,16 @@ void Observations::renew_residual() {
 
 bool Observations::has(Channel channel) const { return scenes.front().has(channel); }
 
+std::vector<Channel> Observations::channels() const {
+  std::vector<Channel> all;
+  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
+    if (has(static_cast<Channel>(i))) {
+      all.push_back(static_cast<Channel>(i));
+    }
+  }
+  return all;
+}
+
 bool Observations::has_weight() const { return !machine.robot.elastic.gravity.isZero(0); }
 
 bool Observations::has_wrench() const {

@@ -65,6 +65,7 @@ class Observations {
 
   Eigen::Index size() const { return residual.size(); }
   bool has(Channel channel) const;
+  std::vector<Channel> channels() const;  ///< those that it has
   bool has_weight() const;
   bool has_wrench() const;
   bool follows_command() const;

@@ -31,10 +31,7 @@ void add_wave(const Values& values, const std::string& unit, const Eigen::Matrix
 
 std::vector<Estimate> estimates(const Observations& observations, const Fit& fit,
                                 std::size_t index) {
-  Eigen::Index first = 0;
-  for (std::size_t i = 0; i < index; ++i) {
-    first += static_cast<Eigen::Index>(fit.chosen[i].values.size());
-  }
+  const Eigen::Index first = fit.first_parameter(index);
   const Hypothesis& hypothesis = *fit.chosen[index].hypothesis;
   const Values& values = fit.chosen[index].values;
   const auto count = static_cast<Eigen::Index>(values.size());
@@ -63,8 +60,7 @@ std::vector<Estimate> estimates(const Observations& observations, const Fit& fit
 Channel main_channel(const Observations& observations, const Fit& without, const Fit& with) {
   Channel best = observations.samples.front().channel;
   double most = 0;
-  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
-    const auto channel = static_cast<Channel>(i);
+  for (const Channel channel : observations.channels()) {
     const double noise =
         observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
     const double fall = observations.rms(without.remainder, channel, true) -

@@ -22,18 +22,14 @@ constexpr const char* kStyle =
 
 std::string channel_rows(const Observations& observations, const Eigen::VectorXd& after) {
   std::string rows;
-  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
-    const auto channel = static_cast<Channel>(i);
-    if (!observations.has(channel)) {
-      continue;
-    }
+  for (const Channel channel : observations.channels()) {
     const auto rms = [&](const Eigen::VectorXd& values, bool held_out) {
       return shown(channel, observations.rms(values, channel, held_out));
     };
     rows += fmt::format(
         "<tr><td>{}, {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td>"
         "<td>{:.3g}</td></tr>\n",
-        simulation::kChannels[i], shown_unit(channel),
+        simulation::kChannels[channel], shown_unit(channel),
         rms(Eigen::VectorXd::Ones(observations.size()), false), rms(observations.residual, false),
         rms(after, false), rms(observations.residual, true), rms(after, true));
   }
@@ -195,12 +191,9 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
       diagnosis.verdict, diagnosis.reason.empty() ? "" : " (" + diagnosis.reason + ")");
   html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
   html += "<h2>Residual</h2>\n" + channel_rows(observations, after);
-  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
-    const auto channel = static_cast<Channel>(i);
-    if (observations.has(channel)) {
-      html += fmt::format("<h3>{}</h3>\n{}\n", simulation::kChannels[i],
-                          time_picture(observations, after, channel));
-    }
+  for (const Channel channel : observations.channels()) {
+    html += fmt::format("<h3>{}</h3>\n{}\n", simulation::kChannels[channel],
+                        time_picture(observations, after, channel));
   }
   if (observations.has(simulation::tcp_position) && !observations.is_static) {
     html += "<h3>along the path</h3>\n" + path_picture(observations, after);

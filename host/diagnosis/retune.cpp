@@ -79,14 +79,11 @@ bool predicts_better(const Observations& observations, const Fit& before, const 
   constexpr double kNoticeable = 0.99;
   double best = 1;
   double worst = 0;
-  for (std::size_t i = 0; i < simulation::kChannels.size(); ++i) {
-    const auto channel = static_cast<Channel>(i);
-    if (observations.has(channel)) {
-      const double ratio = observations.rms(after.remainder, channel, true) /
-                           observations.rms(before.remainder, channel, true);
-      best = std::min(best, ratio);
-      worst = std::max(worst, ratio);
-    }
+  for (const Channel channel : observations.channels()) {
+    const double ratio = observations.rms(after.remainder, channel, true) /
+                         observations.rms(before.remainder, channel, true);
+    best = std::min(best, ratio);
+    worst = std::max(worst, ratio);
   }
   return best < kNoticeable && worst <= 1;
 }
