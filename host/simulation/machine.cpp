@@ -61,23 +61,24 @@ Row balance(const Machine& machine, const Row& q) {
 
 /// A torque in parallel to a linear spring winds it up like a motor that stands elsewhere.
 Equilibrium settle_balanced(const Machine& machine, const Row& q, const Wrench<double>& wrench,
-                            const Row& compliance) {
+                            const Row& compliance, Springs* springs) {
   constexpr double kTolerance = 1e-10;  // rad, m: far below what any sensor sees
-  Equilibrium equilibrium = settle(machine.robot.elastic, q, wrench, kTolerance);
+  Equilibrium equilibrium = settle_from(machine.robot.elastic, q, wrench, kTolerance, springs);
   for (int round = 0; round < 2 && !machine.balancers.empty(); ++round) {
     const Row shift = compliance.cwiseProduct(balance(machine, equilibrium.q_link));
-    equilibrium = settle(machine.robot.elastic, q + shift, wrench, kTolerance);
+    equilibrium = settle_from(machine.robot.elastic, q + shift, wrench, kTolerance, springs);
   }
   return equilibrium;
 }
 
-/// Where the robot rests, with its levers.
+/// Where the robot rests, with its levers; `springs`: what they gave in the row before, and give in
+/// this one.
 void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index row,
-          Simulation* at) {
+          Springs* springs, Simulation* at) {
   const RobotModel<double, 6>& elastic = machine.robot.elastic;
   const Wrench<double> wrench = at->wrench.row(row).transpose();
   const Equilibrium equilibrium =
-      settle_balanced(machine, row_of(at->q, row), wrench, at->joint_compliance);
+      settle_balanced(machine, row_of(at->q, row), wrench, at->joint_compliance, springs);
   if (scene.has(tcp_position)) {
     at->prediction.channel[tcp_position].row(row) = equilibrium.tcp.position.transpose();
   }
@@ -203,8 +204,9 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
     at.compliance.resize(static_cast<std::size_t>(n));
   }
   if (wanted.levers || (wanted.channel[tcp_position] && scene.has(tcp_position))) {
+    Springs springs;
     for (Eigen::Index row = 0; row < n; ++row) {
-      rest(machine, scene, wanted.levers, row, &at);
+      rest(machine, scene, wanted.levers, row, &springs, &at);
     }
   }
   if (moves &&

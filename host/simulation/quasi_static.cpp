@@ -17,16 +17,6 @@ struct BentChain {
   Pose<double> tcp;
 };
 
-/// What every spring has given, each in its own frame.
-struct Springs {
-  Twist<double> base = Twist<double>::Zero();
-  JointVector<double, 6> windup = JointVector<double, 6>::Zero();
-  std::array<Twist<double>, 6> link;
-  Twist<double> tool = Twist<double>::Zero();
-
-  Springs() { link.fill(Twist<double>::Zero()); }
-};
-
 /// A frame moved by a twist given in that frame. Most springs are not there, and give nothing.
 Pose<double> given_way(const Pose<double>& frame, const Twist<double>& twist) {
   return twist.isZero(0) ? frame : frame * displaced(Pose<double>{}, twist);
@@ -103,20 +93,25 @@ Springs load_springs(const RobotModel<double, 6>& model, const BentChain& chain,
 
 Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
                    const Wrench<double>& wrench, double tolerance) {
-  constexpr int kMaxRounds = 200;
   Springs springs;
+  return settle_from(model, q_motor, wrench, tolerance, &springs);
+}
+
+Equilibrium settle_from(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
+                        const Wrench<double>& wrench, double tolerance, Springs* springs) {
+  constexpr int kMaxRounds = 200;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const BentChain chain = bend(model, q_motor, springs);
+    const BentChain chain = bend(model, q_motor, *springs);
     const Springs next = load_springs(model, chain, wrench);
-    double change = (next.windup - springs.windup).cwiseAbs().maxCoeff();
-    change = std::fmax(change, (next.base - springs.base).cwiseAbs().maxCoeff());
-    change = std::fmax(change, (next.tool - springs.tool).cwiseAbs().maxCoeff());
+    double change = (next.windup - springs->windup).cwiseAbs().maxCoeff();
+    change = std::fmax(change, (next.base - springs->base).cwiseAbs().maxCoeff());
+    change = std::fmax(change, (next.tool - springs->tool).cwiseAbs().maxCoeff());
     for (std::size_t i = 0; i < 6; ++i) {
-      change = std::fmax(change, (next.link[i] - springs.link[i]).cwiseAbs().maxCoeff());
+      change = std::fmax(change, (next.link[i] - springs->link[i]).cwiseAbs().maxCoeff());
     }
-    springs = next;
+    *springs = next;
     if (change <= tolerance) {
-      return {chain.tcp, q_motor + springs.windup};
+      return {chain.tcp, q_motor + springs->windup};
     }
     if (!std::isfinite(change) || change > 10) {
       break;

@@ -1,8 +1,20 @@
 #pragma once
 
+#include <array>
+
 #include "flexcomp/compliance.hpp"
 
 namespace flexcomp::simulation {
+
+/// What every spring of a robot has given, each in its own frame (m, rad); at first nothing.
+struct Springs {
+  Twist<double> base = Twist<double>::Zero();
+  JointVector<double, 6> windup = JointVector<double, 6>::Zero();
+  std::array<Twist<double>, 6> link;
+  Twist<double> tool = Twist<double>::Zero();
+
+  Springs() { link.fill(Twist<double>::Zero()); }
+};
 
 /// Where a loaded robot stands.
 struct Equilibrium {
@@ -19,6 +31,11 @@ struct Equilibrium {
 /// equilibrium nearby.
 Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
                    const Wrench<double>& wrench, double tolerance = 1e-13);
+
+/// The same, sought from what the springs have given in a state nearby, like the one before; left
+/// in them is what they give in this one.
+Equilibrium settle_from(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
+                        const Wrench<double>& wrench, double tolerance, Springs* springs);
 
 /// The model with all of its springs `factor` times as soft.
 RobotModel<double, 6> with_scaled_compliance(RobotModel<double, 6> model, double factor);

@@ -111,6 +111,22 @@ void scaled_springs_bend_in_proportion() {
   TEST_ASSERT_TRUE((deflection(softer, q, milling_wrench(1)).tcp - expected).norm() < 1e-15);
 }
 
+/// Along a path and after a leap to another posture and load.
+void the_equilibrium_is_the_same_wherever_it_is_sought_from() {
+  constexpr double kTolerance = 1e-13;
+  const auto model = kr270_with_everything<double>();
+  simulation::Springs springs;
+  for (const double place : {0.0, 0.01, 0.02, 3.0}) {
+    const Angles q = loop_angles<double>(place);
+    const Wrench<double> wrench = milling_wrench(1 - place);
+    const auto afresh = settle(model, q, wrench, kTolerance);
+    const auto at = simulation::settle_from(model, q, wrench, kTolerance, &springs);
+    TEST_ASSERT_TRUE((at.q_link - q - springs.windup).isZero(1e-15));
+    TEST_ASSERT_TRUE((at.q_link - afresh.q_link).isZero(10 * kTolerance));
+    TEST_ASSERT_TRUE(pose_difference(afresh.tcp, at.tcp).isZero(10 * kTolerance));
+  }
+}
+
 void springs_without_an_equilibrium_are_refused() {
   const auto soft = simulation::with_scaled_compliance(kr270<double>(), 1e5);
   bool refused = false;
@@ -132,6 +148,7 @@ int main() {
   RUN_TEST(corrected_joint_springs_leave_no_error);
   RUN_TEST(corrected_structure_springs_leave_their_stated_remainder);
   RUN_TEST(scaled_springs_bend_in_proportion);
+  RUN_TEST(the_equilibrium_is_the_same_wherever_it_is_sought_from);
   RUN_TEST(springs_without_an_equilibrium_are_refused);
   return UNITY_END();
 }
