@@ -310,7 +310,7 @@ class Chooser {
 
   /// Withdraws what leaves most of the mismatch standing where it shows, and several findings that
   /// fail together on what was held out there: that proves nothing. Nor does what remains in such a
-  /// place (`fallen`: those of others that were withdrawn), unless it comes near the noise by
+  /// place (`fallen`: where those showed that were withdrawn), unless it comes near the noise by
   /// itself. What is kept may have stood by what is not: true where it is to be looked at anew.
   bool withdraw_unproved(Choice* choice, std::vector<Group>* fallen) const {
     std::vector<bool> stays(choice->findings.size(), true);
@@ -331,7 +331,8 @@ class Chooser {
     for (std::size_t i = 0; i < stays.size(); ++i) {
       (stays[i] ? kept : choice->withdrawn).push_back(choice->fit.chosen[i]);
       if (!stays[i]) {
-        fallen->push_back(choice->findings[i].evidence.group);
+        const std::vector<Group>& shows = choice->findings[i].evidence.shows;
+        fallen->insert(fallen->end(), shows.begin(), shows.end());
       }
     }
     if (kept.size() == stays.size()) {

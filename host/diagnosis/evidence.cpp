@@ -153,6 +153,9 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
   }
   double most = 0;
   for (const Squares& each : squares_of(observations, without, with, true)) {
+    if (each.change > each.count) {
+      evidence.shows.push_back(each.group);
+    }
     if (each.change / each.count > most) {
       most = each.change / each.count;
       const double fall = each.before - each.after;
@@ -164,6 +167,9 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
       evidence.explained = 1 - (each.after - each.count) / std::max(each.first - each.count, kTiny);
       evidence.left = std::sqrt(each.after / each.count);
     }
+  }
+  if (evidence.shows.empty()) {
+    evidence.shows = {evidence.group};
   }
   return evidence;
 }

@@ -22,7 +22,9 @@ struct Evidence {
   bool lowers_held_out = false;
   double strength = 0;  ///< root mean square of its share in the component that shows it most,
                         ///< over the noise
-  Group group;          ///< that shows it most; what follows is of that group
+  /// Where it moves what is predicted by more than the noise, or most.
+  std::vector<Group> shows;
+  Group group;                   ///< that shows it most; what follows is of that group
   double relative_strength = 0;  ///< to that of the whole fit
   double share = 0;              ///< of the power that is left beyond the noise without it; the
                                  ///< noise is no more than what is left with it

@@ -78,6 +78,16 @@ class Springs(unittest.TestCase):
         apart = found[1] - found[0] - expected
         self.assertLess(np.linalg.norm(apart), 0.01 * np.linalg.norm(expected))
 
+    def test_a_load_is_at_rest_and_remembers_none_before_it(self):
+        heavy = description.load(ROBOTS / "kr360" / "robot.yaml")
+        heavy.gravity = np.zeros(3)
+        steps = np.array([0, 0.5, 1, 0.5, 0, -0.5, -1, -0.5, 0])
+        pull = load_test(np.outer(steps, [0, 3000, 0, 0, 0, 0]))
+        found = simulate(heavy, [], pull).xyz
+        for load in (0.5, 0, -0.5):
+            same = found[steps == load]
+            np.testing.assert_allclose(same - same[0], 0, atol=3e-6)
+
     def test_play_shows_between_motor_and_link(self):
         gap, joint = 3e-4, 3
         pull = [[0, 0, 900, 0, 0, 0], [0, 0, -900, 0, 0, 0]]

@@ -16,6 +16,8 @@ CLAMPED = 1e9  # kg·m²: a rotor that nothing moves
 RELAXING = 1.0  # of critical: damping while loads settle
 SETTLE = 0.6  # s, for a first equilibrium
 LOAD_RAMP, LOAD_HOLD = 0.25, 0.25  # s
+AT_REST = 1e-6  # rad/s, m/s
+LONGEST_HOLD = 1.0  # s more, until it is at rest; what chatters between stops may never be
 
 
 class Simulation:
@@ -60,7 +62,8 @@ class Simulation:
         return np.array([self.dof(f"{kind}_{k}") for k in range(1, 7)])
 
     def _relax(self, posture, wrench_course):
-        """Holds the motors at a posture while the rest settles, heavily damped, under wrenches."""
+        """Holds the motors at a posture under wrenches, and then until the rest, heavily damped,
+        has settled."""
         model, data = self.model, self.data
         saved = model.dof_armature.copy(), model.dof_damping.copy()
         model.dof_armature[self.motor_dof] = CLAMPED
@@ -78,6 +81,12 @@ class Simulation:
         for wrench in wrench_course:
             data.ctrl[6:12] = wrench
             self._advance(None)
+            data.qvel[self.motor_dof] = 0
+        for _ in range(round(LONGEST_HOLD / self.step)):
+            if np.abs(data.qvel).max() < AT_REST:
+                break
+            self._advance(None)
+            data.qvel[self.motor_dof] = 0
         model.dof_armature[:], model.dof_damping[:] = saved
         data.qvel[:] = 0
         mujoco.mj_forward(model, data)
