@@ -246,27 +246,25 @@ class Chooser {
     return true;
   }
 
-  /// Do the last choice and another one show in the same samples? Else neither can stand in for the
+  /// Do two choices, each of a fit, show in the same samples? Else neither can stand in for the
   /// other: friction of one joint and friction of another.
-  bool meets_last(const Fit& whole, std::size_t index) const {
+  bool meet(const Fit& fit, std::size_t index, const Fit& other_fit, std::size_t other) const {
     constexpr double kMeeting = 0.03;  // cosine
-    const auto width = [](const Chosen& each) {
-      return static_cast<Eigen::Index>(each.values.size());
+    const auto columns = [&](const Fit& from, std::size_t at) -> Eigen::MatrixXd {
+      const auto width = static_cast<Eigen::Index>(from.chosen[at].values.size());
+      return from.derivative.middleCols(from.first_parameter(at), width)
+          .topRows(observations_->train)
+          .colwise()
+          .normalized();
     };
-    const Eigen::MatrixXd own =
-        whole.derivative.middleCols(whole.first_parameter(index), width(whole.chosen[index]))
-            .topRows(observations_->train);
-    const Eigen::MatrixXd last =
-        whole.derivative.rightCols(width(whole.chosen.back())).topRows(observations_->train);
-    const Eigen::MatrixXd cosine =
-        own.colwise().normalized().transpose() * last.colwise().normalized();
+    const Eigen::MatrixXd cosine = columns(fit, index).transpose() * columns(other_fit, other);
     return cosine.cwiseAbs().maxCoeff() > kMeeting;
   }
 
   /// Replaces or drops one choice, the earliest that can be bettered; false if all stand.
   bool revise(Fit* current) const {
     for (std::size_t i = 0; i + 1 < current->chosen.size(); ++i) {
-      if (!meets_last(*current, i)) {
+      if (!meet(*current, i, *current, current->chosen.size() - 1)) {
         continue;
       }
       const Fit others = without(*current, i);
@@ -479,7 +477,7 @@ class Chooser {
       const Fit tried = with(finding->without, candidate, kQuickSteps);
       const double gain =
           bic_gain(samples, finding->without.train_sum, tried.train_sum, candidate.values.size());
-      if (gain > kStrongEvidence) {
+      if (gain > kStrongEvidence && meet(whole, index, tried, tried.chosen.size() - 1)) {
         finding->alternatives.push_back({other.effect, other.joint,
                                          std::max(finding->evidence.delta_bic - gain, 0.0),
                                          tried.chosen.back()});

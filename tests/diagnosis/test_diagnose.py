@@ -255,6 +255,23 @@ class Diagnose(unittest.TestCase):
                       [(other["effect"], other["joint"]) for other in finding["alternatives"]])
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_what_shows_at_another_joint_is_no_alternative(self):
+        def speeds(angles):
+            return [b - a for a, b in zip(angles, [*angles[1:], angles[-1]])]
+
+        recording = self.torques(3, lambda angles: [math.copysign(80, v) for v in speeds(angles)])
+        # At joint 5 a friction that comes and goes, too much so for any law to stand.
+        pace = iter(enumerate(speeds([swing(i * PERIOD)[4] for i in range(2500)])))
+
+        def comes_and_goes(torque):
+            i, speed = next(pace)
+            return (torque + math.copysign(200 * (1 + 0.9 * math.sin(0.05 * i)), speed),)
+
+        replace_columns(recording, ("tau_5",), comes_and_goes)
+        finding = self.only_finding(recording, "coulomb_friction", 3)
+        self.assertNotIn(5, [other["joint"] for other in finding["alternatives"]])
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_link_encoders_that_are_late_are_named(self):
         delay = 3e-3  # s
         header = ["t", *(f"q_meas_{k}" for k in JOINTS), *(f"q_link_{k}" for k in JOINTS)]
