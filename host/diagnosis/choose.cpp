@@ -258,7 +258,7 @@ class Chooser {
           .normalized();
     };
     const Eigen::MatrixXd cosine = columns(fit, index).transpose() * columns(other_fit, other);
-    return cosine.cwiseAbs().maxCoeff() > kMeeting;
+    return (cosine.array().abs() > kMeeting).any();  // also beside a column without a number
   }
 
   /// Replaces or drops one choice, the earliest that can be bettered; false if all stand.
