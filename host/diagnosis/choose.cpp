@@ -418,8 +418,8 @@ class Chooser {
       return false;
     }
     const bool are_bodies = one.effect == "payload" && other.hypothesis->effect == "link_mass";
-    const double same = std::max(
-        kSameEvidence, are_bodies ? kNegligible * finding.evidence.delta_bic : kSameEvidence);
+    const double negligible = are_bodies ? kNegligible * finding.evidence.delta_bic : 0;
+    const double same = std::max(kSameEvidence, negligible);
     const bool is_smaller = one.chosen.values.size() < other.values.size();
     const bool is_as_rich = one.chosen.values.size() == other.values.size();
     const bool is_likelier =

@@ -80,16 +80,19 @@ class Simulation:
         data.ctrl[:6] = 0
         for wrench in wrench_course:
             data.ctrl[6:12] = wrench
-            self._advance(None)
-            data.qvel[self.motor_dof] = 0
+            self._advance_held()
         for _ in range(round(LONGEST_HOLD / self.step)):
             if np.abs(data.qvel).max() < AT_REST:
                 break
-            self._advance(None)
-            data.qvel[self.motor_dof] = 0
+            self._advance_held()
         model.dof_armature[:], model.dof_damping[:] = saved
         data.qvel[:] = 0
         mujoco.mj_forward(model, data)
+
+    def _advance_held(self):
+        """A step in which the motors, heavy as they are, do not gather speed under a load."""
+        self._advance(None)
+        self.data.qvel[self.motor_dof] = 0
 
     def _advance(self, row, log=None):
         model, data = self.model, self.data
