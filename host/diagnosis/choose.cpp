@@ -250,15 +250,17 @@ class Chooser {
   /// other: friction of one joint and friction of another.
   bool meet(const Fit& fit, std::size_t index, const Fit& other_fit, std::size_t other) const {
     constexpr double kMeeting = 0.03;  // cosine
-    const auto columns = [&](const Fit& from, std::size_t at) -> Eigen::MatrixXd {
+    const auto directions = [&](const Fit& from, std::size_t at) {
+      constexpr double kTiny = 1e-300;  // a parameter that does not show has no direction
       const auto width = static_cast<Eigen::Index>(from.chosen[at].values.size());
-      return from.derivative.middleCols(from.first_parameter(at), width)
-          .topRows(observations_->train)
-          .colwise()
-          .normalized();
+      Eigen::MatrixXd columns =
+          from.derivative.middleCols(from.first_parameter(at), width).topRows(observations_->train);
+      columns.array().rowwise() /= columns.colwise().norm().cwiseMax(kTiny).array().eval();
+      return columns;
     };
-    const Eigen::MatrixXd cosine = columns(fit, index).transpose() * columns(other_fit, other);
-    return (cosine.array().abs() > kMeeting).any();  // also beside a column without a number
+    const Eigen::MatrixXd cosine =
+        directions(fit, index).transpose() * directions(other_fit, other);
+    return cosine.cwiseAbs().maxCoeff() > kMeeting;
   }
 
   /// Replaces or drops one choice, the earliest that can be bettered; false if all stand.
