@@ -8,6 +8,7 @@ import xml.etree.ElementTree as xml
 
 import mujoco
 import numpy as np
+from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -64,6 +65,16 @@ def sway(duration=1.6, step=assembly.STEP, size=0.06):
     wrench = grow * np.array([300, -200, 400, 10, 20, -10])
     return Motion(time, POSTURE + wave[0], wave[1] + 0 * POSTURE, wave[2] + 0 * POSTURE, wrench,
                   np.full(len(time), 20.0))
+
+
+def stand_after(motion, duration):
+    """The motion, and then its last posture for `duration` s."""
+    rows = round(duration / assembly.STEP)
+    time = np.arange(len(motion.time) + rows) * assembly.STEP
+    still = np.zeros((rows, 6))
+    return Motion(time, np.vstack([motion.q, still + motion.q[-1]]),
+                  np.vstack([motion.velocity, still]), np.vstack([motion.acceleration, still]),
+                  np.vstack([motion.wrench, still + motion.wrench[-1]]), np.full(len(time), 20.0))
 
 
 class Springs(unittest.TestCase):
@@ -191,6 +202,20 @@ class Dynamics(unittest.TestCase):
     def test_the_motors_follow_their_command(self):
         signals = simulate(robot(gravity=9.81), [], sway())
         self.assertLess(np.abs(signals.q_meas - signals.q_cmd).max(), 3e-4)
+
+    def test_a_late_joint_follows_as_a_first_order_lag_and_lets_vibrations_die_away(self):
+        motion, joint = stand_after(sway(), 4.0), 2
+        command = motion.q[:, joint - 1]
+        for constant in (8e-3, 20e-3, 80e-3):
+            late = EFFECTS["servo_lag"](joint, time_constant=constant)
+            signals = simulate(robot(gravity=9.81), [late], motion)
+            pole = np.exp(-assembly.STEP / constant)
+            lag = lfilter([1 - pole], [1, -pole], command - command[0]) + command[0]
+            wrong = np.abs(signals.q_meas[:, joint - 1] - lag).max()
+            self.assertLess(wrong, 1.5e-4)  # rad, of a lag of 9e-4 to 9e-3
+            at_first, at_last = (np.ptp(signals.tau[(motion.time > since) & (motion.time < since + 1)],
+                                        axis=0)[joint - 1] for since in (1.7, 4.6))
+            self.assertLess(at_last, 0.1 * at_first)
 
     def test_half_the_step_changes_less_than_the_noise(self):
         arm = robot(gravity=9.81)

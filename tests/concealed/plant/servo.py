@@ -52,7 +52,8 @@ class Servo:
 
     lag: (6,) s. A joint with a lag has no velocity fed forward: its velocity loop, of proportional
     and integral gain, is told (command - angle)/lag, so that the joint follows as a first-order lag
-    (Siciliano et al. 2009, section 8).
+    (Siciliano et al. 2009, section 8). Its integral is slow enough that both loops together take
+    energy from every vibration of the arm.
     """
 
     def __init__(self, description, motion):
@@ -69,6 +70,11 @@ class Servo:
     def set_lag(self, joints, constant):
         """Gives joints (numbers from 0) a first-order lag of `constant` s."""
         self.lag[joints] = constant
+        # Of a vibration at w rad/s, integral and lag together give back rate/(constant w²) of what
+        # the proportional gain takes.
+        rate = 0.8 * constant * SLOWEST_MODE**2
+        self._stiffness[joints] = rate * self._damping[joints]
+        self._integral[joints] = 0.0
 
     def torque(self, row, q, velocity):
         error = self._motion.q[row] - q
