@@ -18,9 +18,10 @@ constexpr double kLeastStrength = 1.0 / 3;
 constexpr double kExactness = 0.02;
 /// Noise of the encoders is in what is predicted: a filter explains it, but it is no mismatch.
 constexpr double kLeastBeyondNoise = 0.75;
-constexpr double kLeastShare = 0.1;      // of what is left: many small steps are a wrong way
-constexpr double kLeastExplained = 0.9;  // of the power of a mismatch, for findings to stand
-constexpr double kFarFromNoise = 2;      // times the noise: too much for what is left of a sum
+constexpr double kLeastShare = 0.1;          // of what is left: many small steps are a wrong way
+constexpr double kLeastExplained = 0.9;      // of the power of a mismatch, for findings to stand
+constexpr double kExplainedNearNoise = 0.8;  // enough where no more than twice the noise is left
+constexpr double kFarFromNoise = 2;          // times the noise: too much for what is left of a sum
 constexpr std::size_t kMostFindings = 20;
 constexpr int kMostInGroup = 5;  // more would be a sum that fits anything
 /// A load test's poses lie all over: its many small errors of geometry tell themselves apart.
@@ -193,18 +194,21 @@ class Chooser {
     return fit(*observations_, std::move(others), kQuickSteps, &dictionary_);
   }
 
+  /// Those of a shortlist beside a fit, quickly fitted, the best first.
+  std::vector<Fit> tried_with(const Fit& before, std::size_t most) const {
+    std::vector<Fit> all;
+    for (const Chosen& candidate : shortlist(before, most)) {
+      all.push_back(with(before, candidate, kQuickSteps));
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Fit& a, const Fit& b) { return criterion(a) < criterion(b); });
+    return all;
+  }
+
   /// The best of a shortlist beside a fit, fitted; nothing chosen if the list is empty.
   Fit best_with(const Fit& before, std::size_t most) const {
-    Fit best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Chosen& candidate : shortlist(before, most)) {
-      Fit tried = with(before, candidate, kQuickSteps);
-      if (criterion(tried) < least) {
-        least = criterion(tried);
-        best = std::move(tried);
-      }
-    }
-    return best.chosen.empty() ? best : fit(*observations_, best.chosen, kSteps, &dictionary_);
+    const std::vector<Fit> tried = tried_with(before, most);
+    return tried.empty() ? Fit{} : fit(*observations_, tried.front().chosen, kSteps, &dictionary_);
   }
 
   static std::size_t shortlist_beside(const Fit& fit) {
@@ -233,18 +237,24 @@ class Chooser {
   void begin() { found_in_.clear(); }
 
   bool grow(Fit* current) {
-    Fit grown = best_with(*current, shortlist_beside(*current));
-    if (grown.chosen.empty()) {
-      return false;
+    for (const Fit& tried : tried_with(*current, shortlist_beside(*current))) {
+      Fit grown = fit(*observations_, tried.chosen, kSteps, &dictionary_);
+      const Evidence evidence = weigh_last(*current, grown);
+      if (holds(evidence)) {
+        if (++found_in_[evidence.group] > most_in_group()) {
+          return false;
+        }
+        *current = std::move(grown);
+        return true;
+      }
+      if (evidence.confirmation > kConfirmed || evidence.delta_bic < kStrongEvidence) {
+        return false;
+      }
     }
-    const Evidence evidence = weigh_last(*current, grown);
-    if (!holds(evidence) ||
-        ++found_in_[evidence.group] > (observations_->is_static ? kMostInLoadTest : kMostInGroup)) {
-      return false;
-    }
-    *current = std::move(grown);
-    return true;
+    return false;
   }
+
+  int most_in_group() const { return observations_->is_static ? kMostInLoadTest : kMostInGroup; }
 
   /// Do two choices, each of a fit, show in the same samples? Else neither can stand in for the
   /// other: friction of one joint and friction of another.
@@ -316,7 +326,8 @@ class Chooser {
     std::vector<bool> stays(choice->findings.size(), true);
     for (std::size_t i = 0; i < stays.size(); ++i) {
       const Evidence& evidence = choice->findings[i].evidence;
-      const bool explains = evidence.explained >= kLeastExplained;
+      const bool explains = evidence.explained >=
+                            (evidence.left > kFarFromNoise ? kLeastExplained : kExplainedNearNoise);
       const bool fails = explains && falls_with_others(*choice, i);
       const bool is_remnant = evidence.left > kFarFromNoise &&
                               std::any_of(fallen->begin(), fallen->end(), [&](const Group& other) {

@@ -2,10 +2,33 @@
 
 namespace flexcomp::diagnosis {
 
+namespace {
+
+/// In −1…1, of torques and a yield torque, both in N·m.
+using Loop = Eigen::VectorXd (*)(const Eigen::VectorXd&, double);
+
+/// The joint came to the first torque from none.
+template <Loop loop>
+Eigen::VectorXd from_zero(const Eigen::VectorXd& torque, double yield) {
+  Eigen::VectorXd since(torque.size() + 1);
+  since << 0, torque;
+  return loop(since, yield).tail(torque.size());
+}
+
+constexpr std::pair<const char*, Loop> kForms[] = {
+    {"bouc_wen", simulation::bouc_wen},
+    {"prandtl_ishlinskii", simulation::prandtl_ishlinskii},
+    {"bouc_wen_from_zero", from_zero<simulation::bouc_wen>},
+    {"prandtl_ishlinskii_from_zero", from_zero<simulation::prandtl_ishlinskii>}};
+
+}  // namespace
+
 // A rate-independent loop of torque and wind-up beside the spring, as Bouc and Wen's or as Prandtl
 // and Ishlinskii's (Wen 1976; Visintin 1994), simulated along the load: dry friction in parallel to
 // the spring lets the wind-up lag behind its straight line by up to `amplitude` either way, so that
-// the loop takes energy. Needs the TCP or link encoders, and a load that rises and falls.
+// the loop takes energy. What went before a recording is not known: the loop begins relaxed at its
+// first torque, or as that torque left it coming from zero. Needs the TCP or link encoders, and a
+// load that rises and falls.
 std::vector<Hypothesis> hysteresis(const Observations& observations) {
   std::vector<Hypothesis> all;
   if (!sees_angles(observations)) {
@@ -27,9 +50,9 @@ std::vector<Hypothesis> hysteresis(const Observations& observations) {
       hypothesis.starts.push_back({share * load});
     }
     hypothesis.statement = fmt::format("joint {} has a loop in its torque-deflection curve", joint);
-    for (const auto loop : {simulation::bouc_wen, simulation::prandtl_ishlinskii}) {
-      hypothesis.form = loop == simulation::bouc_wen ? "bouc_wen" : "prandtl_ishlinskii";
-      hypothesis.apply = [joint, loop](const Values& values, Machine* machine) {
+    for (const auto& [form, loop] : kForms) {
+      hypothesis.form = form;
+      hypothesis.apply = [joint, loop = loop](const Values& values, Machine* machine) {
         machine->terms.push_back({simulation::Term::load,
                                   [=](const Scene&, const Simulation& at, Prediction* prediction) {
                                     add_load_driven(
