@@ -64,10 +64,13 @@ def rows(file):
         return list(csv.DictReader(stream))
 
 
-def swing(t):
-    """Angles (rad) of six joints that swing about a posture, each at its own pace."""
+def swing(t, lag=0.0):
+    """Angles (rad) of six joints that swing about a posture, each at its own pace; or of joints that
+    have followed them for long as a first-order lag (s)."""
     middle = (0.1, -1.2, 1.4, 0.2, 0.5, 0.1)
-    return [q + 0.25 * math.sin(2 * math.pi * (0.15 + 0.04 * k) * t + k) for k, q in enumerate(middle)]
+    pace = [2 * math.pi * (0.15 + 0.04 * k) for k in range(6)]
+    return [q + 0.25 / math.hypot(1, w * lag) * math.sin(w * t + k - math.atan(w * lag))
+            for k, (q, w) in enumerate(zip(middle, pace))]
 
 
 def replace_columns(recording, names, change):
@@ -109,6 +112,20 @@ class Diagnose(unittest.TestCase):
                          found["unexplained"])
         return found["findings"][0]
 
+    def simulated(self, recording, model=ROBOT):
+        """The rows of what the model says instead of the recording."""
+        out = self.folder / "simulated.csv"
+        made = run("simulate", "--model", model, "--recording", recording, "--out", out)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        return rows(out)
+
+    def recorded(self, columns, values):
+        """A recording of so many rows of numbers, one every PERIOD."""
+        recording = self.folder / "recording.csv"
+        lines = [",".join(map(repr, [i * PERIOD, *row])) for i, row in enumerate(values)]
+        recording.write_text("\n".join([",".join(["t", *columns]), *lines]) + "\n")
+        return recording
+
     def torques(self, joint, friction):
         """A recording of the joints swinging, with torques by the model, friction, and noise."""
         times = [i * PERIOD for i in range(2500)]
@@ -117,13 +134,11 @@ class Diagnose(unittest.TestCase):
         recording.write_text("\n".join(
             [",".join(["t", *columns])]
             + [",".join(map(repr, [t, *swing(t), *[0.0] * 6])) for t in times]) + "\n")
-        simulated = self.folder / "simulated.csv"
-        made = run("simulate", "--model", ROBOT, "--recording", recording, "--out", simulated)
-        self.assertEqual(made.returncode, 0, made.stderr)
+        simulated = self.simulated(recording)
         extra = iter(friction([swing(t)[joint - 1] for t in times]))
         draw = random.Random(7)
         shown = [[float(row[f"tau_{k}"]) + draw.gauss(0, 2) + (next(extra) if k == joint else 0)
-                  for k in JOINTS] for row in rows(simulated)]
+                  for k in JOINTS] for row in simulated]
         torque = iter(shown)
         replace_columns(recording, columns[6:], lambda *_: next(torque))
         return recording
@@ -236,6 +251,62 @@ class Diagnose(unittest.TestCase):
         found = self.diagnosis(self.torques(joint, pull))
         self.assertNotEqual(found["verdict"], "no_mismatch")
         self.assertNotIn("viscous_friction", [f["effect"] for f in found["findings"]])
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_a_lag_is_named_by_torques_that_jump_where_dry_friction_turns(self):
+        joint, lag = 2, 0.08  # s
+        model = self.changed_model("{compliance: 0.29e-6}", "{compliance: 0.29e-6, coulomb: 400}")
+        columns = [f"q_cmd_{k}" for k in JOINTS] + [f"tau_{k}" for k in JOINTS]
+        commands = [swing(i * PERIOD) for i in range(2500)]
+        followed = [[*command, *[0.0] * 6] for command in commands]
+        for i, row in enumerate(followed):
+            row[joint - 1] = swing(i * PERIOD, lag)[joint - 1]
+        draw = random.Random(9)
+        torques = [[float(row[name]) + draw.gauss(0, 20) for name in columns[6:]]
+                   for row in self.simulated(self.recorded(columns, followed), model)]
+        late = self.recorded(columns, map(list.__add__, commands, torques))
+        found = self.only_finding(late, "servo_lag", joint, model)["parameters"]["time_constant"]
+        self.assertAlmostEqual(found["value"], lag, delta=0.02 * lag)
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_a_loop_is_named_though_the_joint_was_loaded_before_the_recording(self):
+        joint, compliance, amplitude, yield_torque = 2, 0.29e-6, 2e-4, 1500.0  # rad/(N·m), rad, N·m
+        links = [f"q_link_{k}" for k in JOINTS]
+        columns = [f"q_meas_{k}" for k in JOINTS] + ["fx", "fy", "fz", "mx", "my", "mz"]
+        times = [i * PERIOD for i in range(2500)]
+        loaded = [[*swing(t), 200 * math.sin(0.7 * t), 300 * math.cos(0.5 * t),
+                   -900 * math.cos(0.9 * t), 0.0, 0.0, 0.0] for t in times]
+        blank = self.recorded(columns + links, [[*row, *[0.0] * 6] for row in loaded])
+        angles = [[float(row[name]) for name in links] for row in self.simulated(blank)]
+        draw = random.Random(10)
+        loop, before = 0.0, 0.0
+        for t, row in zip(times, angles):
+            load = (row[joint - 1] - swing(t)[joint - 1]) / compliance
+            side = math.copysign(1, load - before)
+            loop = side - (side - loop) * math.exp(-abs(load - before) / yield_torque)
+            before = load
+            row[joint - 1] -= amplitude * loop
+            row[:] = [angle + draw.gauss(0, 5e-6) for angle in row]
+        recording = self.recorded(columns + links, map(list.__add__, loaded, angles))
+        finding = self.only_finding(recording, "hysteresis", joint)
+        for name, value in (("amplitude", amplitude), ("yield_torque", yield_torque)):
+            self.assertAlmostEqual(finding["parameters"][name]["value"], value, delta=0.03 * value)
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_most_of_a_small_mismatch_is_named_where_of_a_large_one_it_would_not_be(self):
+        joint, noise = 3, 2.0  # N·m
+
+        def comes_and_goes(level):
+            def friction(angles):
+                return [math.copysign(level * (1 + 0.5 * math.sin(0.05 * i)), b - a)
+                        for i, (a, b) in enumerate(zip(angles, [*angles[1:], angles[-1]]))]
+            return friction
+
+        finding = self.only_finding(self.torques(joint, comes_and_goes(4 * noise)),
+                                    "coulomb_friction", joint)
+        self.assertAlmostEqual(finding["parameters"]["torque"]["value"], 4 * noise, delta=0.1 * noise)
+        large = self.diagnosis(self.torques(joint, comes_and_goes(12 * noise)))
+        self.assertEqual(large["verdict"], "unexplained")
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_of_two_that_do_the_same_the_one_that_changes_less_is_named(self):
