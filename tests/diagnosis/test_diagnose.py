@@ -101,8 +101,8 @@ class Diagnose(unittest.TestCase):
         file.write_text(text.replace(old, new))
         return file
 
-    def diagnosis(self, recording, model=ROBOT):
-        done = run("diagnose", "--model", model, "--recording", recording, "--out", self.out)
+    def diagnosis(self, recording, model=ROBOT, holdout=()):
+        done = run("diagnose", "--model", model, "--recording", recording, "--out", self.out, *holdout)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads((self.out / "diagnosis.json").read_text())
 
@@ -307,6 +307,24 @@ class Diagnose(unittest.TestCase):
         self.assertAlmostEqual(finding["parameters"]["torque"]["value"], 4 * noise, delta=0.1 * noise)
         large = self.diagnosis(self.torques(joint, comes_and_goes(12 * noise)))
         self.assertEqual(large["verdict"], "unexplained")
+
+    def test_of_two_that_do_not_hold_for_another_recording_the_weaker_is_withdrawn(self):
+        small, large = (self.offset_beside_friction_that_do_not_last(offset) for offset in (3, 10))
+        self.assertEqual([f["effect"] for f in small["findings"]], ["coulomb_friction"])
+        # Without the large offset the friction leaves far more than the noise, and proves nothing.
+        self.assertEqual(large["findings"], [])
+        self.assertIn("does not predict what was held out", large["unexplained"]["reason"])
+
+    def offset_beside_friction_that_do_not_last(self, offset):
+        """The diagnosis of both at one joint, in N·m, where the held-out recording has more."""
+        def with_more(wave):
+            def friction(angles):
+                return [math.copysign(40, b - a) + offset + wave * math.sin(0.31 * i)
+                        for i, (a, b) in enumerate(zip(angles, [*angles[1:], angles[-1]]))]
+            return friction
+
+        held_out = self.torques(3, with_more(8)).rename(self.folder / "held_out.csv")
+        return self.diagnosis(self.torques(3, with_more(0)), holdout=("--holdout", held_out))
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_of_two_that_do_the_same_the_one_that_changes_less_is_named(self):
