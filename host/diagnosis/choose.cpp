@@ -38,6 +38,8 @@ constexpr int kLastSteps = 60;
 struct Candidate {
   double gain;
   Chosen chosen;
+  const Dictionary* dictionary;
+  const Entry* entry;
 };
 
 class Chooser {
@@ -104,7 +106,8 @@ class Chooser {
       if (best[h] != nullptr && !is_among(hypotheses[h], fit)) {
         const double gain =
             bic_gain(samples, before, best[h]->sum, hypotheses[h].parameters.size());
-        all->push_back({gain, chosen_of(hypotheses, dictionary, *best[h])});
+        all->push_back({gain, chosen_of(hypotheses, dictionary, *best[h]), &dictionary,
+                        &dictionary.entries[best[h]->entry]});
       }
     }
   }
@@ -256,21 +259,31 @@ class Chooser {
 
   int most_in_group() const { return observations_->is_static ? kMostInLoadTest : kMostInGroup; }
 
-  /// Do two choices, each of a fit, show in the same samples? Else neither can stand in for the
-  /// other: friction of one joint and friction of another.
+  /// Do two choices, each of a fit, show in the same samples?
   bool meet(const Fit& fit, std::size_t index, const Fit& other_fit, std::size_t other) const {
+    return meet(columns_of(fit, index), columns_of(other_fit, other));
+  }
+
+  /// Do two, by how they change the samples? Else neither can stand in for the other: friction of
+  /// one joint and friction of another.
+  bool meet(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) const {
     constexpr double kMeeting = 0.03;  // cosine
-    const auto directions = [&](const Fit& from, std::size_t at) {
+    const auto directions = [&](const Eigen::MatrixXd& columns) {
       constexpr double kTiny = 1e-300;  // a parameter that does not show has no direction
-      const auto width = static_cast<Eigen::Index>(from.chosen[at].values.size());
-      Eigen::MatrixXd columns =
-          from.derivative.middleCols(from.first_parameter(at), width).topRows(observations_->train);
-      columns.array().rowwise() /= columns.colwise().norm().cwiseMax(kTiny).array().eval();
-      return columns;
+      Eigen::MatrixXd all = columns.topRows(observations_->train);
+      all.array().rowwise() /= all.colwise().norm().cwiseMax(kTiny).array().eval();
+      return all;
     };
-    const Eigen::MatrixXd cosine =
-        directions(fit, index).transpose() * directions(other_fit, other);
-    return cosine.cwiseAbs().maxCoeff() > kMeeting;
+    return (directions(one).transpose() * directions(other)).cwiseAbs().maxCoeff() > kMeeting;
+  }
+
+  static Eigen::MatrixXd columns_of(const Fit& fit, std::size_t index) {
+    const auto width = static_cast<Eigen::Index>(fit.chosen[index].values.size());
+    return fit.derivative.middleCols(fit.first_parameter(index), width);
+  }
+
+  static Eigen::MatrixXd columns_of(const Candidate& candidate) {
+    return candidate.dictionary->columns.middleCols(candidate.entry->first, candidate.entry->count);
   }
 
   /// Replaces or drops one choice, the earliest that can be bettered; false if all stand.
@@ -482,14 +495,23 @@ class Chooser {
   void find_alternatives(const Fit& whole, std::size_t index, Finding* finding) const {
     const Hypothesis& own = *whole.chosen[index].hypothesis;
     const double samples = finding->evidence.effective_samples;
-    for (const Chosen& candidate : shortlist(finding->without, shortlist_beside(whole))) {
-      const Hypothesis& other = *candidate.hypothesis;
+    const Eigen::MatrixXd shown = columns_of(whole, index);
+    std::size_t looked_at = 0;
+    for (const Candidate& candidate : candidates(finding->without)) {
+      const Hypothesis& other = *candidate.chosen.hypothesis;
+      if (looked_at == shortlist_beside(whole)) {
+        break;
+      }
+      if (!meet(shown, columns_of(candidate))) {
+        continue;
+      }
+      ++looked_at;
       if (are_the_same(other, own)) {
         continue;
       }
-      const Fit tried = with(finding->without, candidate, kQuickSteps);
-      const double gain =
-          bic_gain(samples, finding->without.train_sum, tried.train_sum, candidate.values.size());
+      const Fit tried = with(finding->without, candidate.chosen, kQuickSteps);
+      const double gain = bic_gain(samples, finding->without.train_sum, tried.train_sum,
+                                   candidate.chosen.values.size());
       if (gain > kStrongEvidence && meet(whole, index, tried, tried.chosen.size() - 1)) {
         finding->alternatives.push_back({other.effect, other.joint,
                                          std::max(finding->evidence.delta_bic - gain, 0.0),
