@@ -308,6 +308,7 @@ class Diagnose(unittest.TestCase):
         large = self.diagnosis(self.torques(joint, comes_and_goes(12 * noise)))
         self.assertEqual(large["verdict"], "unexplained")
 
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_of_two_that_do_not_hold_for_another_recording_the_weaker_is_withdrawn(self):
         small, large = (self.offset_beside_friction_that_do_not_last(offset) for offset in (3, 10))
         self.assertEqual([f["effect"] for f in small["findings"]], ["coulomb_friction"])
