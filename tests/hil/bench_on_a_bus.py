@@ -73,9 +73,20 @@ class Flexcompd:
             [str(BIN / "flexcompd"), "--config", str(job.config), "--statistics",
              str(self.statistics_file), *bus, *map(str, options)], stderr=self.log, env=env)
         if wait:
-            time.sleep(0.3)
+            self._wait_until_it_ticks()
         if self.process.poll() is not None:
             raise AssertionError(f"flexcompd ended: {self.messages()}")
+
+    def _wait_until_it_ticks(self):
+        """A guest Linux may take seconds to start a process; what it is to do is timed only then."""
+        latest = time.monotonic() + 10
+        while self.process.poll() is None and time.monotonic() < latest:
+            names = [task.read_text().strip()
+                     for task in pathlib.Path(f"/proc/{self.process.pid}/task").glob("*/comm")]
+            if "flexcomp-rt" in names:
+                break
+            time.sleep(0.02)
+        time.sleep(0.3)
 
     def messages(self):
         self.log.flush()
