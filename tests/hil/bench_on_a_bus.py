@@ -72,21 +72,21 @@ class Flexcompd:
         self.process = subprocess.Popen(
             [str(BIN / "flexcompd"), "--config", str(job.config), "--statistics",
              str(self.statistics_file), *bus, *map(str, options)], stderr=self.log, env=env)
-        if wait:
-            self._wait_until_it_ticks()
+        latest = time.monotonic() + 10
+        while wait and not self.ticks() and time.monotonic() < latest:
+            time.sleep(0.02)
+        time.sleep(0.3)  # for the rest of its start, such as becoming another user
         if self.process.poll() is not None:
             raise AssertionError(f"flexcompd ended: {self.messages()}")
 
-    def _wait_until_it_ticks(self):
-        """A guest Linux may take seconds to start a process; what it is to do is timed only then."""
-        latest = time.monotonic() + 10
-        while self.process.poll() is None and time.monotonic() < latest:
-            names = [task.read_text().strip()
-                     for task in pathlib.Path(f"/proc/{self.process.pid}/task").glob("*/comm")]
-            if "flexcomp-rt" in names:
-                break
-            time.sleep(0.02)
-        time.sleep(0.3)
+    def ticks(self):
+        """Has its real-time thread begun? A guest Linux may take seconds to start a process."""
+        try:
+            tasks = pathlib.Path(f"/proc/{self.process.pid}/task").glob("*/comm")
+            began = any(task.read_text() == "flexcomp-rt\n" for task in tasks)
+        except FileNotFoundError:  # it ended in between
+            began = False
+        return began or self.process.poll() is not None
 
     def messages(self):
         self.log.flush()
@@ -116,7 +116,14 @@ class Listener:
     def __init__(self, command, output):
         self.output = open(output, "w")
         self.process = subprocess.Popen(command, stdout=self.output)
-        time.sleep(0.2)
+        latest = time.monotonic() + 10
+        while not self._has_a_socket() and time.monotonic() < latest:
+            time.sleep(0.02)
+        time.sleep(0.2)  # for what it does to the socket before it listens
+
+    def _has_a_socket(self):
+        descriptors = pathlib.Path(f"/proc/{self.process.pid}/fd").iterdir()
+        return any(os.readlink(descriptor).startswith("socket:") for descriptor in descriptors)
 
     def __enter__(self):
         return self
@@ -167,6 +174,16 @@ class Client:
 
     def close(self):
         self.bus.shutdown()
+
+    def wait_for(self, name, seconds=10):
+        """Until somebody sends such a message."""
+        latest = time.monotonic() + seconds
+        identifier = DATABASE.get_message_by_name(name).frame_id
+        while (left := latest - time.monotonic()) > 0:
+            frame = self.bus.recv(left)
+            if frame is not None and frame.arbitration_id == identifier:
+                return
+        raise AssertionError(f"no {name} within {seconds} s")
 
     def encode(self, name, counter, **signals):
         message = DATABASE.get_message_by_name(name)

@@ -11,7 +11,7 @@ import unittest
 
 from bench_on_a_bus import (BIN, BUS, DATABASE, STATES, Flexcompd, HilTest, Job, circularity, decode, decoded,
                             flexcomp, states)
-from test_circle import LARGEST_SHARE
+from circle_on_a_bus import LARGEST_SHARE
 from test_flexcompd import shared_library
 
 KEY = "3a7f0c9d51e2b8460f1d2c3b4a596877"
@@ -207,6 +207,8 @@ class Authentication(HilTest):
         attacker = Attacker(self.client())
         with Flexcompd(self.job) as node, self.plant() as plant:
             attacker.setpoints.names = PARTS["Setpoint"]
+            while attacker.recorded is None:
+                attacker.listen(0.1)
             for _ in range(25):
                 attacker.listen(0.023)
                 attacker.attack()
@@ -229,7 +231,9 @@ class Authentication(HilTest):
         attacker.listen(0.1)
         attacker.heard = []
         with Flexcompd(self.job, "--key", self.key, wait=False) as node:
-            for _ in range(50):
+            replays_left = 50
+            while replays_left > 0:
+                replays_left -= node.ticks()
                 for frame in (*attacker.command, *attacker.recorded):
                     attacker.client.bus.send(frame)
                 attacker.listen(0.02)
@@ -252,6 +256,7 @@ class Authentication(HilTest):
                 listener.listen(0.4)
                 if any(frame.arbitration_id == IDENTIFIER["CommandReply"] for frame in listener.heard):
                     break
+            listener.listen(1.0)  # one statistic after the other
             node.stop()
         signals = decoded(listener.heard)
         self.assertIn(4, [reply["command"] for name, reply in signals if name == "CommandReply"])

@@ -1,18 +1,11 @@
-"""The main job on a bus: real flexcompd, real bus, real plant; four robots, CAN, CAN FD and LCM."""
+"""The main job on a bus: real flexcompd, real bus, real plant; four robots, CAN and LCM, in lock-step."""
 
-import contextlib
 import csv
 import json
 import unittest
 
-from bench_on_a_bus import BUS, LCM, ROBOTS, Flexcompd, HilTest, Job, Listener, candump, circularity, flexcomp
-
-LARGEST_SHARE = 0.05  # of the circularity without compensation
-
-
-def mill(job, out, *options):
-    flexcomp("plant", "--model", job.model, "--path", job.path, "--out", out, *options)
-    return circularity(out)
+from bench_on_a_bus import BUS, LCM, ROBOTS, Flexcompd, HilTest, Job, Listener, flexcomp
+from circle_on_a_bus import LARGEST_SHARE, CircleTest, mill
 
 
 def positions(recording):
@@ -21,21 +14,7 @@ def positions(recording):
         return sum(bool(row["x"]) for row in csv.DictReader(file))
 
 
-class Circle(HilTest):
-    def share(self, robot, bus, node_bus, *options, lockstep=True, log=None):
-        """Circularity with compensation over that without; leaves run.csv, and a log of that run."""
-        job = Job(self.folder, robot, 0.05, radius=0.05)
-        pace = ["--lockstep"] if lockstep else []
-        trigger = ["--trigger", "lockstep"] if lockstep else []
-        # What is not compensated needs no node, and is the same at every pace.
-        before = mill(job, self.folder / "without.csv", "--table", job.table, "--without-compensation")
-        with Flexcompd(job, *trigger, *options, bus=node_bus) as node, log or contextlib.nullcontext():
-            after = mill(job, self.folder / "run.csv", "--bus", bus, *pace)
-            self.assertEqual(0, node.stop())
-        print(f"{robot} {bus}: {1e3 * before:.4f} mm without, {1e3 * after:.4f} mm with, "
-              f"{100 * after / before:.1f} %")
-        return after / before
-
+class Circle(CircleTest):
     def test_four_robots_over_can(self):
         for robot in ("kr100", "kr270", "kr360", "kr500"):
             with self.subTest(robot=robot):
@@ -45,19 +24,6 @@ class Circle(HilTest):
         for robot in ("kr100", "kr270", "kr360", "kr500"):
             with self.subTest(robot=robot):
                 self.assertLessEqual(self.share(robot, f"lcm:{LCM}", ("--lcm", LCM)), LARGEST_SHARE)
-
-    def test_in_real_time_over_can_and_the_log_gives_the_same_circularity(self):
-        log = self.folder / "run.log"
-        share = self.share("kr270", f"can:{BUS}", ("--can", BUS), lockstep=False, log=candump(log))
-        self.assertLessEqual(share, LARGEST_SHARE)
-        self.assert_log_gives_the_same(log)
-
-    def test_in_real_time_over_can_fd_and_the_log_gives_the_same_circularity(self):
-        log = self.folder / "run.log"
-        share = self.share("kr270", f"canfd:{BUS}", ("--can", BUS, "--fd"), lockstep=False,
-                           log=candump(log))
-        self.assertLessEqual(share, LARGEST_SHARE)
-        self.assert_log_gives_the_same(log)
 
     def test_over_lcm_the_log_gives_the_same_circularity(self):
         log = self.folder / "run.lcmlog"
@@ -73,12 +39,6 @@ class Circle(HilTest):
                 return self.assert_log_gives_the_same(log)
         self.fail("lcm-logger missed messages in every one of three runs")
 
-    def assert_log_gives_the_same(self, log):
-        converted = self.folder / "converted.csv"
-        flexcomp("convert", log, "--out", converted)
-        # Positions travel in steps of 0.2 µm.
-        self.assertAlmostEqual(circularity(self.folder / "run.csv"), circularity(converted), delta=0.4e-6)
-
 
 class MovingRobot(HilTest):
     """Not at rest at every moment: links and motors as differential equations, by the design of its
@@ -87,9 +47,9 @@ class MovingRobot(HilTest):
     def test_a_robot_that_moves_on_its_springs_is_corrected_too(self):
         job = Job(self.folder, "kr360", 0.1)
         moving = ("--dynamic", ROBOTS / "kr360" / "arc.yaml")
-        before = mill(job, self.folder / "without.csv", "--table", job.table, "--without-compensation", *moving)
+        before, _ = mill(job, self.folder / "without.csv", "--table", job.table, "--without-compensation", *moving)
         with Flexcompd(job, "--trigger", "lockstep") as node:
-            after = mill(job, self.folder / "run.csv", "--bus", f"can:{BUS}", "--lockstep", *moving)
+            after, _ = mill(job, self.folder / "run.csv", "--bus", f"can:{BUS}", "--lockstep", *moving)
             self.assertEqual(0, node.stop())
         print(f"moving: {1e3 * before:.4f} mm without, {1e3 * after:.4f} mm with")
         # What remains is the servo's own error, which the compensator does not know.

@@ -117,7 +117,10 @@ class Bus(Process):
         with Flexcompd(self.job) as node:
             self.bring_up()
             with Flexcompd(self.job, wait=False) as other:
-                received = self.feeder.run(1.5)
+                received = self.feeder.run(0.1)
+                while not other.ticks():
+                    received += self.feeder.run(0.1)
+                received += self.feeder.run(1.5)
                 self.assertIn(STATES["latched"], states(received))
                 self.assertTrue(any(name == "Fault" and signals["code"] == 0x7107
                                     for name, signals in decoded(received)))
@@ -280,6 +283,7 @@ class NodeCommand(Process):
                  "--period", "0.01", "--bus", f"can:{BUS}", "--without-compensation"],
                 stdout=subprocess.DEVNULL) as plant:
             bus = ("--bus", f"can:{BUS}")
+            self.peer.wait_for("SetpointA")
             time.sleep(0.5)
             self.assertEqual("ok\n", flexcomp("node", "arm", *bus))
             self.assertIn("not ready", flexcomp("node", "arm", *bus, code=1))
