@@ -261,29 +261,33 @@ class Chooser {
 
   /// Do two choices, each of a fit, show in the same samples?
   bool meet(const Fit& fit, std::size_t index, const Fit& other_fit, std::size_t other) const {
-    return meet(columns_of(fit, index), columns_of(other_fit, other));
+    return meet(directions(fit, index), directions(other_fit, other));
   }
 
-  /// Do two, by how they change the samples? Else neither can stand in for the other: friction of
-  /// one joint and friction of another.
-  bool meet(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) const {
+  /// Do two, by their directions? Else neither can stand in for the other: friction of one joint
+  /// and friction of another.
+  static bool meet(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
     constexpr double kMeeting = 0.03;  // cosine
-    const auto directions = [&](const Eigen::MatrixXd& columns) {
-      constexpr double kTiny = 1e-300;  // a parameter that does not show has no direction
-      Eigen::MatrixXd all = columns.topRows(observations_->train);
-      all.array().rowwise() /= all.colwise().norm().cwiseMax(kTiny).array().eval();
-      return all;
-    };
-    return (directions(one).transpose() * directions(other)).cwiseAbs().maxCoeff() > kMeeting;
+    return (one.transpose() * other).cwiseAbs().maxCoeff() > kMeeting;
   }
 
-  static Eigen::MatrixXd columns_of(const Fit& fit, std::size_t index) {
+  /// How a choice changes the samples to fit to, for each of its parameters, of length one.
+  Eigen::MatrixXd directions(const Fit& fit, std::size_t index) const {
     const auto width = static_cast<Eigen::Index>(fit.chosen[index].values.size());
-    return fit.derivative.middleCols(fit.first_parameter(index), width);
+    return normalized(fit.derivative.middleCols(fit.first_parameter(index), width));
   }
 
-  static Eigen::MatrixXd columns_of(const Candidate& candidate) {
-    return candidate.dictionary->columns.middleCols(candidate.entry->first, candidate.entry->count);
+  Eigen::MatrixXd directions(const Candidate& candidate) const {
+    const Entry& entry = *candidate.entry;
+    return normalized(candidate.dictionary->columns.middleCols(entry.first, entry.count));
+  }
+
+  template <typename Columns>
+  Eigen::MatrixXd normalized(const Columns& columns) const {
+    constexpr double kTiny = 1e-300;  // a parameter that does not show has no direction
+    Eigen::MatrixXd all = columns.topRows(observations_->train);
+    all.array().rowwise() /= all.colwise().norm().cwiseMax(kTiny).array().eval();
+    return all;
   }
 
   /// Replaces or drops one choice, the earliest that can be bettered; false if all stand.
@@ -495,14 +499,14 @@ class Chooser {
   void find_alternatives(const Fit& whole, std::size_t index, Finding* finding) const {
     const Hypothesis& own = *whole.chosen[index].hypothesis;
     const double samples = finding->evidence.effective_samples;
-    const Eigen::MatrixXd shown = columns_of(whole, index);
+    const Eigen::MatrixXd shown = directions(whole, index);
     std::size_t looked_at = 0;
     for (const Candidate& candidate : candidates(finding->without)) {
       const Hypothesis& other = *candidate.chosen.hypothesis;
       if (looked_at == shortlist_beside(whole)) {
         break;
       }
-      if (!meet(shown, columns_of(candidate))) {
+      if (!meet(shown, directions(candidate))) {
         continue;
       }
       ++looked_at;
@@ -512,7 +516,7 @@ class Chooser {
       const Fit tried = with(finding->without, candidate.chosen, kQuickSteps);
       const double gain = bic_gain(samples, finding->without.train_sum, tried.train_sum,
                                    candidate.chosen.values.size());
-      if (gain > kStrongEvidence && meet(whole, index, tried, tried.chosen.size() - 1)) {
+      if (gain > kStrongEvidence && meet(shown, directions(tried, tried.chosen.size() - 1))) {
         finding->alternatives.push_back({other.effect, other.joint,
                                          std::max(finding->evidence.delta_bic - gain, 0.0),
                                          tried.chosen.back()});

@@ -73,6 +73,11 @@ def swing(t, lag=0.0):
             for k, (q, w) in enumerate(zip(middle, pace))]
 
 
+def steps(angles):
+    """From each to the next; none from the last."""
+    return [b - a for a, b in zip(angles, [*angles[1:], angles[-1]])]
+
+
 def replace_columns(recording, names, change):
     """Passes the cells of the columns, row by row, through `change`."""
     header, *lines = recording.read_text().splitlines()
@@ -128,14 +133,11 @@ class Diagnose(unittest.TestCase):
 
     def torques(self, joint, friction):
         """A recording of the joints swinging, with torques by the model, friction, and noise."""
-        times = [i * PERIOD for i in range(2500)]
         columns = [f"q_meas_{k}" for k in JOINTS] + [f"tau_{k}" for k in JOINTS]
-        recording = self.folder / "recording.csv"
-        recording.write_text("\n".join(
-            [",".join(["t", *columns])]
-            + [",".join(map(repr, [t, *swing(t), *[0.0] * 6])) for t in times]) + "\n")
+        swings = [swing(i * PERIOD) for i in range(2500)]
+        recording = self.recorded(columns, [[*angles, *[0.0] * 6] for angles in swings])
         simulated = self.simulated(recording)
-        extra = iter(friction([swing(t)[joint - 1] for t in times]))
+        extra = iter(friction([angles[joint - 1] for angles in swings]))
         draw = random.Random(7)
         shown = [[float(row[f"tau_{k}"]) + draw.gauss(0, 2) + (next(extra) if k == joint else 0)
                   for k in JOINTS] for row in simulated]
@@ -298,8 +300,8 @@ class Diagnose(unittest.TestCase):
 
         def comes_and_goes(level):
             def friction(angles):
-                return [math.copysign(level * (1 + 0.5 * math.sin(0.05 * i)), b - a)
-                        for i, (a, b) in enumerate(zip(angles, [*angles[1:], angles[-1]]))]
+                return [math.copysign(level * (1 + 0.5 * math.sin(0.05 * i)), step)
+                        for i, step in enumerate(steps(angles))]
             return friction
 
         finding = self.only_finding(self.torques(joint, comes_and_goes(4 * noise)),
@@ -320,8 +322,8 @@ class Diagnose(unittest.TestCase):
         """The diagnosis of both at one joint, in N·m, where the held-out recording has more."""
         def with_more(wave):
             def friction(angles):
-                return [math.copysign(40, b - a) + offset + wave * math.sin(0.31 * i)
-                        for i, (a, b) in enumerate(zip(angles, [*angles[1:], angles[-1]]))]
+                return [math.copysign(40, step) + offset + wave * math.sin(0.31 * i)
+                        for i, step in enumerate(steps(angles))]
             return friction
 
         held_out = self.torques(3, with_more(8)).rename(self.folder / "held_out.csv")
@@ -346,16 +348,13 @@ class Diagnose(unittest.TestCase):
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_what_shows_at_another_joint_is_no_alternative(self):
-        def speeds(angles):
-            return [b - a for a, b in zip(angles, [*angles[1:], angles[-1]])]
-
-        recording = self.torques(3, lambda angles: [math.copysign(80, v) for v in speeds(angles)])
+        recording = self.torques(3, lambda angles: [math.copysign(80, step) for step in steps(angles)])
         # At joint 5 a friction that comes and goes, too much so for any law to stand.
-        pace = iter(enumerate(speeds([swing(i * PERIOD)[4] for i in range(2500)])))
+        pace = iter(enumerate(steps([swing(i * PERIOD)[4] for i in range(2500)])))
 
         def comes_and_goes(torque):
-            i, speed = next(pace)
-            return (torque + math.copysign(150 * (1 + 0.9 * math.sin(0.05 * i)), speed),)
+            i, step = next(pace)
+            return (torque + math.copysign(150 * (1 + 0.9 * math.sin(0.05 * i)), step),)
 
         replace_columns(recording, ("tau_5",), comes_and_goes)
         finding = self.only_finding(recording, "coulomb_friction", 3)
@@ -364,15 +363,11 @@ class Diagnose(unittest.TestCase):
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_link_encoders_that_are_late_are_named(self):
         delay = 3e-3  # s
-        header = ["t", *(f"q_meas_{k}" for k in JOINTS), *(f"q_link_{k}" for k in JOINTS)]
+        columns = [*(f"q_meas_{k}" for k in JOINTS), *(f"q_link_{k}" for k in JOINTS)]
         draw = random.Random(8)
-        lines = [",".join(header)]
-        for i in range(2500):
-            t = i * PERIOD
-            cells = [t, *swing(t), *(q + draw.gauss(0, 2e-6) for q in swing(t - delay))]
-            lines.append(",".join(map(repr, cells)))
-        recording = self.folder / "recording.csv"
-        recording.write_text("\n".join(lines) + "\n")
+        recording = self.recorded(columns, [
+            [*swing(t), *(q + draw.gauss(0, 2e-6) for q in swing(t - delay))]
+            for t in (i * PERIOD for i in range(2500))])
         stiff = self.folder / "stiff.yaml"
         stiff.write_text(re.sub(r"compliance: \S+e-6", "compliance: 1e-12", ROBOT.read_text()))
         done = run("diagnose", "--model", stiff, "--recording", recording, "--out", self.out)
