@@ -78,8 +78,7 @@ class InRealTime(Firmware):
     def setUp(self):
         super().setUp()
         self.job = Job(self.folder, period=self.PERIOD)
-        with open(self.job.config, "a") as config:
-            config.write("setpoint-age-limit = 0.25\nwrench-age-limit = 0.25\nlate-ticks = 50\n")
+        self.job.be_patient()
         self.start(self.job)
         self.peer = self.client()
         self.feeder = Feeder(self.job, self.peer)
@@ -170,8 +169,7 @@ class ThePlant(Firmware):
     def mill_while(self, order):
         """What the robot's second joint was moved by, in rad, while `order` happens to the board."""
         job = Job(self.folder, "kr270", 0.1, period=self.PERIOD)
-        with open(job.config, "a") as config:
-            config.write("setpoint-age-limit = 0.25\nwrench-age-limit = 0.25\nlate-ticks = 50\n")
+        job.be_patient()
         self.start(job)
         run = self.folder / "run.csv"
         plant = subprocess.Popen([BIN / "flexcomp", "plant", "--model", job.model, "--path", job.path,

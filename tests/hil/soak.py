@@ -2,19 +2,23 @@
 
     soak.py MINUTES
 
-One flexcompd serves all of them. Every circle must be round, memory must not grow, and in the end
-flexcompd must end as it should. A line a circle; exit code 1 if something did not hold.
+One flexcompd serves all of them. Every circle must be round, memory must not grow, ticks must not come
+late more often as time goes on, the counters must fit each other and a bus without faults, and in the
+end flexcompd must end as it should. A line a circle; exit code 1 if something did not hold.
 """
 
 import pathlib
+import signal
+import statistics
 import sys
 import tempfile
 import time
 
-from bench_on_a_bus import BUS, Flexcompd, Job, circularity, flexcomp
+from bench_on_a_bus import BUS, Flexcompd, Job
+from circle_on_a_bus import LARGEST_SHARE, REAL_TIME_PERIOD, mill
 
-LARGEST_SHARE = 0.05  # of the circularity without compensation
 LARGEST_GROWTH = 256  # KiB, from the end of the first circle
+FAULTLESS = ("corrupt", "contradicting", "incomplete")
 
 
 def resident(process):
@@ -23,39 +27,68 @@ def resident(process):
     return int(status.split("VmRSS:")[1].split()[0])
 
 
-def mill(job, out, *options):
-    flexcomp("plant", "--model", job.model, "--path", job.path, "--out", out, *options)
-    return circularity(out)
+def counters(node):
+    """What it counts, by now."""
+    node.statistics_file.unlink(missing_ok=True)
+    node.process.send_signal(signal.SIGUSR1)
+    latest = time.monotonic() + 10
+    while not node.statistics_file.exists() and time.monotonic() < latest:
+        time.sleep(0.02)
+    return node.statistics()
+
+
+def wrong_counters(counted, circles):
+    """What does not fit, one line each."""
+    wrong = [f"{stream}: {counted[stream][name]} {name}"
+             for stream in ("setpoint", "wrench") for name in FAULTLESS if counted[stream][name]]
+    for stream in ("setpoint", "wrench"):  # each circle's sender begins to count anew
+        if counted[stream]["out_of_sequence"] >= circles:
+            wrong.append(f"{stream}: {counted[stream]['out_of_sequence']} out of sequence in {circles} circles")
+    answered = sum(counted["latency_log2_us"])
+    received = counted["setpoint"]["received"]
+    if not 0.95 * received <= answered <= received:
+        wrong.append(f"{answered} answers to {received} setpoints")
+    return wrong
+
+
+def grown(late):
+    """Do late ticks come more often in the last quarter of the circles than in the first?"""
+    quarter = max(len(late) // 4, 1)
+    before, after = statistics.median(late[:quarter]), statistics.median(late[-quarter:])
+    return [f"{after} late ticks a circle, {before} to begin with"] if after > 2 * before + 5 else []
 
 
 def soak(folder, minutes):
     """Mills until the time is over; what was wrong, one line each."""
-    job = Job(folder, "kr270", 0.05, radius=0.05)
-    without = mill(job, folder / "without.csv", "--table", job.table, "--without-compensation")
+    job = Job(folder, "kr270", 0.05, radius=0.05, period=REAL_TIME_PERIOD)
+    without, _ = mill(job, folder / "without.csv", "--table", job.table, "--without-compensation")
     wrong = []
     first = None
-    circles = 0
+    late = []
     worst = 0
     end = time.monotonic() + 60 * minutes
     with Flexcompd(job) as node:
         while time.monotonic() < end:
-            circles += 1
-            share = mill(job, folder / "run.csv", "--bus", f"can:{BUS}", "--seed", circles) / without
+            circle = len(late) + 1
+            after, unanswered = mill(job, folder / "run.csv", "--bus", f"can:{BUS}", "--seed", circle)
+            share = after / without
             memory = resident(node.process)
             first = first or memory
             worst = max(worst, share)
-            print(f"circle {circles}: {100 * share:.1f} % of the error is left, {memory} KiB", flush=True)
+            late.append(counters(node)["late_ticks"] - sum(late))
+            print(f"circle {circle}: {100 * share:.1f} % of the error is left, {100 * unanswered:.1f} % of the "
+                  f"cycles without an answer in time, {late[-1]} late ticks, {memory} KiB", flush=True)
             if share > LARGEST_SHARE:
-                wrong.append(f"circle {circles}: {100 * share:.1f} % of the error is left")
+                wrong.append(f"circle {circle}: {100 * share:.1f} % of the error is left")
             if memory > first + LARGEST_GROWTH:
-                wrong.append(f"circle {circles}: memory has grown from {first} to {memory} KiB")
+                wrong.append(f"circle {circle}: memory has grown from {first} to {memory} KiB")
             time.sleep(0.5)
         if node.stop() != 0:
             wrong.append(f"flexcompd ended with {node.process.returncode}")
-        statistics = node.statistics()
-    print(f"{circles} circles, {statistics['ticks']} ticks, {statistics['late_ticks']} of them late; "
+        counted = node.statistics()
+    print(f"{len(late)} circles, {counted['ticks']} ticks, {counted['late_ticks']} of them late; "
           f"at worst {100 * worst:.1f} % of the error was left")
-    return wrong
+    return wrong + wrong_counters(counted, len(late)) + grown(late)
 
 
 def main():

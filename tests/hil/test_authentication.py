@@ -138,8 +138,7 @@ class Authentication(HilTest):
         cls.addClassCleanup(scratch.cleanup)
         folder = pathlib.Path(scratch.name)
         cls.job = Job(folder, "kr270", 0.03, period=PERIOD, radius=0.03)
-        with open(cls.job.config, "a") as config:
-            config.write("setpoint-age-limit = 0.25\nwrench-age-limit = 0.25\nlate-ticks = 50\n")
+        cls.job.be_patient()
         cls.key = folder / "key"
         cls.key.touch(0o600)
         cls.key.write_text(KEY + "\n")
@@ -228,8 +227,9 @@ class Authentication(HilTest):
             attacker.listen(0.1)
             self.assertIn("CommandReply", {name for name, _ in decoded(attacker.heard)})
             node.process.kill()
-        attacker.listen(0.1)
-        attacker.heard = []
+        while attacker.heard:  # until what waited to be read is gone, too
+            attacker.heard = []
+            attacker.listen(0.3)
         with Flexcompd(self.job, "--key", self.key, wait=False) as node:
             replays_left = 50
             while replays_left > 0:

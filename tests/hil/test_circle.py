@@ -4,7 +4,7 @@ import csv
 import json
 import unittest
 
-from bench_on_a_bus import BUS, LCM, ROBOTS, Flexcompd, HilTest, Job, Listener, flexcomp
+from bench_on_a_bus import BUS, LCM, ROBOTS, Flexcompd, HilTest, Job, flexcomp, lcm_logger
 from circle_on_a_bus import LARGEST_SHARE, CircleTest, mill
 
 
@@ -27,12 +27,9 @@ class Circle(CircleTest):
 
     def test_over_lcm_the_log_gives_the_same_circularity(self):
         log = self.folder / "run.lcmlog"
-        # LCM goes by UDP, and lock-step does not wait for the logger: it goes first on a processor that
-        # all share, has room for what it has not read yet, and may try again where it missed messages.
-        url = f"{LCM}&recv_buf_size={32 << 20}"
-        command = ["nice", "-n", "-15", "lcm-logger", "--quiet", "--force", "--lcm-url", url, str(log)]
+        # Lock-step does not wait for the logger, which may try again where it missed messages.
         for _ in range(3):
-            share = self.share("kr270", f"lcm:{LCM}", ("--lcm", LCM), log=Listener(command, "/dev/null"))
+            share = self.share("kr270", f"lcm:{LCM}", ("--lcm", LCM), log=lcm_logger(log))
             self.assertLessEqual(share, LARGEST_SHARE)
             flexcomp("convert", log, "--out", self.folder / "converted.csv")
             if positions(self.folder / "converted.csv") == positions(self.folder / "run.csv"):

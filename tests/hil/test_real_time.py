@@ -5,10 +5,6 @@ import unittest
 from bench_on_a_bus import BUS, candump
 from circle_on_a_bus import LARGEST_SHARE, CircleTest
 
-# s. Robot controllers take corrections every 4 or every 12 ms. The longer: a guest Linux that needs
-# milliseconds for the frames of one cycle misses cycles of 4 ms.
-PERIOD = 0.012
-
 
 class RealTime(CircleTest):
     def test_over_can_it_is_as_round_and_the_log_gives_the_same_circularity(self):
@@ -19,7 +15,7 @@ class RealTime(CircleTest):
 
     def assert_round_and_logged(self, bus, *node_bus):
         log = self.folder / "run.log"
-        share = self.share("kr270", bus, node_bus, lockstep=False, period=PERIOD, log=candump(log))
+        share = self.share("kr270", bus, node_bus, lockstep=False, log=candump(log))
         self.assertLessEqual(share, LARGEST_SHARE)
         self.assert_log_gives_the_same(log)
 
