@@ -225,6 +225,28 @@ void an_unusable_setpoint_is_replaced_by_the_last_usable_one() {
   TEST_ASSERT_TRUE((running.output.setpoint - running.output.correction - last).isZero(1e-6F));
 }
 
+/// Is it a jump if the joints then move, at their speed, for two and a half periods?
+bool jumps_after(const Core::Input& spoilt) {
+  Core core;
+  const Core::Config config = good_config();
+  TEST_ASSERT_EQUAL(Result::ok, core.configure(config));
+  Core::Input input = input_at(0);  // its age is a period
+  core.tick(input);
+  core.tick(spoilt);
+  input.setpoint += 2.5F * kPeriod * Angles(config.joint_speed);
+  return (core.tick(input).status & kSetpointJump) != 0;
+}
+
+void where_the_age_of_a_setpoint_is_not_known_it_is_a_period_older_than_the_last() {
+  Core::Input spoilt = input_at(0);
+  TEST_ASSERT_TRUE(jumps_after(spoilt));
+  spoilt.setpoint_age = -kPeriod;
+  TEST_ASSERT_FALSE(jumps_after(spoilt));
+  spoilt = input_at(0);
+  spoilt.setpoint[2] = kNan;
+  TEST_ASSERT_FALSE(jumps_after(spoilt));
+}
+
 void before_any_usable_setpoint_the_output_says_not_to_use_it() {
   Core core;
   TEST_ASSERT_EQUAL(Result::ok, core.configure(good_config()));
@@ -622,6 +644,7 @@ int main() {
   RUN_TEST(a_short_fault_is_ridden_out);
   RUN_TEST(a_jump_of_the_setpoint_is_noticed);
   RUN_TEST(an_unusable_setpoint_is_replaced_by_the_last_usable_one);
+  RUN_TEST(where_the_age_of_a_setpoint_is_not_known_it_is_a_period_older_than_the_last);
   RUN_TEST(before_any_usable_setpoint_the_output_says_not_to_use_it);
   RUN_TEST(it_arms_only_after_enough_good_inputs_in_a_row);
   RUN_TEST(disarming_fades_out_and_can_be_armed_again);

@@ -161,6 +161,22 @@ void the_orientation_too_is_held_to_its_tolerance() {
   TEST_ASSERT_TRUE(fine > coarse);
 }
 
+/// The TCP is two metres from the arm's joints.
+void a_force_bends_the_arm_more_and_asks_for_more_nodes_than_as_large_a_moment() {
+  const Ranges small = {{-1.25, -1.15}, {1.25, 1.35}, {0.3, 0.3}, {0.8, 0.8}};
+  const auto nodes = [&](double force, double moment) {
+    std::vector<std::uint32_t> words(1 << 18);
+    std::size_t size = 0;
+    TEST_ASSERT_EQUAL(Result::ok, (build_grid_table<double, 6>(
+                                      kr270<double>(), small, {force, moment, 2e-6, 1e-3, 0},
+                                      words.data(), 4 * words.size(), &size)));
+    Table table;
+    TEST_ASSERT_EQUAL(Result::ok, Table::open(words.data(), size, &table));
+    return table.header().node_count;
+  };
+  TEST_ASSERT_TRUE(nodes(1600, 1) > nodes(1, 1600));
+}
+
 void what_a_tick_reads_is_the_response_of_the_entry() {
   const Built built(kr270<double>(), kArmAndWrist, 2e-5);
   Wrench<double> wrench;
@@ -207,6 +223,7 @@ int main() {
   RUN_TEST(a_cursor_is_left_as_it_is);
   RUN_TEST(a_fault_of_the_arguments_goes_before_all_else);
   RUN_TEST(the_orientation_too_is_held_to_its_tolerance);
+  RUN_TEST(a_force_bends_the_arm_more_and_asks_for_more_nodes_than_as_large_a_moment);
   RUN_TEST(what_a_tick_reads_is_the_response_of_the_entry);
   RUN_TEST(what_cannot_be_built_is_named);
   return UNITY_END();

@@ -200,6 +200,13 @@ void a_program_that_runs_back_on_itself_is_followed() {
             2e-7, 10);
 }
 
+/// Retracting further than it had plunged, or leaving where it came from, it comes before the
+/// plunge as well as behind the retract: the segments between do not lead to the new one.
+void a_program_that_turns_off_backwards_is_found_again() {
+  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {2, -0.1}}), 2e-7, 10);
+  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {1, -0.1}}), 2e-7, 10);
+}
+
 /// Anywhere between two nodes.
 void compare_response_with_entry(const RobotModel<double, 6>& model) {
   const Program<double> program = loop<double>();
@@ -354,6 +361,7 @@ int main() {
   RUN_TEST(a_finer_tolerance_costs_about_the_square_root_in_nodes);
   RUN_TEST(corners_of_every_angle_keep_the_certificate);
   RUN_TEST(a_program_that_runs_back_on_itself_is_followed);
+  RUN_TEST(a_program_that_turns_off_backwards_is_found_again);
   RUN_TEST(what_a_tick_reads_is_the_response_of_the_entry);
   RUN_TEST(repeated_points_do_no_harm);
   RUN_TEST(off_the_program_the_distance_is_told);
