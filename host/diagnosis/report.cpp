@@ -20,15 +20,30 @@ constexpr const char* kStyle =
     "border-bottom:1px solid #ddd}svg{max-width:100%;height:auto}.lead{font-size:1.2em}"
     "h2{margin-top:1.6em}";
 
+/// Three digits; thousands are written out.
+std::string number(double value) {
+  return std::abs(value) < 1e3 || std::abs(value) >= 1e6 ? fmt::format("{:.3g}", value)
+                                                         : fmt::format("{:.0f}", value);
+}
+
+/// Of an estimate: 95 % to either side, in one digit; tens and thousands are written out.
+std::string margin(double deviation) {
+  const double side = 1.96 * deviation;
+  return side < 9.5 || side >= 1e6 ? fmt::format("{:.1g}", side) : fmt::format("{:.0f}", side);
+}
+
+std::string chance(double p_value) {
+  return p_value > 1e-300 ? fmt::format("{:.1g}", p_value) : "&lt; 1e-300";
+}
+
 std::string channel_rows(const Observations& observations, const Eigen::VectorXd& after) {
   std::string rows;
   for (const Channel channel : observations.channels()) {
     const auto rms = [&](const Eigen::VectorXd& values, bool held_out) {
-      return shown(channel, observations.rms(values, channel, held_out));
+      return number(shown(channel, observations.rms(values, channel, held_out)));
     };
     rows += fmt::format(
-        "<tr><td>{}, {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td>"
-        "<td>{:.3g}</td></tr>\n",
+        "<tr><td>{}, {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         simulation::kChannels[channel], shown_unit(channel),
         rms(Eigen::VectorXd::Ones(observations.size()), false), rms(observations.residual, false),
         rms(after, false), rms(observations.residual, true), rms(after, true));
@@ -42,7 +57,7 @@ std::string parameters(const Observations& observations, const Fit& fit, std::si
   std::string values;
   for (const Estimate& each : estimates(observations, fit, index)) {
     const std::string deviation =
-        std::isfinite(each.deviation) ? fmt::format(" ± {:.1g}", 1.96 * each.deviation) : "";
+        std::isfinite(each.deviation) ? " ± " + margin(each.deviation) : "";
     const std::string unit = each.unit == "1" ? "" : " " + each.unit;
     values += fmt::format("{} = {:.4g}{}{}<br>", each.name, each.value, deviation, unit);
   }
@@ -60,10 +75,10 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
                             other.delta_bic);
     }
     rows +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.1g}</td><td>{}</td></tr>\n",
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
                     place_name(hypothesis.effect, hypothesis.joint),
                     parameters(observations, diagnosis.choice.fit, i), finding.evidence.delta_bic,
-                    finding.evidence.p_value, others.empty() ? "none comes near" : others);
+                    chance(finding.evidence.p_value), others.empty() ? "none comes near" : others);
   }
   if (rows.empty()) {
     return "<p>No effect is proved.</p>\n";
@@ -129,9 +144,9 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
       "<table><tr><th>joint</th><th>moves over, rad</th><th>up to, rad/s</th>"
       "<th>load up to, N·m</th><th>what can be told of it</th></tr>\n";
   for (const Excitation& each : diagnosis.excitation) {
-    html += fmt::format(
-        "<tr><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
-        each.joint, each.range, each.largest_speed, each.largest_load, verdict(each));
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                        each.joint, number(each.range), number(each.largest_speed),
+                        number(each.largest_load), verdict(each));
   }
   return html + "</table>\n<p>What can be told: ± 95 %, were it the only change.</p>\n";
 }
@@ -151,8 +166,8 @@ std::string proposal(const std::vector<ProposedTerm>& terms) {
   }
   std::string rows;
   for (const ProposedTerm& term : terms) {
-    rows += fmt::format("<tr><td>{}</td><td>{:.4g} ± {:.1g} {}</td><td>{:.0f} %</td></tr>\n",
-                        escaped(term.text), term.coefficient, 1.96 * term.deviation,
+    rows += fmt::format("<tr><td>{}</td><td>{:.4g} ± {} {}</td><td>{:.0f} %</td></tr>\n",
+                        escaped(term.text), term.coefficient, margin(term.deviation),
                         escaped(term.unit), 100 * term.share);
   }
   return "<p>A form is proposed for it, not a finding: it says what the error goes with, not what "
