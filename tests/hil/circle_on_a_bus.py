@@ -9,6 +9,7 @@ LARGEST_SHARE = 0.05  # of the circularity without compensation
 # s. Robot controllers take corrections every 4 or every 12 ms. In real time the longer: a guest Linux
 # that needs milliseconds for the frames of one cycle misses cycles of 4 ms.
 LOCKSTEP_PERIOD, REAL_TIME_PERIOD = 0.004, 0.012
+LOCKSTEP_FEED, REAL_TIME_FEED = 0.05, 0.025  # m/s
 
 
 def mill(job, out, *options):
@@ -21,8 +22,9 @@ def mill(job, out, *options):
 class CircleTest(HilTest):
     def share(self, robot, bus, node_bus, *options, lockstep=True, log=None):
         """Circularity with compensation over that without; leaves run.csv, and a log of that run."""
-        period = LOCKSTEP_PERIOD if lockstep else REAL_TIME_PERIOD
-        job = Job(self.folder, robot, 0.05, radius=0.05, period=period)
+        period, feed = ((LOCKSTEP_PERIOD, LOCKSTEP_FEED) if lockstep
+                        else (REAL_TIME_PERIOD, REAL_TIME_FEED))
+        job = Job(self.folder, robot, feed, radius=0.05, period=period)
         pace = ["--lockstep"] if lockstep else []
         trigger = ["--trigger", "lockstep"] if lockstep else []
         # What is not compensated needs no node, and is the same at every pace.
