@@ -22,8 +22,8 @@ constexpr const char* kStyle =
 
 /// Three digits; thousands are written out.
 std::string number(double value) {
-  return std::abs(value) < 1e3 || std::abs(value) >= 1e6 ? fmt::format("{:.3g}", value)
-                                                         : fmt::format("{:.0f}", value);
+  return std::abs(value) < 999.5 || std::abs(value) >= 1e6 ? fmt::format("{:.3g}", value)
+                                                           : fmt::format("{:.0f}", value);
 }
 
 /// Of an estimate: 95 % to either side, in one digit; tens and thousands are written out.

@@ -2,7 +2,6 @@
 
 import csv
 import re
-import statistics
 import subprocess
 import time
 import unittest
@@ -40,23 +39,34 @@ class Logs(HilTest):
         for wanted, found in zip(expected, actual):
             self.assertEqual(set(wanted), set(found))
             for name, value in wanted.items():
-                if name != "t":
+                if name == "t":
+                    self.assertAlmostEqual(float(value), float(found[name]), delta=time_step)
+                else:
                     self.assertAlmostEqual(float(value), float(found[name]), delta=STEPS[name[0]], msg=name)
-        # A busy machine plays some of them late.
-        late = [abs(float(wanted["t"]) - float(found["t"])) for wanted, found in zip(expected, actual)]
-        self.assertLess(statistics.median(late), time_step)
+
+    def assert_comes_back(self, play, log, time_step):
+        """Plays again, twice at most, where a busy machine lost or delayed some."""
+        back = self.folder / "back.csv"
+        for _ in range(3):
+            play()
+            flexcomp("convert", log, "--out", back)
+            times = [[float(row["t"]) for row in rows(path)] for path in (self.csv, back)]
+            if len(times[0]) == len(times[1]) and all(abs(a - b) <= time_step for a, b in zip(*times)):
+                break
+        self.assert_same(self.csv, back, time_step)
 
     def test_what_canplayer_plays_from_our_log_comes_back_from_candump(self):
         for fd in ((), ("--fd",)):
             with self.subTest(fd=fd):
                 ours, theirs = self.folder / "ours.log", self.folder / "theirs.log"
-                back = self.folder / "back.csv"
                 flexcomp("convert", self.csv, "--out", ours, "--start", 1e9, *fd)
-                with candump(theirs):
-                    subprocess.run(["canplayer", "-I", ours, f"{BUS}=can0"], check=True)
-                self.assertEqual(frames(ours), frames(theirs))
-                flexcomp("convert", theirs, "--out", back)
-                self.assert_same(self.csv, back, 0.05)
+
+                def play():
+                    with candump(theirs):
+                        subprocess.run(["canplayer", "-I", ours, f"{BUS}=can0"], check=True)
+                    self.assertEqual(frames(ours), frames(theirs))
+
+                self.assert_comes_back(play, theirs, 0.05)
 
     def test_log2asc_reads_our_log_as_we_meant_it(self):
         ours, asc = self.folder / "ours.log", self.folder / "ours.asc"
@@ -71,18 +81,17 @@ class Logs(HilTest):
             self.assertAlmostEqual(float(stamp.strip("()")) - start, at - frames[0][2], delta=2e-6)
 
     def test_what_lcm_logplayer_plays_from_our_log_comes_back_from_lcm_logger(self):
-        ours, theirs, back = (self.folder / name for name in ("ours.lcmlog", "theirs.lcmlog", "back.csv"))
+        ours, theirs = self.folder / "ours.lcmlog", self.folder / "theirs.lcmlog"
         flexcomp("convert", self.csv, "--out", ours, "--start", 1e9)
-        for _ in range(3):
+
+        def play():
             with lcm_logger(theirs):
                 time.sleep(0.3)
                 subprocess.run(["lcm-logplayer", f"--lcm-url={LCM}", str(ours)], check=True,
                                stdout=subprocess.DEVNULL)
                 time.sleep(0.3)
-            flexcomp("convert", theirs, "--out", back)
-            if len(rows(back)) == len(rows(self.csv)):
-                break
-        self.assert_same(self.csv, back, 0.05)
+
+        self.assert_comes_back(play, theirs, 0.05)
 
     def test_can_and_lcm_logs_of_one_run_are_put_into_one_time(self):
         """The force only on LCM, the rest on CAN, and the clocks 7 s apart."""
