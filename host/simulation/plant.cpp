@@ -74,20 +74,34 @@ void Plant::stand_still(double seconds) {
   }
 }
 
-/// Asks to be armed and waits until the correction is complete.
+/// Asks to be armed, again where a setpoint that came late has cost it the good inputs that it
+/// takes, and waits until the correction is complete.
 bool Plant::arm() {
-  bus_->send(CommandMessage{Command::arm});
   const auto patience = static_cast<int>(kArmingTime / options_.period);
+  const auto pause = static_cast<int>(kReadyTime / options_.period);
+  int next_request = 0;
   for (int i = 0; i < patience; ++i) {
+    if (i == next_request) {
+      bus_->send(CommandMessage{Command::arm});
+    }
+    replied_ = false;
     tick(0, 0);
     if (replied_ && run_.arm_reply != 0) {
-      return false;
+      if (!may_become_ready()) {
+        return false;
+      }
+      next_request = i + pause;
     }
     if (run_.last_state == static_cast<std::uint8_t>(State::active)) {
       return true;
     }
   }
   return false;
+}
+
+bool Plant::may_become_ready() const {
+  return run_.arm_reply == static_cast<std::uint8_t>(Result::not_ready) &&
+         run_.last_state == static_cast<std::uint8_t>(State::off);
 }
 
 void Plant::follow_contour(const std::function<void(double)>& progress) {

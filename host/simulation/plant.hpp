@@ -53,6 +53,7 @@ class Plant {
  private:
   void stand_still(double seconds);
   bool arm();
+  bool may_become_ready() const;
   void follow_contour(const std::function<void(double)>& progress);
   void tick(double time, double load);
   void exchange();

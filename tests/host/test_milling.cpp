@@ -4,33 +4,18 @@
 #include "core/test_robots.hpp"
 #include "error.hpp"
 #include "flexcomp/compliance.hpp"
+#include "host/milled_loop.hpp"
 #include "simulation/milling.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
 using namespace flexcomp::simulation;
 using flexcomp::test::kr270;
+using flexcomp::test::kTurn;
 using flexcomp::test::loop_angles;
+using flexcomp::test::loop_path;
 
 namespace {
-
-constexpr double kTurn = 6.28318530717958647692;
-
-/// A loop of the program with a steady wrench.
-recording::Recording loop_path(bool backwards = false) {
-  constexpr Eigen::Index kRows = 200;
-  recording::Recording path;
-  path.file = "loop";
-  path.time = Eigen::VectorXd::LinSpaced(kRows, 5, 6);
-  path.q_cmd = recording::Samples(kRows, 6);
-  path.wrench = recording::Samples(kRows, 6);
-  for (Eigen::Index i = 0; i < kRows; ++i) {
-    const double phase = kTurn * static_cast<double>(i) / (kRows - 1);
-    path.q_cmd->row(i) = loop_angles<double>(backwards ? -phase : phase).transpose();
-    path.wrench->row(i) << 400, 300, -500, 0, 1, 2;
-  }
-  return path;
-}
 
 void the_normal_points_out_of_the_loop_whichever_way_it_runs() {
   const RobotModel<double, 6> model = kr270<double>();
