@@ -9,9 +9,27 @@ namespace flexcomp::diagnosis {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTold = 1.96;  // deviations from zero
 
 double deviation_at(const Eigen::MatrixXd& covariance, Eigen::Index i) {
   return covariance(i, i) > 0 ? std::sqrt(covariance(i, i)) : kUnknown;
+}
+
+/// Can one of the parameters that act in proportion be told from zero? Otherwise the covariance
+/// says nothing of the others, which give a shape to what may be there in any size: it comes from
+/// the derivative at that size.
+bool tells_the_shape(const Hypothesis& hypothesis, const Values& values,
+                     const Eigen::MatrixXd& covariance) {
+  if (hypothesis.linear == 0 || hypothesis.linear == values.size()) {
+    return true;
+  }
+  for (std::size_t i = 0; i < hypothesis.linear; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (std::abs(values[i]) > kTold * std::sqrt(covariance(at, at))) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// From the waves' amplitudes a sin + b cos = amplitude · sin(… + phase), errors to first order.
@@ -37,14 +55,17 @@ std::vector<Estimate> estimates(const Observations& observations, const Fit& fit
   const auto count = static_cast<Eigen::Index>(values.size());
   const Eigen::MatrixXd covariance = fit.covariance.block(first, first, count, count);
   const bool is_wave = hypothesis.parameters.front().name == "sine";
+  const bool is_shape_told = tells_the_shape(hypothesis, values, covariance);
   std::vector<Estimate> all;
   if (is_wave) {
     add_wave(values, hypothesis.parameters.front().unit, covariance, &all);
   }
   for (Eigen::Index i = is_wave ? 2 : 0; i < count; ++i) {
-    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
-    all.push_back({parameter.name, parameter.unit, values[static_cast<std::size_t>(i)],
-                   deviation_at(covariance, i)});
+    const auto at = static_cast<std::size_t>(i);
+    const Parameter& parameter = hypothesis.parameters[at];
+    const bool is_told = at < hypothesis.linear || is_shape_told;
+    all.push_back({parameter.name, parameter.unit, values[at],
+                   is_told ? deviation_at(covariance, i) : kUnknown});
   }
   if (hypothesis.effect == "joint_stiffness") {
     const Joint<double>& joint =

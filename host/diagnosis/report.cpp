@@ -57,7 +57,7 @@ std::string parameters(const Observations& observations, const Fit& fit, std::si
   std::string values;
   for (const Estimate& each : estimates(observations, fit, index)) {
     const std::string deviation =
-        std::isfinite(each.deviation) ? " ± " + margin(each.deviation) : "";
+        std::isfinite(each.deviation) ? " ± " + margin(each.deviation) : " (not known one by one)";
     const std::string unit = each.unit == "1" ? "" : " " + each.unit;
     values += fmt::format("{} = {:.4g}{}{}<br>", each.name, each.value, deviation, unit);
   }

@@ -45,7 +45,7 @@ Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield) 
   const double first = torque.size() > 0 ? torque[0] : 0;
   const Eigen::VectorXd input = torque.array() - first;
   for (int element = 0; element < kElements; ++element) {
-    const double slip = 2 * yield * (element + 0.5) / kElements;
+    const double slip = 4 * yield * (element + 0.5) / kElements;
     loop += (input - play(input, slip)) / (slip * kElements);
   }
   return loop;

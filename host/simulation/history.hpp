@@ -16,11 +16,13 @@ Eigen::VectorXd play(const Eigen::VectorXd& input, double half_gap);
 Eigen::VectorXd flank(const Eigen::VectorXd& torque, double hold);
 
 /// Loop of Bouc and Wen (Wen 1976) with n = 1, β = γ = 1/2, driven by `torque`: in −1…1, from 0 on;
-/// `yield` is in the torque's unit. Solved exactly between rows.
+/// `yield`, in the torque's unit, is the integral of 1 − loop over a torque that rises from 0: how
+/// much later than at once the loop is complete. Solved exactly between rows.
 Eigen::VectorXd bouc_wen(const Eigen::VectorXd& torque, double yield);
 
 /// Loop of elastic elements that slide one after another, with slip torques spread evenly up to
-/// twice `yield` (Prandtl 1928, Ishlinskii 1944): in −1…1, from 0 on.
+/// four times `yield`, which so is the same integral (Prandtl 1928, Ishlinskii 1944): in −1…1, from
+/// 0 on.
 Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield);
 
 /// Response of a mode of `frequency` (Hz) and damping ratio `damping` (below 1) with unit static

@@ -473,6 +473,14 @@ class Scoring(unittest.TestCase):
         self.assertEqual([("gap", 1e-4)], [(each.name, each.truth) for each in found])
         self.assertAlmostEqual(1.0, found[0].deviations)
 
+    def test_a_parameter_that_is_called_unknown_is_counted_apart(self):
+        case = scored("000", {"flexcomp": constant(9, 9)})
+        case.parameters = [judging.ParameterError("000", "payload", name, 3.0, value, std)
+                           for name, value, std in (("mass", 3.1, 0.1), ("mx", 9.0, None))]
+        found = goals.figures([case])
+        self.assertEqual(1, found["parameters within their 95 % interval"].n)
+        self.assertEqual(0.5, found["parameters called unknown"].rate)
+
     def test_the_worst_cases_come_first(self):
         good = scored("000", {"flexcomp": constant(9, 9)})
         bad = scored("001", {"flexcomp": constant(2, 2)})

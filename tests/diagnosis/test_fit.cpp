@@ -3,6 +3,7 @@
 
 #include "diagnosis/effects/effects.hpp"
 #include "diagnosis/fit.hpp"
+#include "diagnosis/parameters.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
 
@@ -77,6 +78,30 @@ void intervals_hold_where_errors_hang_together() {
   TEST_ASSERT_TRUE(intervals_that_hold(kTcpNoise, &stated) >= 34);
 }
 
+/// Deviations stated of a shape, 0.1, and of the amplitude of what has it.
+std::vector<double> stated_of(double amplitude, double deviation) {
+  Hypothesis hypothesis;
+  hypothesis.parameters = {{"amplitude", "N·m", -100, 100, 1}, {"shape", "rad", -4, 4, 0.1}};
+  hypothesis.linear = 1;
+  Fit found;
+  found.chosen = {{&hypothesis, {amplitude, 0.7}}};
+  found.covariance = Eigen::Vector2d(deviation * deviation, 0.01).asDiagonal();
+  std::vector<double> stated;
+  const SwingingRobot swinging(1);
+  const Observations observations = swinging.observed(Eigen::MatrixXd::Zero(swinging.rows(), 3));
+  for (const Estimate& each : estimates(observations, found, 0)) {
+    stated.push_back(each.deviation);
+  }
+  return stated;
+}
+
+void the_shape_of_what_cannot_be_told_from_nothing_is_unknown() {
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.1, stated_of(-3, 1)[1]);
+  const std::vector<double> unknown = stated_of(-1.5, 1);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1, unknown[0]);
+  TEST_ASSERT_TRUE(std::isnan(unknown[1]));
+}
+
 Hypothesis of_two(double lower) {
   Hypothesis hypothesis;
   hypothesis.parameters = {{"a", "1", lower, 10, 1e-3}, {"b", "1", lower, 10, 1e-3}};
@@ -110,6 +135,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(intervals_hold_in_noise_and_are_no_wider_than_they_must);
   RUN_TEST(intervals_hold_where_errors_hang_together);
+  RUN_TEST(the_shape_of_what_cannot_be_told_from_nothing_is_unknown);
   RUN_TEST(amplitudes_of_two_hypotheses_that_leave_their_bounds_are_held_at_zero);
   return UNITY_END();
 }

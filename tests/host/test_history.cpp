@@ -59,7 +59,7 @@ void a_loop_of_bouc_wen_closes_on_itself() {
 
 void prandtl_ishlinskii_begins_as_a_spring_and_ends_saturated() {
   const VectorXd torque = triangle(1000);
-  const VectorXd loop = history::prandtl_ishlinskii(torque, 100);
+  const VectorXd loop = history::prandtl_ishlinskii(torque, 50);
   // While no element slips the slope is the sum of all.
   double slope = 0;
   for (int element = 0; element < 10; ++element) {
@@ -67,9 +67,20 @@ void prandtl_ishlinskii_begins_as_a_spring_and_ends_saturated() {
   }
   VectorXd little(2);
   little << 0, 5;
-  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * slope, history::prandtl_ishlinskii(little, 100)[1]);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * slope, history::prandtl_ishlinskii(little, 50)[1]);
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1, loop[100]);
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, -1, loop[300]);
+}
+
+void the_yield_of_a_loop_is_by_how_much_it_is_complete_later_than_at_once() {
+  constexpr double kYield = 80;
+  constexpr double kStep = 0.1;
+  const VectorXd torque = VectorXd::LinSpaced(30001, 0, 30000 * kStep);
+  for (const auto loop : {&history::bouc_wen, &history::prandtl_ishlinskii}) {
+    const VectorXd missing = 1 - loop(torque, kYield).array();
+    const double integral = kStep * (missing.sum() - 0.5 * (missing[0] + missing[30000]));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4 * kYield, kYield, integral);
+  }
 }
 
 void a_mode_rings_at_its_frequency_and_dies_out_at_its_damping() {
@@ -167,6 +178,7 @@ int main() {
   RUN_TEST(bouc_wen_rises_to_one_as_an_exponential_and_does_not_depend_on_the_sampling);
   RUN_TEST(a_loop_of_bouc_wen_closes_on_itself);
   RUN_TEST(prandtl_ishlinskii_begins_as_a_spring_and_ends_saturated);
+  RUN_TEST(the_yield_of_a_loop_is_by_how_much_it_is_complete_later_than_at_once);
   RUN_TEST(a_mode_rings_at_its_frequency_and_dies_out_at_its_damping);
   RUN_TEST(a_mode_does_not_depend_on_even_steps);
   RUN_TEST(a_mode_whose_frequency_doubles_rings_twice_as_fast_from_there_on);

@@ -23,12 +23,14 @@ constexpr std::pair<const char*, Loop> kForms[] = {
 
 }  // namespace
 
-// A rate-independent loop of torque and wind-up beside the spring, as Bouc and Wen's or as Prandtl
-// and Ishlinskii's (Wen 1976; Visintin 1994), simulated along the load: dry friction in parallel to
-// the spring lets the wind-up lag behind its straight line by up to `amplitude` either way, so that
-// the loop takes energy. What went before a recording is not known: the loop begins relaxed at its
-// first torque, or as that torque left it coming from zero. Needs the TCP or link encoders, and a
-// load that rises and falls.
+// A rate-independent loop of torque and wind-up beside the spring, as Bouc and Wen's or as
+// Prandtl and Ishlinskii's (Wen 1976; Visintin 1994), simulated along the load: dry friction in
+// parallel to the spring lets the wind-up lag behind its straight line by up to `amplitude`
+// either way, so that the loop takes energy; `yield_torque` is the rise of the load by which it
+// does so late, whichever the form: the integral of 1 − lag / amplitude over a load that rises
+// from none. What went before a recording is not known: the loop begins relaxed at its first
+// torque, or as that torque left it coming from zero. Needs the TCP or link encoders, and a load
+// that rises and falls.
 std::vector<Hypothesis> hysteresis(const Observations& observations) {
   std::vector<Hypothesis> all;
   if (!sees_angles(observations)) {

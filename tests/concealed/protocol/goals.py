@@ -74,6 +74,11 @@ def closed_loops(scored):
     return [each for each in scored if isinstance(each.loop, Loop) and each.loop.is_spoiled]
 
 
+def told(scored):
+    """Fitted parameters whose interval is stated."""
+    return [error for each in scored for error in each.parameters if error.std is not None]
+
+
 def coverage(parameters):
     return _rate(each.covered for each in parameters)
 
@@ -84,7 +89,6 @@ def figures(scored):
     located = [each for each in effects if each.joint_right is not None]
     clean, foreign = of_families(scored, "clean"), of_families(scored, "foreign")
     refitted = any(REFIT in each.errors for each in scored)
-    parameters = [error for each in scored for error in each.parameters]
     return {
         EFFECT: _rate(each.effect_right for each in effects),
         JOINT: _rate(each.joint_right for each in located),
@@ -101,7 +105,9 @@ def figures(scored):
             each.result.verdict == "no_mismatch" for each in foreign),
         HELD_OUT: median(each.error(DIAGNOSED, "holdout") for each in effects),
         "the same before the diagnosis": median(each.error(NOMINAL, "holdout") for each in effects),
-        "parameters within their 95 % interval": coverage(parameters),
+        "parameters within their 95 % interval": coverage(told(scored)),
+        "parameters called unknown": _rate(
+            error.std is None for each in scored for error in each.parameters),
         BLACK_BOX: median(against_black_box(each, "untrained") for each in effects),
         WORSE: len(worse_than_refit(scored)) if refitted else None,
         "of these, by more than chance": sum(

@@ -23,7 +23,7 @@ class ParameterError:
     name: str
     truth: float
     value: float
-    std: float
+    std: float | None  # None: called unknown
 
     @property
     def deviations(self):
@@ -133,10 +133,9 @@ def parameter_errors(name, effects, said):
         for parameter, truth in (effect["parameters"] if effect else {}).items():
             names = (parameter, *NAMES.get(effect["effect"], {}).get(parameter, ()))
             entry = next((fitted[other] for other in names if other in fitted), None)
-            if entry is None or not isinstance(truth, (int, float)) or not entry["std"]:
-                continue
-            found.append(ParameterError(name, effect["effect"], parameter, float(truth),
-                                        entry["value"], entry["std"]))
+            if entry is not None and isinstance(truth, (int, float)):
+                found.append(ParameterError(name, effect["effect"], parameter, float(truth),
+                                            entry["value"], entry["std"] or None))
     return found
 
 

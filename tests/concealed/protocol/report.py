@@ -116,9 +116,8 @@ def _worst(scored, answers):
 
 def _parameters(scored):
     groups = collections.defaultdict(list)
-    for each in scored:
-        for error in each.parameters:
-            groups[error.effect, error.name].append(error)
+    for error in goals.told(scored):
+        groups[error.effect, error.name].append(error)
     rows = []
     for (effect, name), errors in sorted(groups.items()):
         rate = goals.coverage(errors)
@@ -129,7 +128,8 @@ def _parameters(scored):
                      "–" if relative is None else f"{100 * relative:.2g} %", f"{farthest:+.1f}"])
     everything = [error for errors in groups.values() for error in errors]
     return paragraph(
-        "Of findings with the right effect and joint: is the truth within value ± 1.96 std?"
+        "Of findings with the right effect and joint: is the truth within value ± 1.96 std? Without "
+        "parameters that are called unknown."
     ) + pictures.coverage_picture(everything) + table(
         ("effect", "parameter", "within 95 %", "median error", "largest error / std"), rows,
         (2, 3, 4))

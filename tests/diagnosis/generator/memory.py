@@ -56,9 +56,10 @@ def bouc_wen(torque, yield_torque):
 
 
 def prandtl_ishlinskii(torque, yield_torque):
-    """A loop of elastic and sliding elements that slide one after another up to twice the yield
-    torque, driven by torque (n,): in [-1, 1]."""
-    thresholds = yield_torque * np.array([0.4, 0.8, 1.2, 1.6, 2.0])
+    """A loop of elastic and sliding elements that slide one after another up to nearly four times the
+    yield torque, driven by torque (n,): in [-1, 1]. As with bouc_wen, yield_torque is the integral of
+    1 - z over a torque that rises from 0."""
+    thresholds = yield_torque * np.array([0.4, 1.2, 2.0, 2.8, 3.6])
     total = np.zeros_like(torque)
     for threshold in thresholds:
         total += (torque - torque[0] - motion_play(torque - torque[0], threshold)) / threshold

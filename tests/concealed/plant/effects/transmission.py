@@ -75,8 +75,8 @@ class Backlash(Effect):
 class Hysteresis(Effect):
     """Jenkins elements beside the spring: each a spring in series with dry friction, between motor
     and link (Iwan 1966). Where all slide, the link lags behind the model's straight line of torque
-    and deflection by `amplitude` (rad); `slip`: rad in the mean until they slide; yield_torque: N·m
-    they hold together."""
+    and deflection by `amplitude` (rad); `slip`: rad in the mean until they slide; yield_torque (N·m):
+    integral of 1 - lag / amplitude over a load that rises from none."""
 
     name = "hysteresis"
     SLIPS = (0.5, 1.5)  # shares of the mean slip at which the elements begin to slide
@@ -86,7 +86,9 @@ class Hysteresis(Effect):
         stiffness = spring.stiffness[0]
         total = self.parameters["amplitude"] * stiffness
         reach = self.parameters["slip"]
-        self.parameters["yield_torque"] = total
+        # The lag is z(x) of its amplitude at a spring's deflection x, the load is K x + total z: the
+        # integral of 1 - z over x is half the mean slip, that over z a half.
+        self.parameters["yield_torque"] = 0.5 * (stiffness * reach + total)
         for number, share in enumerate(self.SLIPS):
             torque = total / len(self.SLIPS)
             branch = torque / (share * reach)

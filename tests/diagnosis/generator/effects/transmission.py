@@ -50,8 +50,10 @@ class Hysteresis(Effect):
     units = {"amplitude": "rad", "yield_torque": "N·m"}
 
     def draw(self, rng, joint, robot, scale):
-        return {"amplitude": log_uniform(rng, 5e-5, 4e-4), "sliding": float(rng.random() < 0.5),
-                "yield_torque": float(rng.uniform(0.15, 0.5) * scale.load[joint - 1])}
+        amplitude, sliding = log_uniform(rng, 5e-5, 4e-4), rng.random() < 0.5
+        share = rng.uniform(0.15, 0.5)  # of the load, at which half of the sliding elements slide
+        return {"amplitude": amplitude, "sliding": float(sliding),
+                "yield_torque": float((0.5 if sliding else 1) * share * scale.load[joint - 1])}
 
     def apply(self, machine, joint, parameters):
         k, column = one(machine, joint)
