@@ -15,11 +15,32 @@ Eigen::VectorXd from_zero(const Eigen::VectorXd& torque, double yield) {
   return loop(since, yield).tail(torque.size());
 }
 
-constexpr std::pair<const char*, Loop> kForms[] = {
-    {"bouc_wen", simulation::bouc_wen},
-    {"prandtl_ishlinskii", simulation::prandtl_ishlinskii},
-    {"bouc_wen_from_zero", from_zero<simulation::bouc_wen>},
-    {"prandtl_ishlinskii_from_zero", from_zero<simulation::prandtl_ishlinskii>}};
+struct Form {
+  const char* name;
+  Loop loop;
+  double reach;  ///< of the yield torques tried, over the joint's load
+};
+
+/// Elements that slide one after another reach to twice the load, with that still half of them
+/// stick; if they reached farther the loop would pass for a softer spring.
+constexpr Form kForms[] = {
+    {"bouc_wen", simulation::bouc_wen, 1},
+    {"prandtl_ishlinskii", simulation::prandtl_ishlinskii, 0.5},
+    {"bouc_wen_from_zero", from_zero<simulation::bouc_wen>, 1},
+    {"prandtl_ishlinskii_from_zero", from_zero<simulation::prandtl_ishlinskii>, 0.5}};
+
+/// Wind-up less by what friction beside the spring holds.
+void apply_loop(int joint, Loop loop, const Values& values, Machine* machine) {
+  machine->terms.push_back(
+      {simulation::Term::load, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+         add_load_driven(
+             at, joint,
+             [&](const Eigen::VectorXd& torque) {
+               return Eigen::VectorXd(-values[0] * loop(torque, values[1]));
+             },
+             prediction);
+       }});
+}
 
 }  // namespace
 
@@ -44,27 +65,19 @@ std::vector<Hypothesis> hysteresis(const Observations& observations) {
     if (load < 0.01) {
       continue;
     }
-    hypothesis.parameters = {{"amplitude", "rad", 0, 0.05, 1e-4},
-                             {"yield_torque", "N·m", 0.01 * load, load, 0.02 * load}};
     hypothesis.linear = 1;
-    hypothesis.starts.clear();
-    for (const double share : {0.05, 0.1, 0.18, 0.3, 0.5, 0.9}) {
-      hypothesis.starts.push_back({share * load});
-    }
     hypothesis.statement = fmt::format("joint {} has a loop in its torque-deflection curve", joint);
-    for (const auto& [form, loop] : kForms) {
-      hypothesis.form = form;
-      hypothesis.apply = [joint, loop = loop](const Values& values, Machine* machine) {
-        machine->terms.push_back({simulation::Term::load,
-                                  [=](const Scene&, const Simulation& at, Prediction* prediction) {
-                                    add_load_driven(
-                                        at, joint,
-                                        [&](const Eigen::VectorXd& torque) {
-                                          return Eigen::VectorXd(-values[0] *
-                                                                 loop(torque, values[1]));
-                                        },
-                                        prediction);
-                                  }});
+    for (const Form& form : kForms) {
+      const double scale = form.reach * load;
+      hypothesis.form = form.name;
+      hypothesis.parameters = {{"amplitude", "rad", 0, 0.05, 1e-4},
+                               {"yield_torque", "N·m", 0.01 * scale, scale, 0.02 * scale}};
+      hypothesis.starts.clear();
+      for (const double share : {0.05, 0.1, 0.18, 0.3, 0.5, 0.9}) {
+        hypothesis.starts.push_back({share * scale});
+      }
+      hypothesis.apply = [joint, loop = form.loop](const Values& values, Machine* machine) {
+        apply_loop(joint, loop, values, machine);
       };
       all.push_back(hypothesis);
     }
