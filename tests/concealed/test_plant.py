@@ -129,6 +129,16 @@ class Springs(unittest.TestCase):
         self.assertAlmostEqual(2 * windup, abs(falling - rising), delta=0.4 * windup)
         self.assertEqual(np.sign(falling), np.sign(found[3]))  # it lags behind the load
 
+    def test_the_yield_torque_of_hysteresis_is_the_integral_of_what_its_lag_has_not_reached(self):
+        joint, windup, slip = 3, 1e-4, 2e-4
+        loop = EFFECTS["hysteresis"](joint, amplitude=windup, slip=slip)
+        Simulation(robot(), [loop], POSTURE)
+        stiffness = 1 / robot().joints[joint - 1].compliance
+        deflection = np.linspace(0, 2 * slip, 20001)
+        lag = np.mean([np.minimum(deflection / (share * slip), 1) for share in loop.SLIPS], axis=0)
+        load = stiffness * (deflection + windup * lag)
+        self.assertAlmostEqual(loop.parameters["yield_torque"], np.trapezoid(1 - lag, load), delta=0.01)
+
     def test_a_base_on_springs_moves_by_its_compliance(self):
         pull = [np.zeros(6), [0, 0, 1000, 0, 0, 0]]
         base = EFFECTS["base_compliance"](None, z=4e-8)

@@ -479,7 +479,7 @@ class Scoring(unittest.TestCase):
                            for name, value, std in (("mass", 3.1, 0.1), ("mx", 9.0, None))]
         found = goals.figures([case])
         self.assertEqual(1, found["parameters within their 95 % interval"].n)
-        self.assertEqual(0.5, found["parameters called unknown"].rate)
+        self.assertEqual((1, 2), (found["parameters called unknown"].k, found["parameters called unknown"].n))
 
     def test_the_worst_cases_come_first(self):
         good = scored("000", {"flexcomp": constant(9, 9)})
