@@ -218,8 +218,12 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   const Estimate surest = surest_of(estimates(observations, fit, finding));
   std::string clause = fit.chosen[finding].hypothesis->statement;
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
-  return fmt::format("{} ({} {}), which the model lacks: {}.", clause, surest.name,
-                     readable(surest.value, surest.unit), fall(observations, found.without, fit));
+  // Parameters that only fit together, as a balancer's, say nothing one by one.
+  const bool is_told = !(std::abs(surest.value) < kTold * surest.deviation);
+  const std::string number =
+      is_told ? fmt::format(" ({} {})", surest.name, readable(surest.value, surest.unit)) : "";
+  return fmt::format("{}{}, which the model lacks: {}.", clause, number,
+                     fall(observations, found.without, fit));
 }
 
 std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis) {

@@ -9,7 +9,6 @@ namespace flexcomp::diagnosis {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTold = 1.96;  // deviations from zero
 
 double deviation_at(const Eigen::MatrixXd& covariance, Eigen::Index i) {
   return covariance(i, i) > 0 ? std::sqrt(covariance(i, i)) : kUnknown;
@@ -98,9 +97,14 @@ std::string place_name(const std::string& effect, int joint) {
   return joint > 0 ? fmt::format("{}, joint {}", effect, joint) : effect;
 }
 
+std::string three_digits(double value) {
+  return std::abs(value) < 999.5 || std::abs(value) >= 1e6 ? fmt::format("{:.3g}", value)
+                                                           : fmt::format("{:.0f}", value);
+}
+
 std::string readable(double value, const std::string& unit) {
   if (unit == "1") {
-    return fmt::format("{:.3g}", value);
+    return three_digits(value);
   }
   const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";
   const double size = std::abs(value);
@@ -110,7 +114,7 @@ std::string readable(double value, const std::string& unit) {
   if (has_prefixes && size > 0 && size < 0.1) {
     return fmt::format("{:.3g} m{}", 1e3 * value, unit);
   }
-  return fmt::format("{:.3g} {}", value, unit);
+  return three_digits(value) + " " + unit;
 }
 
 double shown(Channel channel, double value) {

@@ -26,6 +26,12 @@ Channel main_channel(const Observations& observations, const Fit& without, const
 /// "joint_stiffness, joint 2"
 std::string place_name(const std::string& effect, int joint);
 
+/// An estimate nearer to zero than this many of its standard deviations may be zero (95 %).
+constexpr double kTold = 1.96;
+
+/// Three digits, but tens and thousands written out: 0.0123, 1214.
+std::string three_digits(double value);
+
 /// A value with its unit as people write it: 0.21 mrad, 14 µm.
 std::string readable(double value, const std::string& unit);
 

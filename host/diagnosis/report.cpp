@@ -20,12 +20,6 @@ constexpr const char* kStyle =
     "border-bottom:1px solid #ddd}svg{max-width:100%;height:auto}.lead{font-size:1.2em}"
     "h2{margin-top:1.6em}";
 
-/// Three digits; thousands are written out.
-std::string number(double value) {
-  return std::abs(value) < 999.5 || std::abs(value) >= 1e6 ? fmt::format("{:.3g}", value)
-                                                           : fmt::format("{:.0f}", value);
-}
-
 /// Of an estimate: 95 % to either side, in one digit; tens and thousands are written out.
 std::string margin(double deviation) {
   const double side = 1.96 * deviation;
@@ -40,7 +34,7 @@ std::string channel_rows(const Observations& observations, const Eigen::VectorXd
   std::string rows;
   for (const Channel channel : observations.channels()) {
     const auto rms = [&](const Eigen::VectorXd& values, bool held_out) {
-      return number(shown(channel, observations.rms(values, channel, held_out)));
+      return three_digits(shown(channel, observations.rms(values, channel, held_out)));
     };
     rows += fmt::format(
         "<tr><td>{}, {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -56,10 +50,11 @@ std::string channel_rows(const Observations& observations, const Eigen::VectorXd
 std::string parameters(const Observations& observations, const Fit& fit, std::size_t index) {
   std::string values;
   for (const Estimate& each : estimates(observations, fit, index)) {
-    const std::string deviation =
-        std::isfinite(each.deviation) ? " ± " + margin(each.deviation) : " (not known one by one)";
+    const bool is_told = std::isfinite(each.deviation);
     const std::string unit = each.unit == "1" ? "" : " " + each.unit;
-    values += fmt::format("{} = {:.4g}{}{}<br>", each.name, each.value, deviation, unit);
+    values += fmt::format("{} = {:.4g}{}{}{}<br>", each.name, each.value,
+                          is_told ? " ± " + margin(each.deviation) : "", unit,
+                          is_told ? "" : ", unknown by itself");
   }
   return values;
 }
@@ -106,9 +101,9 @@ std::string location_table(const Location& location) {
       joined(location.axes, [](const std::string& axis) { return axis; }),
       joined(location.time,
              [&](const auto& stretch) {
-               return number(stretch.first) + " to " + number(stretch.second) + " s";
+               return three_digits(stretch.first) + " to " + three_digits(stretch.second) + " s";
              }),
-      joined(location.frequency_hz, [&](double hertz) { return number(hertz) + " Hz"; }));
+      joined(location.frequency_hz, [&](double hertz) { return three_digits(hertz) + " Hz"; }));
   for (const Correlate& each : location.correlates_with) {
     rows += fmt::format("<tr><th>goes with</th><td>{}: {:.0f} % of its power</td></tr>\n", each.cue,
                         100 * each.share);
@@ -145,8 +140,8 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
       "<th>load up to, N·m</th><th>what can be told of it</th></tr>\n";
   for (const Excitation& each : diagnosis.excitation) {
     html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        each.joint, number(each.range), number(each.largest_speed),
-                        number(each.largest_load), verdict(each));
+                        each.joint, three_digits(each.range), three_digits(each.largest_speed),
+                        three_digits(each.largest_load), verdict(each));
   }
   return html + "</table>\n<p>What can be told: ± 95 %, were it the only change.</p>\n";
 }

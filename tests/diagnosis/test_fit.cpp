@@ -1,6 +1,7 @@
 // Stated deviations against errors that are known, and amplitudes within bounds.
 #include <cmath>
 
+#include "diagnosis/diagnosis.hpp"
 #include "diagnosis/effects/effects.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/parameters.hpp"
@@ -78,28 +79,45 @@ void intervals_hold_where_errors_hang_together() {
   TEST_ASSERT_TRUE(intervals_that_hold(kTcpNoise, &stated) >= 34);
 }
 
-/// Deviations stated of a shape, 0.1, and of the amplitude of what has it.
-std::vector<double> stated_of(double amplitude, double deviation) {
-  Hypothesis hypothesis;
-  hypothesis.parameters = {{"amplitude", "N·m", -100, 100, 1}, {"shape", "rad", -4, 4, 0.1}};
-  hypothesis.linear = 1;
-  Fit found;
-  found.chosen = {{&hypothesis, {amplitude, 0.7}}};
-  found.covariance = Eigen::Vector2d(deviation * deviation, 0.01).asDiagonal();
-  std::vector<double> stated;
-  const SwingingRobot swinging(1);
-  const Observations observations = swinging.observed(Eigen::MatrixXd::Zero(swinging.rows(), 3));
-  for (const Estimate& each : estimates(observations, found, 0)) {
-    stated.push_back(each.deviation);
+/// Something of some amplitude and shape, the shape known to 0.1.
+struct Shaped {
+  Shaped(double amplitude, double deviation) {
+    hypothesis.statement = "something acts";
+    hypothesis.parameters = {{"amplitude", "N·m", -9999, 9999, 1}, {"shape", "rad", -4, 4, 0.1}};
+    hypothesis.linear = 1;
+    Fit& fit = diagnosis.choice.fit;
+    fit.chosen = {{&hypothesis, {amplitude, 0.7}}};
+    fit.covariance = Eigen::Vector2d(deviation * deviation, 0.01).asDiagonal();
+    fit.remainder = Eigen::VectorXd::Ones(observations.size());
+    diagnosis.choice.findings.emplace_back();
+    diagnosis.choice.findings[0].without.remainder = 2 * fit.remainder;
   }
-  return stated;
-}
+
+  const SwingingRobot swinging{1};
+  const Observations observations = swinging.observed(Eigen::MatrixXd::Zero(swinging.rows(), 3));
+  Hypothesis hypothesis;
+  Diagnosis diagnosis;
+};
 
 void the_shape_of_what_cannot_be_told_from_nothing_is_unknown() {
-  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.1, stated_of(-3, 1)[1]);
-  const std::vector<double> unknown = stated_of(-1.5, 1);
-  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1, unknown[0]);
-  TEST_ASSERT_TRUE(std::isnan(unknown[1]));
+  const Shaped sure(-3000, 1000);
+  const Shaped unsure(-1500, 1000);
+  const auto of = [](const Shaped& shaped) {
+    return estimates(shaped.observations, shaped.diagnosis.choice.fit, 0);
+  };
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.1, of(sure)[1].deviation);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1000, of(unsure)[0].deviation);
+  TEST_ASSERT_TRUE(std::isnan(of(unsure)[1].deviation));
+}
+
+void a_finding_is_summed_up_by_its_surest_number_if_one_is_sure() {
+  const auto said = [](const Shaped& shaped) {
+    return statement(shaped.observations, shaped.diagnosis, 0);
+  };
+  TEST_ASSERT_EQUAL_STRING_LEN("Something acts (amplitude -9000 N·m), which the model lacks",
+                               said({-9000, 1000}).c_str(), 59);
+  TEST_ASSERT_EQUAL_STRING_LEN("Something acts, which the model lacks", said({-1500, 1000}).c_str(),
+                               37);
 }
 
 Hypothesis of_two(double lower) {
@@ -136,6 +154,7 @@ int main() {
   RUN_TEST(intervals_hold_in_noise_and_are_no_wider_than_they_must);
   RUN_TEST(intervals_hold_where_errors_hang_together);
   RUN_TEST(the_shape_of_what_cannot_be_told_from_nothing_is_unknown);
+  RUN_TEST(a_finding_is_summed_up_by_its_surest_number_if_one_is_sure);
   RUN_TEST(amplitudes_of_two_hypotheses_that_leave_their_bounds_are_held_at_zero);
   return UNITY_END();
 }
