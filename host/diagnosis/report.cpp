@@ -54,7 +54,7 @@ std::string parameters(const Observations& observations, const Fit& fit, std::si
     const std::string unit = each.unit == "1" ? "" : " " + each.unit;
     values += fmt::format("{} = {:.4g}{}{}{}<br>", each.name, each.value,
                           is_told ? " ± " + margin(each.deviation) : "", unit,
-                          is_told ? "" : ", unknown by itself");
+                          is_told ? "" : ", ± not known");
   }
   return values;
 }
