@@ -219,7 +219,7 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   std::string clause = fit.chosen[finding].hypothesis->statement;
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
   // Parameters that only fit together, as a balancer's, say nothing one by one.
-  const bool is_told = !(std::abs(surest.value) < kTold * surest.deviation);
+  const bool is_told = surest.deviation > 0 && std::abs(surest.value) >= kTold * surest.deviation;
   const std::string number =
       is_told ? fmt::format(" ({} {})", surest.name, readable(surest.value, surest.unit)) : "";
   return fmt::format("{}{}, which the model lacks: {}.", clause, number,

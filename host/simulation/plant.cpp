@@ -80,7 +80,8 @@ bool Plant::arm() {
   const auto patience = static_cast<int>(kArmingTime / options_.period);
   const auto pause = static_cast<int>(kReadyTime / options_.period);
   int next_request = 0;
-  for (int i = 0; i < patience; ++i) {
+  int end = patience;
+  for (int i = 0; i < end; ++i) {
     if (i == next_request) {
       bus_->send(CommandMessage{Command::arm});
     }
@@ -91,6 +92,8 @@ bool Plant::arm() {
         return false;
       }
       next_request = i + pause;
+    } else if (replied_) {
+      end = i + patience;  // it fades in
     }
     if (run_.last_state == static_cast<std::uint8_t>(State::active)) {
       return true;

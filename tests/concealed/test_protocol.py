@@ -473,13 +473,14 @@ class Scoring(unittest.TestCase):
         self.assertEqual([("gap", 1e-4)], [(each.name, each.truth) for each in found])
         self.assertAlmostEqual(1.0, found[0].deviations)
 
-    def test_a_parameter_that_is_called_unknown_is_counted_apart(self):
+    def test_a_parameter_without_an_interval_is_counted_apart(self):
         case = scored("000", {"flexcomp": constant(9, 9)})
         case.parameters = [judging.ParameterError("000", "payload", name, 3.0, value, std)
                            for name, value, std in (("mass", 3.1, 0.1), ("mx", 9.0, None))]
         found = goals.figures([case])
         self.assertEqual(1, found["parameters within their 95 % interval"].n)
-        self.assertEqual((1, 2), (found["parameters called unknown"].k, found["parameters called unknown"].n))
+        without = found["parameters without an interval"]
+        self.assertEqual((1, 2), (without.k, without.n))
 
     def test_the_worst_cases_come_first(self):
         good = scored("000", {"flexcomp": constant(9, 9)})

@@ -198,6 +198,10 @@ class Memory(unittest.TestCase):
                 np.testing.assert_allclose(z[::10], loop(coarse, 30.0), atol=5e-3)
                 area = (0.5 * (z[2001:] + z[2000:-1]) * np.diff(fine[2000:])).sum()
                 self.assertGreater(area, 50.0)  # what a loop of ±100 takes from each turn
+        rise = np.linspace(0, 1000, 100001)
+        for loop in (memory.bouc_wen, memory.prandtl_ishlinskii):
+            missing = 1 - loop(rise, 30.0)
+            self.assertAlmostEqual(30.0, 0.5 * (missing[1:] + missing[:-1]).sum() * rise[1], 3)
         self.assertAlmostEqual(1 - np.exp(-2), memory.bouc_wen(np.linspace(0, 60, 100), 30.0)[-1], 12)
 
     def test_a_mode_follows_slowly_and_rings_at_its_frequency(self):

@@ -73,7 +73,7 @@ def soak(folder, minutes):
             circle = len(late) + refused + 1
             try:
                 after, unanswered = mill(job, folder / "run.csv", "--bus", f"can:{BUS}", "--seed", circle)
-            except AssertionError as failure:  # not armed, where a setpoint came late just then
+            except AssertionError as failure:  # not armed, though asked again
                 refused += 1
                 wrong.append(f"circle {circle}: {' '.join(str(failure).split())}")
                 continue

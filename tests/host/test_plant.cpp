@@ -23,7 +23,7 @@ class StiffRobot : public RobotInCut {
 };
 
 /// Answers every setpoint with itself, and requests to be armed with what is set, in turn; then
-/// with yes.
+/// with yes, and is active 100 setpoints later.
 class ScriptedCompensator : public PlantBus {
  public:
   explicit ScriptedCompensator(State before, std::deque<Result> refusals)
@@ -31,6 +31,9 @@ class ScriptedCompensator : public PlantBus {
 
   void send(const Message& message) override {
     if (const auto* setpoint = std::get_if<SetpointMessage>(&message)) {
+      if (state_ == State::fading_in && setpoints_ >= asked_after.back() + 100) {
+        state_ = State::active;
+      }
       CorrectedMessage corrected;
       corrected.timestamp = setpoint->timestamp;
       corrected.corrected = setpoint->q;
@@ -63,7 +66,7 @@ class ScriptedCompensator : public PlantBus {
     asked_after.push_back(setpoints_);
     Result result = Result::ok;
     if (refusals_.empty()) {
-      state_ = State::active;
+      state_ = State::fading_in;
     } else {
       result = refusals_.front();
       refusals_.pop_front();
@@ -104,6 +107,12 @@ void one_that_never_becomes_ready_is_given_up() {
   TEST_ASSERT_EQUAL(530, result.ticks);  // 0.3 s before, and 5 s
 }
 
+void one_that_becomes_ready_late_has_its_time_to_fade_in() {
+  ScriptedCompensator compensator(State::off, std::deque<Result>(16, Result::not_ready));
+  TEST_ASSERT_TRUE(run(&compensator).armed);
+  TEST_ASSERT_EQUAL(510, compensator.asked_after.back());  // a second is longer than what is left
+}
+
 void any_other_refusal_is_final() {
   ScriptedCompensator without_table(State::off, {Result::no_table});
   TEST_ASSERT_FALSE(run(&without_table).armed);
@@ -119,6 +128,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(a_compensator_that_is_not_ready_is_asked_again_after_more_good_setpoints);
   RUN_TEST(one_that_never_becomes_ready_is_given_up);
+  RUN_TEST(one_that_becomes_ready_late_has_its_time_to_fade_in);
   RUN_TEST(any_other_refusal_is_final);
   return UNITY_END();
 }

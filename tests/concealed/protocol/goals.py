@@ -106,7 +106,7 @@ def figures(scored):
         HELD_OUT: median(each.error(DIAGNOSED, "holdout") for each in effects),
         "the same before the diagnosis": median(each.error(NOMINAL, "holdout") for each in effects),
         "parameters within their 95 % interval": coverage(told(scored)),
-        "parameters called unknown": _rate(
+        "parameters without an interval": _rate(
             error.std is None for each in scored for error in each.parameters),
         BLACK_BOX: median(against_black_box(each, "untrained") for each in effects),
         WORSE: len(worse_than_refit(scored)) if refitted else None,

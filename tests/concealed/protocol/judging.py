@@ -23,7 +23,7 @@ class ParameterError:
     name: str
     truth: float
     value: float
-    std: float | None  # None: called unknown
+    std: float | None  # None: without an interval
 
     @property
     def deviations(self):

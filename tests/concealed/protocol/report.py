@@ -129,7 +129,7 @@ def _parameters(scored):
     everything = [error for errors in groups.values() for error in errors]
     return paragraph(
         "Of findings with the right effect and joint: is the truth within value ± 1.96 std? Without "
-        "parameters that are called unknown."
+        "parameters that have no interval."
     ) + pictures.coverage_picture(everything) + table(
         ("effect", "parameter", "within 95 %", "median error", "largest error / std"), rows,
         (2, 3, 4))

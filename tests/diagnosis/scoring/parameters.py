@@ -29,7 +29,7 @@ NAMES = {
     "torque_offset": {"torque": ("torque", "offset")},
     "payload": {"mass": ("mass", "mass_change")},
     "thermal_drift": {},
-    "hysteresis": {"amplitude": ("amplitude",)},
+    "hysteresis": {"amplitude": ("amplitude",), "yield_torque": ("yield_torque",)},
 }
 UNSIGNED = ("joint_offset", "time_offset", "torque_offset", "tcp_offset", "link_length")
 
