@@ -9,6 +9,14 @@
 #error "flexcomp checks its inputs for NaN and infinity, which -ffast-math assumes away"
 #endif
 
+// A tick as one function: what its parts hand each other stays in registers. That costs half a
+// kilobyte, which a microcontroller does without.
+#ifdef FLEXCOMP_VECTOR_REGISTERS
+#define FLEXCOMP_AS_ONE [[gnu::flatten]]
+#else
+#define FLEXCOMP_AS_ONE
+#endif
+
 namespace flexcomp {
 namespace {
 
@@ -171,7 +179,9 @@ template <typename Scalar, int Joints>
 void Compensator<Scalar, Joints>::take_setpoint(const Input& input, std::uint32_t faults) {
   const bool usable = (faults & (kSetpointNotFinite | kSetpointOutOfRange)) == 0;
   if (usable) {
-    setpoint_ = input.setpoint;
+    // Written as the look-up reads it, in vector registers: what was written number by number would
+    // have to leave the processor's store buffer first.
+    setpoint_ = PackedSix<Scalar>(input.setpoint).numbers();
     has_setpoint_ = true;
   }
   const bool known_age =
@@ -262,7 +272,7 @@ std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
 }
 
 template <typename Scalar, int Joints>
-auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
+FLEXCOMP_AS_ONE auto Compensator<Scalar, Joints>::tick(const Input& input) -> Output {
   using Six = PackedSix<Scalar>;
   Output output;  // not zeroed: every field is set below, and that is a twelfth of the time
   output.deflection.setZero();

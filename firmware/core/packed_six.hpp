@@ -9,6 +9,9 @@
 
 namespace flexcomp {
 
+template <typename Scalar>
+class PackedColumns;
+
 /// Six numbers, of a joint vector, a twist or a wrench, as a tick computes with them: in vector
 /// registers where the processor has them.
 ///
@@ -16,9 +19,10 @@ namespace flexcomp {
 /// beside two zeros.
 template <typename Scalar>
 class PackedSix {
-  using Numbers = Eigen::Matrix<Scalar, 6, 1>;
-
  public:
+  using Numbers = Eigen::Matrix<Scalar, 6, 1>;
+  static constexpr bool kFourProductsAtOnce = false;
+
   PackedSix() = default;
   explicit PackedSix(const Numbers& numbers) {
     each([&](int i) { numbers_[i] = numbers.data()[i]; });
@@ -86,15 +90,11 @@ class PackedSix {
     return std::isnan(sum) ? std::numeric_limits<Scalar>::infinity() : largest;
   }
 
-  /// Of each column with one vector: Aᵀ b.
-  static PackedSix dots(const std::array<PackedSix, 6>& columns, const PackedSix& with) {
-    return of([&](int i) { return columns[static_cast<std::size_t>(i)].dot(with); });
-  }
-  /// Columns times their factors: A b.
-  static PackedSix sum(const std::array<PackedSix, 6>& columns, const PackedSix& factors) {
-    PackedSix sum;
-    each([&](int i) { sum = sum + factors.numbers_[i] * columns[static_cast<std::size_t>(i)]; });
-    return sum;
+  /// Is no magnitude larger? Not where one is not a number.
+  bool is_within(Scalar most) const {
+    bool within = true;
+    each([&](int i) { within = within && std::abs(numbers_[i]) <= most; });
+    return within;
   }
 
  private:
@@ -124,19 +124,18 @@ class PackedSix<float> {
   using FourBits [[gnu::vector_size(16)]] = std::uint32_t;
   using TwoPairs [[gnu::vector_size(16)]] = std::uint64_t;
   using FourTruths = decltype(Four() < Four());  ///< all bits of a number, or none
-  using Numbers = Eigen::Matrix<float, 6, 1>;
 
  public:
+  using Numbers = Eigen::Matrix<float, 6, 1>;
+  static constexpr bool kFourProductsAtOnce = true;
+
   PackedSix() = default;
   explicit PackedSix(const Numbers& numbers) : PackedSix(read(numbers.data())) {}
 
   static PackedSix read(const float* floats) {
-    PackedSix six;
     std::uint64_t pair = 0;
-    std::memcpy(&six.first_, floats, sizeof six.first_);
     std::memcpy(&pair, floats + 4, sizeof pair);
-    six.last_ = reinterpret_cast<Four>(TwoPairs{pair, 0});
-    return six;
+    return {four(floats), reinterpret_cast<Four>(TwoPairs{pair, 0})};
   }
 
   void write(float* floats) const {
@@ -165,22 +164,13 @@ class PackedSix<float> {
   PackedSix operator-() const { return {-first_, -last_}; }
   float dot(const PackedSix& other) const { return total(products(other)); }
 
-  static PackedSix dots(const std::array<PackedSix, 6>& columns, const PackedSix& with) {
-    const Four a = columns[0].products(with), b = columns[1].products(with);
-    const Four c = columns[2].products(with), d = columns[3].products(with);
-    const Four e = columns[4].products(with), f = columns[5].products(with);
-    const Four ab = halves(a, b), cd = halves(c, d), ef = halves(e, f);
-    const Four none = {};
-    return {
-        __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
-        __builtin_shufflevector(ef, none, 0, 1, 4, 5) +
-            __builtin_shufflevector(ef, none, 2, 3, 6, 7)};
-  }
-  static PackedSix sum(const std::array<PackedSix, 6>& columns, const PackedSix& factors) {
-    const PackedSix a = factors.first_[0] * columns[0] + factors.first_[1] * columns[1];
-    const PackedSix b = factors.first_[2] * columns[2] + factors.first_[3] * columns[3];
-    const PackedSix c = factors.last_[0] * columns[4] + factors.last_[1] * columns[5];
-    return (a + b) + c;
+  /// Four scalar products, of `a` with two and of `b` with two.
+  static std::array<float, 4> dots(const PackedSix& a, const std::array<PackedSix, 2>& with_a,
+                                   const PackedSix& b, const std::array<PackedSix, 2>& with_b) {
+    const Four of_a = halves(a.products(with_a[0]), a.products(with_a[1]));
+    const Four of_b = halves(b.products(with_b[0]), b.products(with_b[1]));
+    const Four sums = of_both(of_a, of_b);
+    return {sums[0], sums[1], sums[2], sums[3]};
   }
 
   /// Number by number: a if a < b, else b; a if a > b, else b.
@@ -229,6 +219,9 @@ class PackedSix<float> {
     return all((first_ >= lower.first_) & (first_ <= upper.first_) & (last_ >= lower.last_) &
                (last_ <= upper.last_));
   }
+  bool is_within(float most) const {
+    return all((magnitude(first_) <= most) & (magnitude(last_) <= most));
+  }
 
   float largest_magnitude() const {
     const Four a = magnitude(first_);
@@ -243,6 +236,11 @@ class PackedSix<float> {
  private:
   PackedSix(Four first, Four last) : first_(first), last_(last) {}
 
+  static Four four(const float* floats) {
+    Four four;
+    std::memcpy(&four, floats, sizeof four);
+    return four;
+  }
   static bool all(FourTruths truth) {
     const TwoPairs pairs = reinterpret_cast<TwoPairs>(truth);
     return (pairs[0] & pairs[1]) == ~std::uint64_t{0};
@@ -254,6 +252,11 @@ class PackedSix<float> {
   static Four halves(Four a, Four b) {
     return __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
   }
+  /// The rest of four scalar products, of `halves` of the first two and of the last two.
+  static Four of_both(Four ab, Four cd) {
+    return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) +
+           __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  }
   static float total(Four four) {
     const Four pairs = four + __builtin_shufflevector(four, four, 2, 3, 2, 3);
     return pairs[0] + pairs[1];
@@ -261,6 +264,8 @@ class PackedSix<float> {
   static Four magnitude(Four four) {
     return reinterpret_cast<Four>(reinterpret_cast<FourBits>(four) & 0x7fffffffU);
   }
+
+  friend class PackedColumns<float>;
 
   Four first_ = {};
   Four last_ = {};  ///< the fifth, the sixth, two zeros

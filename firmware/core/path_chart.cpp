@@ -1,10 +1,11 @@
 #include "path_chart.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
 #include "instantiate.hpp"
-#include "packed_six.hpp"
+#include "packed_columns.hpp"
 
 namespace flexcomp {
 namespace {
@@ -44,6 +45,9 @@ class Segment {
     return {along(past_from_, from_ + kPath.normal_out), -along(past_to_, to_ + kPath.normal_in)};
   }
 
+  Scalar blend() const { return place().blend(); }
+
+  bool is_within(Scalar width, Scalar t) const { return off_chord(t) <= width; }
   /// Largest distance of a joint from the chord; where huge numbers leave none, infinitely far.
   Scalar off_chord(Scalar t) const {
     return (past_from_ - t * (past_from_ - past_to_)).largest_magnitude();
@@ -60,6 +64,46 @@ class Segment {
   PackedSix<Scalar> past_to_;
 };
 
+#ifdef FLEXCOMP_VECTOR_REGISTERS
+
+/// The same, with all its planes at once and without a branch.
+template <>
+class Segment<float> {
+  using Six = PackedSix<float>;
+
+ public:
+  Segment(const float* from, const float* to, const Six& q)
+      : past_from_(q - Six::read(from + kPath.angles)),
+        past_to_(q - Six::read(to + kPath.angles)),
+        along_(Six::dots(
+            past_from_, {Six::read(from + kPath.switching), Six::read(from + kPath.normal_out)},
+            past_to_, {Six::read(to + kPath.switching), Six::read(to + kPath.normal_in)})) {}
+
+  bool is_before() const { return along_[0] < 0.0F; }
+  bool is_behind() const { return along_[2] > 0.0F; }
+
+  SegmentPlace<float> place() const { return {along_[1], -along_[3]}; }
+
+  float blend() const {
+    // No less than this divides: nothing gone is 0 also where nothing is left.
+    constexpr float kLeast = std::numeric_limits<float>::min();
+    const float gone = std::max(0.0F, along_[1]);
+    return gone / std::max(kLeast, gone + std::max(0.0F, -along_[3]));
+  }
+
+  bool is_within(float width, float t) const { return off(t).is_within(width); }
+  float off_chord(float t) const { return off(t).largest_magnitude(); }
+
+ private:
+  Six off(float t) const { return past_from_ - t * (past_from_ - past_to_); }
+
+  Six past_from_;
+  Six past_to_;
+  std::array<float, 4> along_;  ///< their distances past the planes
+};
+
+#endif
+
 template <typename Scalar>
 Segment<Scalar> segment_of(const Table& table, std::uint32_t segment, const PackedSix<Scalar>& q) {
   return {table.record(segment), table.record(segment + 1), q};
@@ -68,20 +112,19 @@ Segment<Scalar> segment_of(const Table& table, std::uint32_t segment, const Pack
 template <typename Scalar>
 [[gnu::always_inline]] inline SegmentFind<Scalar> find_on(const Segment<Scalar>& segment,
                                                           std::uint32_t number) {
-  const Scalar t = segment.place().blend();
+  const Scalar t = segment.blend();
   return {number, t, segment.off_chord(t)};
 }
 
 /// Moves from the cursor's segment to the one that `q` lies in, by at most two segments in one
 /// direction.
 template <typename Scalar>
-[[gnu::always_inline]] inline SegmentFind<Scalar> follow(const Table& table,
-                                                         const PackedSix<Scalar>& q,
-                                                         std::uint32_t number) {
+[[gnu::always_inline]] inline Segment<Scalar> follow(const Table& table, const PackedSix<Scalar>& q,
+                                                     std::uint32_t* at) {
   constexpr int kMaxMoves = 2;
   const std::uint32_t last = table.header().node_count - 2;
   const bool closed = table.header().closed != 0;
-  number = number > last ? last : number;
+  std::uint32_t number = *at > last ? last : *at;
   Segment<Scalar> segment = segment_of(table, number, q);
   int direction = 0;
   for (int move = 0; move < kMaxMoves; ++move) {
@@ -96,12 +139,13 @@ template <typename Scalar>
     }
     segment = segment_of(table, number, q);
   }
-  return find_on(segment, number);
+  *at = number;
+  return segment;
 }
 
 template <typename Scalar>
-Scalar width_of(const Table& table, const SegmentFind<Scalar>& find) {
-  return static_cast<Scalar>(table.record(find.segment)[kPath.width]);
+Scalar width_of(const Table& table, std::uint32_t segment) {
+  return static_cast<Scalar>(table.record(segment)[kPath.width]);
 }
 
 /// Four segments further on than the last call's, for one that `q` lies nearer to.
@@ -127,14 +171,17 @@ template <typename Scalar>
                                                                const PackedSix<Scalar>& q,
                                                                TableCursor* cursor,
                                                                Scalar* outside) {
-  SegmentFind<Scalar> find = follow(table, q, cursor->segment);
-  if (find.off > width_of(table, find)) {
-    find = search(table, q, find, cursor);
-  } else {
+  const Segment<Scalar> segment = follow(table, q, &cursor->segment);
+  const Scalar t = segment.blend();
+  if (segment.is_within(width_of<Scalar>(table, cursor->segment), t)) {
     cursor->searched = 0;
+    *outside = 0;
+    return {cursor->segment, t, Scalar(0)};
   }
+  const SegmentFind<Scalar> find =
+      search(table, q, SegmentFind<Scalar>{cursor->segment, t, segment.off_chord(t)}, cursor);
   cursor->segment = find.segment;
-  const Scalar beyond = find.off - width_of(table, find);
+  const Scalar beyond = find.off - width_of<Scalar>(table, find.segment);
   *outside = beyond > Scalar(0) ? beyond : Scalar(0);
   return find;
 }
@@ -214,13 +261,9 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
   const float* from = table.record(find.segment);
   const float* to = from + table.header().record_size;
   using Six = PackedSix<Scalar>;
-  std::array<Six, 6> jacobian;
-#pragma GCC unroll 6
-  for (std::uint32_t joint = 0; joint < Joints; ++joint) {
-    const std::uint32_t place = kPath.jacobian + 6 * joint;
-    jacobian[joint] = blend(from + place, to + place, find.t);
-  }
-  Six torque = Six::dots(jacobian, Six(wrench));
+  const auto jacobian =
+      PackedColumns<Scalar>::blend(from + kPath.jacobian, to + kPath.jacobian, find.t);
+  Six torque = jacobian.transposed_times(Six(wrench));
   if (table.has_weight()) {
     torque = torque + blend(from + kPath.weight_torque, to + kPath.weight_torque, find.t);
   }
@@ -228,7 +271,7 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
   const Six cubic = Six::read(table.header().cubic_compliance);
   const Six windup = spring * torque + cubic * torque * (torque * torque);
   TableResponse<Scalar, Joints> response;
-  response.deflection = Six::sum(jacobian, windup).numbers();
+  response.deflection = jacobian.times(windup).numbers();
   response.correction = (-windup).numbers();
   if (table.has_structure()) {
     add_structure<Scalar, Joints>(from, to, record_layout(table), find.t, wrench, &response);

@@ -1,0 +1,104 @@
+#pragma once
+
+#include "packed_six.hpp"
+
+namespace flexcomp {
+
+/// Six columns of six numbers, of a geometric Jacobian, as a tick computes with them: in vector
+/// registers where the processor has them.
+template <typename Scalar>
+class PackedColumns {
+  using Six = PackedSix<Scalar>;
+
+ public:
+  /// from + t (to - from), of two tables' records: column after column.
+  static PackedColumns blend(const float* from, const float* to, Scalar t) {
+    PackedColumns columns;
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Six a = Six::read(from + 6 * i);
+      columns.columns_[i] = a + t * (Six::read(to + 6 * i) - a);
+    }
+    return columns;
+  }
+
+  /// Aᵀ b.
+  Six transposed_times(const Six& b) const {
+    typename Six::Numbers dots;
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < 6; ++i) {
+      dots.data()[i] = columns_[i].dot(b);
+    }
+    return Six(dots);
+  }
+  /// A b.
+  Six times(const Six& b) const {
+    const typename Six::Numbers factors = b.numbers();
+    Six sum;
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < 6; ++i) {
+      sum = sum + factors.data()[i] * columns_[i];
+    }
+    return sum;
+  }
+
+ private:
+  std::array<Six, 6> columns_;
+};
+
+#ifdef FLEXCOMP_VECTOR_REGISTERS
+
+/// The 36 numbers as they follow each other, in nine registers: of two columns the first has the
+/// first four numbers of one, the second its last two and the first two of the other, the third the
+/// other's last four.
+template <>
+class PackedColumns<float> {
+  using Six = PackedSix<float>;
+  using Four = Six::Four;
+
+ public:
+  static PackedColumns blend(const float* from, const float* to, float t) {
+    PackedColumns columns;
+#pragma GCC unroll 9
+    for (std::size_t i = 0; i < 9; ++i) {
+      const Four a = Six::four(from + 4 * i);
+      columns.fours_[i] = a + t * (Six::four(to + 4 * i) - a);
+    }
+    return columns;
+  }
+
+  Six transposed_times(const Six& b) const {
+    const Four middle = __builtin_shufflevector(b.last_, b.first_, 0, 1, 4, 5);
+    const Four last = __builtin_shufflevector(b.first_, b.last_, 2, 3, 4, 5);
+    const auto pair = [&](std::size_t i) {
+      const Four p = fours_[i] * b.first_;
+      const Four q = fours_[i + 2] * last;
+      return fours_[i + 1] * middle + (__builtin_shufflevector(p, q, 0, 1, 4, 5) +
+                                       __builtin_shufflevector(p, q, 2, 3, 6, 7));
+    };
+    const Four ab = pair(0), cd = pair(3), ef = pair(6), none = {};
+    return {
+        __builtin_shufflevector(ab, cd, 0, 2, 4, 6) + __builtin_shufflevector(ab, cd, 1, 3, 5, 7),
+        __builtin_shufflevector(ef, none, 0, 2, 4, 6) +
+            __builtin_shufflevector(ef, none, 1, 3, 5, 7)};
+  }
+  Six times(const Six& b) const {
+    const Four f = b.first_, g = b.last_;
+    const Four first = f[0] * fours_[0] + f[2] * fours_[3] + g[0] * fours_[6];
+    const Four middle = __builtin_shufflevector(f, f, 0, 0, 1, 1) * fours_[1] +
+                        __builtin_shufflevector(f, f, 2, 2, 3, 3) * fours_[4] +
+                        __builtin_shufflevector(g, g, 0, 0, 1, 1) * fours_[7];
+    const Four last = f[1] * fours_[2] + f[3] * fours_[5] + g[1] * fours_[8];
+    const Four none = {};
+    return {first + __builtin_shufflevector(middle, last, 2, 3, 4, 5),
+            __builtin_shufflevector(middle, none, 0, 1, 4, 5) +
+                __builtin_shufflevector(last, none, 2, 3, 4, 5)};
+  }
+
+ private:
+  std::array<Four, 9> fours_;
+};
+
+#endif
+
+}  // namespace flexcomp

@@ -1,0 +1,106 @@
+#include <random>
+#include <vector>
+
+#include "packed_columns.hpp"
+#include "unity_main.hpp"
+
+using flexcomp::PackedColumns;
+using flexcomp::PackedSix;
+
+namespace {
+
+template <typename Scalar>
+using Numbers = Eigen::Matrix<Scalar, 6, 1>;
+using Matrix = Eigen::Matrix<float, 6, 6>;  // column after column, as in a table
+
+Matrix any_matrix(std::mt19937* random) {
+  std::uniform_real_distribution<float> between(-10, 10);
+  return Matrix::NullaryExpr([&] { return between(*random); });
+}
+
+/// A blend of two matrices and its transpose, times a vector, beside what Eigen makes of them.
+template <typename Scalar>
+void try_products() {
+  std::mt19937 random(2);
+  for (int round = 0; round < 100; ++round) {
+    const Matrix from = any_matrix(&random);
+    const Matrix to = any_matrix(&random);
+    const Numbers<Scalar> b = any_matrix(&random).col(0).template cast<Scalar>();
+    const Scalar t = Scalar(0.01) * static_cast<Scalar>(round);
+    const auto columns = PackedColumns<Scalar>::blend(from.data(), to.data(), t);
+    const Eigen::Matrix<Scalar, 6, 6> matrix =
+        (Scalar(1) - t) * from.template cast<Scalar>() + t * to.template cast<Scalar>();
+    const Scalar units = 16 * std::numeric_limits<Scalar>::epsilon() * b.norm() *
+                         static_cast<Scalar>(from.norm() + to.norm());
+    const PackedSix<Scalar> packed(b);
+    const Numbers<Scalar> transposed = columns.transposed_times(packed).numbers();
+    const Numbers<Scalar> product = columns.times(packed).numbers();
+    TEST_ASSERT_TRUE((transposed - matrix.transpose() * b).norm() <= units);
+    TEST_ASSERT_TRUE((product - matrix * b).norm() <= units);
+  }
+}
+
+void columns_multiply_as_a_matrix_and_its_transpose() {
+  try_products<float>();
+  try_products<double>();
+}
+
+/// Each place of the matrix by itself, so that none can stand in for another.
+template <typename Scalar>
+void try_each_place() {
+  for (Eigen::Index place = 0; place < 36; ++place) {
+    Matrix matrix = Matrix::Zero();
+    matrix.data()[place] = 3;
+    const auto columns = PackedColumns<Scalar>::blend(matrix.data(), matrix.data(), Scalar(0.5));
+    const Numbers<Scalar> b = {1, 2, 3, 4, 5, 6};
+    const Numbers<Scalar> transposed = columns.transposed_times(PackedSix<Scalar>(b)).numbers();
+    const Numbers<Scalar> product = columns.times(PackedSix<Scalar>(b)).numbers();
+    const Eigen::Matrix<Scalar, 6, 6> exact = matrix.template cast<Scalar>();
+    TEST_ASSERT_TRUE(transposed == exact.transpose() * b);
+    TEST_ASSERT_TRUE(product == exact * b);
+  }
+}
+
+void each_place_counts() {
+  try_each_place<float>();
+  try_each_place<double>();
+}
+
+/// What follows six numbers in a register must be zero: products and norms of the six would
+/// otherwise count it.
+template <typename Scalar>
+void try_norms() {
+  std::mt19937 random(4);
+  const Matrix matrix = any_matrix(&random);
+  const auto columns = PackedColumns<Scalar>::blend(matrix.data(), matrix.data(), Scalar(0));
+  const PackedSix<Scalar> ones(Numbers<Scalar>::Ones());
+  for (const PackedSix<Scalar>& six : {columns.times(ones), columns.transposed_times(ones)}) {
+    const Scalar squares = six.numbers().squaredNorm();
+    TEST_ASSERT_TRUE(std::abs(six.dot(six) - squares) <=
+                     8 * std::numeric_limits<Scalar>::epsilon() * squares);
+    TEST_ASSERT_TRUE(six.largest_magnitude() == six.numbers().cwiseAbs().maxCoeff());
+  }
+}
+
+void nothing_is_left_beside_a_product() {
+  try_norms<float>();
+  try_norms<double>();
+}
+
+void nothing_but_36_floats_is_read() {
+  const std::vector<float> floats(36, 1.0F);  // the address sanitizer watches its ends
+  const auto columns = PackedColumns<float>::blend(floats.data(), floats.data(), 0.5F);
+  const PackedSix<float> ones(Numbers<float>::Ones());
+  TEST_ASSERT_TRUE(columns.times(ones).numbers() == Numbers<float>::Constant(6));
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(columns_multiply_as_a_matrix_and_its_transpose);
+  RUN_TEST(each_place_counts);
+  RUN_TEST(nothing_is_left_beside_a_product);
+  RUN_TEST(nothing_but_36_floats_is_read);
+  return UNITY_END();
+}
