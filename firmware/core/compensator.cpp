@@ -9,8 +9,8 @@
 #error "flexcomp checks its inputs for NaN and infinity, which -ffast-math assumes away"
 #endif
 
-// A tick as one function: what its parts hand each other stays in registers. That costs half a
-// kilobyte, which a microcontroller does without.
+// All of a tick that stands in this file, as one function: what its parts hand each other stays in
+// registers. That costs half a kilobyte, which a microcontroller does without.
 #ifdef FLEXCOMP_VECTOR_REGISTERS
 #define FLEXCOMP_AS_ONE [[gnu::flatten]]
 #else

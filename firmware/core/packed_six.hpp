@@ -21,7 +21,6 @@ template <typename Scalar>
 class PackedSix {
  public:
   using Numbers = Eigen::Matrix<Scalar, 6, 1>;
-  static constexpr bool kFourProductsAtOnce = false;
 
   PackedSix() = default;
   explicit PackedSix(const Numbers& numbers) {
@@ -127,7 +126,6 @@ class PackedSix<float> {
 
  public:
   using Numbers = Eigen::Matrix<float, 6, 1>;
-  static constexpr bool kFourProductsAtOnce = true;
 
   PackedSix() = default;
   explicit PackedSix(const Numbers& numbers) : PackedSix(read(numbers.data())) {}

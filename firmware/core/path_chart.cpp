@@ -25,7 +25,7 @@ template <typename Scalar>
 struct SegmentFind {
   std::uint32_t segment;
   Scalar t;
-  Scalar off;
+  Scalar off;  ///< zero where the look-up knows that it is within the segment's width
 };
 
 /// A segment and where joint angles lie from its two nodes (rad).
@@ -85,10 +85,13 @@ class Segment<float> {
   SegmentPlace<float> place() const { return {along_[1], -along_[3]}; }
 
   float blend() const {
-    // No less than this divides: nothing gone is 0 also where nothing is left.
+    // As SegmentPlace::blend, also where huge numbers leave no finite distance: 0 where nothing is
+    // gone, so that what divides must not be zero; what is not a number stays so.
+    constexpr float kMost = std::numeric_limits<float>::max();
     constexpr float kLeast = std::numeric_limits<float>::min();
-    const float gone = std::max(0.0F, along_[1]);
-    return gone / std::max(kLeast, gone + std::max(0.0F, -along_[3]));
+    const float gone = std::clamp(along_[1], 0.0F, kMost);
+    const float left = std::clamp(-along_[3], 0.0F, kMost);
+    return gone / std::max(gone + left, kLeast);
   }
 
   bool is_within(float width, float t) const { return off(t).is_within(width); }

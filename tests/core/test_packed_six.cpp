@@ -39,6 +39,8 @@ void try_arithmetic() {
     expect_near<Scalar>(a + b, (p + q).numbers());
     expect_near<Scalar>(a - b, (p - q).numbers());
     expect_near<Scalar>(Scalar(0.3) * a, (Scalar(0.3) * p).numbers());
+    expect_near<Scalar>(a.cwiseProduct(b), (p * q).numbers());
+    expect_near<Scalar>(-a, (-p).numbers());
     const auto scale = static_cast<double>((a.cwiseAbs()).dot(b.cwiseAbs()));
     constexpr auto kUnits = 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
     TEST_ASSERT_DOUBLE_WITHIN(kUnits * scale, static_cast<double>(a.dot(b)),

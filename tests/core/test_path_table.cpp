@@ -129,21 +129,28 @@ void the_worst_wrench_is_no_better_than_any_other() {
   }
 }
 
-void following_the_program_either_way_keeps_the_certificate() {
-  const auto model = kr270<double>();
-  const Program<double> program = loop<double>();
-  const Built<double> built(model, program, requirements(1e-6));
+template <typename Scalar>
+void follow_either_way(Scalar tolerance) {
+  const auto model = kr270<Scalar>();
+  const Program<Scalar> program = loop<Scalar>();
+  const Built<Scalar> built(model, program, requirements(tolerance));
+  TEST_ASSERT_EQUAL(Result::ok, built.result);
   TableCursor cursor;
-  TableError<double> worst;
+  TableError<Scalar> worst;
   for (int i = 0; i < 4 * kPieces * 20; ++i) {
     // Two rounds forward, two back.
     const int step = i < 2 * kPieces * 20 ? i : 4 * kPieces * 20 - i;
-    const JointVector<double, 6> q = on_program(program, std::fmod(step / 20.0, kPieces));
-    const TableError<double> error = table_error_at<double, 6>(model, built.table, q, &cursor);
-    TEST_ASSERT_TRUE((look_up<double, 6>(built.table, q, &cursor).outside == 0));
+    const JointVector<Scalar, 6> q = on_program(program, std::fmod(step / 20.0, kPieces));
+    const TableError<Scalar> error = table_error_at<Scalar, 6>(model, built.table, q, &cursor);
+    TEST_ASSERT_TRUE((look_up<Scalar, 6>(built.table, q, &cursor).outside == 0));
     worst.position = std::max(worst.position, error.position);
   }
-  TEST_ASSERT_TRUE(worst.position <= static_cast<double>(built.table.header().position_error));
+  TEST_ASSERT_TRUE(worst.position <= static_cast<Scalar>(built.table.header().position_error));
+}
+
+void following_the_program_either_way_keeps_the_certificate() {
+  follow_either_way<double>(1e-6);
+  follow_either_way<float>(2e-6F);
 }
 
 void a_finer_tolerance_costs_about_the_square_root_in_nodes() {
@@ -156,86 +163,116 @@ void a_finer_tolerance_costs_about_the_square_root_in_nodes() {
 
 /// Runs along a program without looking at the whole table again and checks every step, but for
 /// `lost` ones at most that the lookup itself says are outside.
-void check_run(const Program<double>& program, double tolerance, int lost) {
-  const auto model = kr270<double>();
-  const Built<double> built(model, program, requirements(tolerance));
+template <typename Scalar>
+void check_run(const Program<Scalar>& program, Scalar tolerance, int lost) {
+  const auto model = kr270<Scalar>();
+  const Built<Scalar> built(model, program, requirements(tolerance));
   TEST_ASSERT_EQUAL(Result::ok, built.result);
   TableCursor cursor;
   const auto steps = static_cast<int>(1000 * (program.size() - 1));
   for (int i = 0; i < steps; ++i) {
-    const JointVector<double, 6> q = on_program(program, i / 1000.0);
-    if (look_up<double, 6>(built.table, q, &cursor).outside > 0) {
+    const JointVector<Scalar, 6> q = on_program(program, i / 1000.0);
+    if (look_up<Scalar, 6>(built.table, q, &cursor).outside > 0) {
       --lost;
       continue;
     }
-    const TableError<double> error = table_error_at<double, 6>(model, built.table, q, &cursor);
-    TEST_ASSERT_TRUE(error.position <= static_cast<double>(built.table.header().position_error));
+    const TableError<Scalar> error = table_error_at<Scalar, 6>(model, built.table, q, &cursor);
+    TEST_ASSERT_TRUE(error.position <= static_cast<Scalar>(built.table.header().position_error));
   }
   TEST_ASSERT_TRUE(lost >= 0);
 }
 
-Program<double> zigzag(const std::vector<std::pair<Eigen::Index, double>>& moves) {
-  Program<double> points = {loop_angles<double>(0)};
+template <typename Scalar>
+Program<Scalar> zigzag(const std::vector<std::pair<Eigen::Index, double>>& moves) {
+  Program<Scalar> points = {loop_angles<Scalar>(0)};
   for (const auto& [joint, angle] : moves) {
-    points.push_back(points.back() + angle * JointVector<double, 6>::Unit(joint));
+    points.push_back(points.back() +
+                     static_cast<Scalar>(angle) * JointVector<Scalar, 6>::Unit(joint));
   }
   return points;
 }
 
-void corners_of_every_angle_keep_the_certificate() {
-  check_run(zigzag({{1, 0.05}, {2, -0.08}, {1, 0.05}, {3, 0.1}}), 1e-7, 0);
-  Program<double> spikes = zigzag({{1, 0.05}});
+template <typename Scalar>
+void turn_corners(Scalar tolerance) {
+  check_run(zigzag<Scalar>({{1, 0.05}, {2, -0.08}, {1, 0.05}, {3, 0.1}}), tolerance, 0);
+  Program<Scalar> spikes = zigzag<Scalar>({{1, 0.05}});
   for (const double bend : {0.5, 0.1, 0.02, -0.3}) {
-    JointVector<double, 6> back = spikes[spikes.size() - 2] - spikes.back();
-    back[2] += bend * back.norm();
+    JointVector<Scalar, 6> back = spikes[spikes.size() - 2] - spikes.back();
+    back[2] += static_cast<Scalar>(bend) * back.norm();
     spikes.push_back(spikes.back() + back);
   }
-  check_run(spikes, 1e-7, 0);
+  check_run(spikes, tolerance, 0);
+}
+
+void corners_of_every_angle_keep_the_certificate() {
+  turn_corners<double>(1e-7);
+  turn_corners<float>(2e-6F);
 }
 
 /// Plunge, retract along the same line, move on: when the program turns off the lookup is still on
 /// the plunge, and has to find the new segment a few ahead.
+template <typename Scalar>
+void plunge_and_retract(Scalar tolerance) {
+  check_run(
+      zigzag<Scalar>({{1, 0.05}, {2, 0.1}, {2, -0.1}, {3, 0.2}, {2, 0.1}, {2, -0.1}, {1, 0.03}}),
+      tolerance, 10);
+}
+
 void a_program_that_runs_back_on_itself_is_followed() {
-  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {3, 0.2}, {2, 0.1}, {2, -0.1}, {1, 0.03}}),
-            2e-7, 10);
+  plunge_and_retract<double>(2e-7);
+  plunge_and_retract<float>(2e-6F);
 }
 
 /// Retracting further than it had plunged, or leaving where it came from, it comes before the
 /// plunge as well as behind the retract: the segments between do not lead to the new one.
+template <typename Scalar>
+void turn_off_backwards(Scalar tolerance) {
+  check_run(zigzag<Scalar>({{1, 0.05}, {2, 0.1}, {2, -0.1}, {2, -0.1}}), tolerance, 10);
+  check_run(zigzag<Scalar>({{1, 0.05}, {2, 0.1}, {2, -0.1}, {1, -0.1}}), tolerance, 10);
+}
+
 void a_program_that_turns_off_backwards_is_found_again() {
-  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {2, -0.1}}), 2e-7, 10);
-  check_run(zigzag({{1, 0.05}, {2, 0.1}, {2, -0.1}, {1, -0.1}}), 2e-7, 10);
+  turn_off_backwards<double>(2e-7);
+  turn_off_backwards<float>(2e-6F);
 }
 
 /// Anywhere between two nodes.
-void compare_response_with_entry(const RobotModel<double, 6>& model) {
-  const Program<double> program = loop<double>();
-  const Built<double> built(model, program, requirements(1e-4));
+template <typename Scalar>
+void compare_response_with_entry(const RobotModel<Scalar, 6>& model) {
+  constexpr Scalar kUnits = 64 * std::numeric_limits<Scalar>::epsilon();
+  const Program<Scalar> program = loop<Scalar>();
+  const Built<Scalar> built(model, program, requirements(Scalar(1e-4)));
   TEST_ASSERT_EQUAL(Result::ok, built.result);
-  Wrench<double> wrench;
-  wrench << 440, 1370, 635, 3, -8, 10.5;
+  Wrench<Scalar> wrench;
+  wrench << 440, 1370, 635, 3, -8, Scalar(10.5);
   for (int place = 0; place < 30; ++place) {
-    const JointVector<double, 6> q = on_program(program, 7.77 * place);
+    const JointVector<Scalar, 6> q = on_program(program, 7.77 * place);
     TableCursor cursor;
-    locate<double, 6>(built.table, q, &cursor);
+    locate<Scalar, 6>(built.table, q, &cursor);
     TableCursor other = cursor;
-    double outside = 1;
-    const auto read = look_up_response<double, 6>(built.table, q, wrench, &cursor, &outside);
-    const auto entry = look_up<double, 6>(built.table, q, &other);
-    const auto expected = respond<double, 6>(built.table, entry, wrench);
-    TEST_ASSERT_EQUAL_DOUBLE(entry.outside, outside);
+    Scalar outside = 1;
+    const auto read = look_up_response<Scalar, 6>(built.table, q, wrench, &cursor, &outside);
+    const auto entry = look_up<Scalar, 6>(built.table, q, &other);
+    const auto expected = respond<Scalar, 6>(built.table, entry, wrench);
+    TEST_ASSERT_TRUE(entry.outside == outside);
     TEST_ASSERT_TRUE((read.deflection - expected.deflection).norm() <
-                     1e-12 * expected.deflection.norm());
+                     kUnits * expected.deflection.norm());
     TEST_ASSERT_TRUE((read.correction - expected.correction).norm() <
-                     1e-12 * expected.correction.norm());
+                     kUnits * expected.correction.norm());
   }
 }
 
-void what_a_tick_reads_is_the_response_of_the_entry() {
-  compare_response_with_entry(kr270_with_everything<double>());
-  RobotModel<double, 6> weightless = kr270_with_everything<double>();
+template <typename Scalar>
+void compare_responses_with_entries() {
+  compare_response_with_entry(kr270_with_everything<Scalar>());
+  RobotModel<Scalar, 6> weightless = kr270_with_everything<Scalar>();
   weightless.gravity.setZero();
   compare_response_with_entry(weightless);
+}
+
+void what_a_tick_reads_is_the_response_of_the_entry() {
+  compare_responses_with_entries<double>();
+  compare_responses_with_entries<float>();
 }
 
 void repeated_points_do_no_harm() {
@@ -252,33 +289,67 @@ void repeated_points_do_no_harm() {
   TEST_ASSERT_EQUAL_MEMORY(plain.words.data(), repeated.words.data(), plain.size);
 }
 
-void off_the_program_the_distance_is_told() {
-  const Built<double> built(kr270<double>(), loop<double>(), requirements(1e-6));
-  JointVector<double, 6> q = loop_angles<double>(1);
+template <typename Scalar>
+void leave_the_program() {
+  const Built<Scalar> built(kr270<Scalar>(), loop<Scalar>(), requirements(Scalar(2e-6)));
+  JointVector<Scalar, 6> q = loop_angles<Scalar>(1);
   TableCursor cursor;
-  q[5] += 0.02;
-  locate<double, 6>(built.table, q, &cursor);
-  const double outside = look_up<double, 6>(built.table, q, &cursor).outside;
-  TEST_ASSERT_TRUE(outside > 0.01 && outside < 0.02);
+  q[5] += Scalar(0.02);
+  locate<Scalar, 6>(built.table, q, &cursor);
+  const Scalar outside = look_up<Scalar, 6>(built.table, q, &cursor).outside;
+  TEST_ASSERT_TRUE(outside > Scalar(0.01) && outside < Scalar(0.02));
+}
+
+void off_the_program_the_distance_is_told() {
+  leave_the_program<double>();
+  leave_the_program<float>();
 }
 
 /// An open program: before its beginning and past its end the nearest end counts.
-void beyond_the_ends_nothing_is_extrapolated() {
-  Program<double> line = {loop_angles<double>(0), loop_angles<double>(0)};
-  line[1][1] += 0.1;
-  const Built<double> built(kr270<double>(), line, requirements(1e-6));
+template <typename Scalar>
+void go_beyond_the_ends(const std::vector<Scalar>& distances, Scalar slack) {
+  Program<Scalar> line = {loop_angles<Scalar>(0), loop_angles<Scalar>(0)};
+  line[1][1] += Scalar(0.1);
+  const Built<Scalar> built(kr270<Scalar>(), line, requirements(Scalar(2e-6)));
   TEST_ASSERT_EQUAL(0, built.table.header().closed);
   TableCursor cursor;
-  for (const double beyond : {-0.05, 0.05}) {
-    JointVector<double, 6> q = beyond < 0 ? line[0] : line[1];
-    locate<double, 6>(built.table, q, &cursor);
-    const auto at_end = look_up<double, 6>(built.table, q, &cursor);
+  for (const Scalar beyond : distances) {
+    JointVector<Scalar, 6> q = beyond < 0 ? line[0] : line[1];
+    locate<Scalar, 6>(built.table, q, &cursor);
+    const auto at_end = look_up<Scalar, 6>(built.table, q, &cursor);
     q[1] += beyond;
-    locate<double, 6>(built.table, q, &cursor);
-    const auto past_end = look_up<double, 6>(built.table, q, &cursor);
-    TEST_ASSERT_TRUE((at_end.jacobian - past_end.jacobian).cwiseAbs().maxCoeff() < 1e-6);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.05, past_end.outside);
+    locate<Scalar, 6>(built.table, q, &cursor);
+    const auto past_end = look_up<Scalar, 6>(built.table, q, &cursor);
+    TEST_ASSERT_TRUE((at_end.jacobian - past_end.jacobian).cwiseAbs().maxCoeff() < Scalar(1e-6));
+    TEST_ASSERT_TRUE(std::abs(past_end.outside - std::abs(beyond)) < slack);
   }
+}
+
+void beyond_the_ends_nothing_is_extrapolated() {
+  go_beyond_the_ends<double>({-0.05, 0.05}, 1e-4);
+  go_beyond_the_ends<float>({-0.05F, 0.05F}, 1e-4F);
+}
+
+/// So far that the distance along the program is no longer a number.
+template <typename Scalar>
+void go_as_far_as_numbers_go() {
+  const Built<Scalar> built(kr270<Scalar>(), loop<Scalar>(), requirements(Scalar(2e-6)));
+  for (const int sign : {-1, 1}) {
+    const auto q = JointVector<Scalar, 6>::Constant(static_cast<Scalar>(sign) *
+                                                    std::numeric_limits<Scalar>::max());
+    for (std::uint32_t segment = 0; segment + 1 < built.table.header().node_count; ++segment) {
+      TableCursor cursor;
+      cursor.segment = segment;
+      const auto entry = look_up<Scalar, 6>(built.table, q, &cursor);
+      TEST_ASSERT_TRUE(entry.jacobian.allFinite());
+      TEST_ASSERT_TRUE(entry.outside > Scalar(1e30));
+    }
+  }
+}
+
+void however_far_off_an_entry_of_the_table_is_read() {
+  go_as_far_as_numbers_go<double>();
+  go_as_far_as_numbers_go<float>();
 }
 
 void what_cannot_be_built_is_named() {
@@ -366,6 +437,7 @@ int main() {
   RUN_TEST(repeated_points_do_no_harm);
   RUN_TEST(off_the_program_the_distance_is_told);
   RUN_TEST(beyond_the_ends_nothing_is_extrapolated);
+  RUN_TEST(however_far_off_an_entry_of_the_table_is_read);
   RUN_TEST(what_cannot_be_built_is_named);
   RUN_TEST(a_wrist_singularity_is_fine_for_joint_springs_alone);
   return UNITY_END();

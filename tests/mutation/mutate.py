@@ -119,15 +119,17 @@ def judge(mutants, jobs):
 
 
 def main():
-    arguments = argparse.ArgumentParser(usage="tools/mutate [--mutants N] [--seed N] [--list FILE]")
+    arguments = argparse.ArgumentParser(usage="tools/mutate [--mutants N] [--seed N] [--only NAME] [--list FILE]")
     arguments.add_argument("--mutants", type=int, default=200)
     arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument("--only", default="")
     arguments.add_argument("--list", type=pathlib.Path)
     arguments.add_argument("--jobs", type=int, default=os.cpu_count())
     options = arguments.parse_args()
-    everything = [mutant for file in sorted((SOURCE / CORE).glob("*.cpp")) for mutant in mutants_of(file.name)]
+    files = sorted((SOURCE / CORE).glob(f"{options.only}*.[ch]pp"))
+    everything = [mutant for file in files for mutant in mutants_of(file.name)]
     drawn = random.Random(options.seed).sample(everything, min(options.mutants, len(everything)))
-    print(f"{len(drawn)} of {len(everything)} mutants of {CORE}", flush=True)
+    print(f"{len(drawn)} of {len(everything)} mutants of {CORE / options.only}", flush=True)
     fates = {"killed": [], "survived": [], "stillborn": []}
     for count, (mutant, fate) in enumerate(judge(drawn, options.jobs), 1):
         fates[fate].append(mutant)
