@@ -236,6 +236,58 @@ void a_program_that_turns_off_backwards_is_found_again() {
   turn_off_backwards<float>(2e-6F);
 }
 
+template <typename Scalar>
+JointVector<Scalar, 6> middle_of(const Table& table, std::uint32_t segment) {
+  using Node = Eigen::Map<const JointVector<float, 6>>;
+  return ((Node(table.record(segment)) + Node(table.record(segment + 1))) / 2)
+      .template cast<Scalar>();
+}
+
+/// From wherever the cursor is, to wherever the program is: no more look-ups than there are
+/// segments.
+template <typename Scalar>
+void jump(const Program<Scalar>& program) {
+  const Built<Scalar> built(kr270<Scalar>(), program, requirements(Scalar(2e-6)));
+  TEST_ASSERT_EQUAL(Result::ok, built.result);
+  const std::uint32_t segments = built.table.header().node_count - 1;
+  for (std::uint32_t from = 0; from < segments; ++from) {
+    for (std::uint32_t to = 0; to < segments; ++to) {
+      const JointVector<Scalar, 6> q = middle_of<Scalar>(built.table, to);
+      TableCursor cursor;
+      cursor.segment = from;
+      std::uint32_t look_ups = 1;
+      while (look_ups < segments && look_up<Scalar, 6>(built.table, q, &cursor).outside > 0) {
+        ++look_ups;
+      }
+      TEST_ASSERT_TRUE((look_up<Scalar, 6>(built.table, q, &cursor).outside == 0));
+    }
+  }
+}
+
+void after_a_jump_any_segment_is_found_from_any_other() {
+  jump<double>(loop<double>());
+  jump<float>(loop<float>());
+  jump<double>(zigzag<double>({{1, 0.05}, {2, 0.1}, {2, -0.1}, {2, -0.1}}));
+}
+
+/// Of a jump along a line, one look-up makes up but a few segments: two by going there, four by
+/// searching.
+template <typename Scalar>
+void jump_along_a_line() {
+  const Built<Scalar> built(kr270<Scalar>(), zigzag<Scalar>({{1, 1.5}}),
+                            requirements(Scalar(2e-6)));
+  TEST_ASSERT_EQUAL(Result::ok, built.result);
+  TEST_ASSERT_TRUE(built.table.header().node_count > 20);
+  TableCursor cursor;
+  look_up<Scalar, 6>(built.table, middle_of<Scalar>(built.table, 15), &cursor);
+  TEST_ASSERT_EQUAL(2 + 4, cursor.segment);
+}
+
+void a_look_up_after_a_jump_costs_no_more_than_a_few_segments() {
+  jump_along_a_line<double>();
+  jump_along_a_line<float>();
+}
+
 /// Anywhere between two nodes.
 template <typename Scalar>
 void compare_response_with_entry(const RobotModel<Scalar, 6>& model) {
@@ -433,6 +485,8 @@ int main() {
   RUN_TEST(corners_of_every_angle_keep_the_certificate);
   RUN_TEST(a_program_that_runs_back_on_itself_is_followed);
   RUN_TEST(a_program_that_turns_off_backwards_is_found_again);
+  RUN_TEST(after_a_jump_any_segment_is_found_from_any_other);
+  RUN_TEST(a_look_up_after_a_jump_costs_no_more_than_a_few_segments);
   RUN_TEST(what_a_tick_reads_is_the_response_of_the_entry);
   RUN_TEST(repeated_points_do_no_harm);
   RUN_TEST(off_the_program_the_distance_is_told);
