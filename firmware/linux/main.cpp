@@ -29,7 +29,8 @@ struct Slots {
 
 std::optional<std::vector<char>> initial_table(const Options& options) {
   if (!options.state_directory.empty()) {
-    std::optional<std::vector<char>> kept = SlotFiles(options.state_directory).newest();
+    std::optional<std::vector<char>> kept =
+        SlotFiles(options.state_directory).newest(options.table_capacity);
     if (kept) {
       return kept;
     }
@@ -37,9 +38,9 @@ std::optional<std::vector<char>> initial_table(const Options& options) {
   if (options.table.empty()) {
     return std::nullopt;
   }
-  std::optional<std::vector<char>> bytes = read_whole(options.table);
+  std::optional<std::vector<char>> bytes = read_whole(options.table, options.table_capacity);
   if (!bytes) {
-    throw std::runtime_error(options.table + ": cannot be read");
+    throw std::runtime_error(options.table + ": there is no such file");
   }
   return bytes;
 }
@@ -51,9 +52,6 @@ void load_table(const Options& options, Slots* slots, Node* node) {
   if (!bytes) {
     std::fprintf(stderr, "flexcompd: no table yet; waiting for one over the bus\n");
     return;
-  }
-  if (bytes->size() > 4 * slots->first.size()) {
-    throw std::runtime_error(options.table + ": larger than a slot");
   }
   std::memcpy(slots->first.data(), bytes->data(), bytes->size());
   Table table;

@@ -15,9 +15,9 @@ class SlotFiles {
  public:
   explicit SlotFiles(std::string directory) : directory_(std::move(directory)) {}
 
-  /// The bytes of the table that was last in use; of the other one if that is missing or damaged;
-  /// nothing if neither can be opened.
-  std::optional<std::vector<char>> newest() const;
+  /// The bytes of the table that was last in use; of the other one if that is missing, damaged or
+  /// larger than `most` bytes; nothing if neither can be opened.
+  std::optional<std::vector<char>> newest(std::size_t most) const;
 
   /// Keeps a table and names it as the one in use. Throws std::runtime_error if the disk refuses.
   void keep(const void* data, std::size_t size);

@@ -1,13 +1,13 @@
 #include "linux/whole_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "linux/file_descriptor.hpp"
@@ -19,34 +19,93 @@ namespace {
   throw std::runtime_error(path + ": " + std::strerror(errno));
 }
 
+[[noreturn]] void refuse_larger_than(const std::string& path, std::size_t most) {
+  throw std::runtime_error(path + ": larger than " + std::to_string(most) + " bytes");
+}
+
+/// What `file`, opened as `path`, is, so that nobody can put another there in between.
+struct stat ordinary(const FileDescriptor& file, const std::string& path) {
+  struct stat status {};
+  if (fstat(file.number(), &status) != 0) {
+    fail(path);
+  }
+  if (!S_ISREG(status.st_mode)) {
+    throw std::runtime_error(path + ": not an ordinary file");
+  }
+  return status;
+}
+
+/// Reads until the end, or until `bytes` is full.
+std::size_t read_into(std::vector<char>* bytes, const FileDescriptor& file,
+                      const std::string& path) {
+  std::size_t count = 0;
+  while (count < bytes->size()) {
+    const ssize_t got = read(file.number(), bytes->data() + count, bytes->size() - count);
+    if (got < 0 && errno != EINTR) {
+      fail(path);
+    }
+    if (got == 0) {
+      break;
+    }
+    count += got > 0 ? static_cast<std::size_t>(got) : 0;
+  }
+  return count;
+}
+
 void write_all(const FileDescriptor& file, const std::string& path, const char* data,
                std::size_t size) {
   while (size > 0) {
     const ssize_t written = write(file.number(), data, size);
-    if (written < 0) {
+    if (written < 0 && errno != EINTR) {
       fail(path);
     }
-    data += written;
-    size -= static_cast<std::size_t>(written);
+    const std::size_t done = written > 0 ? static_cast<std::size_t>(written) : 0;
+    data += done;
+    size -= done;
   }
 }
 
 }  // namespace
 
-std::optional<std::vector<char>> read_whole(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.eof() && stream.fail()) {
-    return std::nullopt;
+std::optional<std::vector<char>> read_whole(const std::string& path, std::size_t most) {
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!file.is_open()) {
+    if (errno == ENOENT) {
+      return std::nullopt;
+    }
+    fail(path);
   }
-  return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
+  const auto announced = static_cast<std::size_t>(ordinary(file, path).st_size);
+  if (announced > most) {
+    refuse_larger_than(path, most);
+  }
+  // One byte more tells whether it has grown. Files of the kernel say that they are empty.
+  std::vector<char> bytes(announced > 0 ? announced + 1 : most + 1);
+  const std::size_t count = read_into(&bytes, file, path);
+  if (count > most) {
+    refuse_larger_than(path, most);
+  }
+  if (count == bytes.size()) {
+    throw std::runtime_error(path + ": grew while it was read");
+  }
+  bytes.resize(count);
+  return bytes;
 }
 
 void write_whole(const std::string& path, const void* data, std::size_t size) {
   const std::string aside = path + ".new";
   {
-    const FileDescriptor file(open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    // A FIFO or a device must not keep us waiting, and a link not lead elsewhere.
+    const FileDescriptor file(open(
+        aside.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY, 0644));
+    if (!file.is_open() && (errno == ENXIO || errno == ELOOP)) {
+      throw std::runtime_error(aside + ": not an ordinary file");
+    }
     if (!file.is_open()) {
+      fail(aside);
+    }
+    ordinary(file, aside);
+    if (ftruncate(file.number(), 0) != 0) {
       fail(aside);
     }
     write_all(file, aside, static_cast<const char*>(data), size);

@@ -7,11 +7,15 @@
 
 namespace flexcomp {
 
-/// The whole of a file; nothing if it cannot be read or is empty.
-std::optional<std::vector<char>> read_whole(const std::string& path);
+/// The whole of an ordinary file; nothing if there is no such file. Never waits for another process
+/// (a FIFO, a device) and never takes more memory than `most` bytes and one. Throws
+/// std::runtime_error, naming the file, if it is not an ordinary one, holds more than `most` bytes
+/// or cannot be read.
+std::optional<std::vector<char>> read_whole(const std::string& path, std::size_t most);
 
-/// Written aside and renamed, so that who reads it never sees half, also after a loss of power.
-/// Throws std::runtime_error, naming the file.
+/// Written aside (path + ".new") and renamed, so that who reads it never sees half, also after a
+/// loss of power. What stands aside already is written over if it is an ordinary file. Never waits
+/// for another process, but for the disk. Throws std::runtime_error, naming the file.
 void write_whole(const std::string& path, const void* data, std::size_t size);
 
 }  // namespace flexcomp
