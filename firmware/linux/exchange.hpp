@@ -2,6 +2,7 @@
 
 #include <sys/eventfd.h>
 
+#include <atomic>
 #include <variant>
 
 #include "linux/file_descriptor.hpp"
@@ -18,11 +19,11 @@ struct LcmSample {
 
 /// What came of checking a table that was received.
 struct Verdict {
+  std::uint32_t transfer = 0;  ///< TableReceived::transfer
   Result opened = Result::no_table;
   Table table;
 };
 
-struct Stop {};
 struct SnapshotRequest {};
 
 /// Every statistic by its name; `exists` tells which are there.
@@ -31,42 +32,43 @@ struct Snapshot {
   std::array<bool, 128> exists{};
 };
 
-/// A transfer is complete: check the table, which stays as it is until the verdict.
+/// A transfer is complete: check the table, which stays as it is until the verdict, or until the
+/// real-time thread has waited too long for one.
 struct TableReceived {
+  std::uint32_t transfer = 0;  ///< counts them
   const void* data = nullptr;
   std::size_t size = 0;
 };
 
-/// The table in this slot has been put to use: keep it.
+/// The table of this transfer has been put to use.
 struct TableInUse {
-  std::size_t slot = 0;
+  std::uint32_t transfer = 0;
 };
 
 struct ConfigResult {
   Result result = Result::ok;
 };
 
-struct Ended {};
-
-using ToRealTime =
-    std::variant<std::monostate, LcmSample, NodeConfig, Verdict, Stop, SnapshotRequest>;
+using ToRealTime = std::variant<std::monostate, SnapshotRequest, NodeConfig, Verdict>;
 using FromRealTime =
-    std::variant<std::monostate, Message, TableReceived, TableInUse, ConfigResult, Snapshot, Ended>;
+    std::variant<std::monostate, TableReceived, TableInUse, ConfigResult, Snapshot>;
 
-/// One direction between the real-time thread and the other: a queue, and a descriptor that wakes
-/// the receiver.
+/// One direction between two threads: a queue, and a descriptor that wakes the receiver.
 template <typename Item>
 class Channel {
  public:
   Channel() : event_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
 
+  /// False if the queue is full; the item is then dropped.
   bool send(const Item& item) {
     const bool sent = ring_.push(item);
-    eventfd_write(event_.number(), 1);
+    wake();
     return sent;
   }
 
   bool receive(Item* item) { return ring_.pop(item); }
+
+  void wake() { eventfd_write(event_.number(), 1); }
 
   /// Readable while something may be in the queue; `clear` before emptying it.
   int number() const { return event_.number(); }
@@ -78,6 +80,38 @@ class Channel {
  private:
   Ring<Item, 256> ring_;
   FileDescriptor event_;
+};
+
+/// All that the real-time thread and the one that serves the outside share.
+///
+/// Messages of LCM may come faster than they are taken and are then dropped; they have queues of
+/// their own, so that nothing else is. What the two ask each other is answered one at a time, which
+/// leaves the other queues nearly empty. To stop, and that it has, are no messages: they cannot be
+/// lost.
+class Exchange {
+ public:
+  Channel<ToRealTime> to_real_time;
+  Channel<FromRealTime> from_real_time;
+  Channel<LcmSample> lcm_received;
+  Channel<Message> lcm_to_send;
+
+  /// Asks the real-time thread to fade to zero and end.
+  void stop() {
+    stop_.store(true, std::memory_order_release);
+    to_real_time.wake();
+  }
+  bool is_to_stop() const { return stop_.load(std::memory_order_acquire); }
+
+  /// The real-time thread has ended, and has sent all that it will.
+  void end() {
+    ended_.store(true, std::memory_order_release);
+    from_real_time.wake();
+  }
+  bool has_ended() const { return ended_.load(std::memory_order_acquire); }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> ended_{false};
 };
 
 }  // namespace flexcomp

@@ -3,6 +3,7 @@
 #include <lcm/lcm.h>
 
 #include <array>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,20 +18,27 @@ class LcmLink {
   using Handler = std::function<void(const LcmMessage&)>;
 
   /// Joins at an address such as "udpm://239.255.76.67:7667?ttl=0" and hands what others publish
-  /// there on our channels to `handler`. Throws std::runtime_error if it cannot.
+  /// there on our channels to `handler`, but not what this link publishes. Throws
+  /// std::runtime_error if it cannot.
   LcmLink(const std::string& url, Handler handler);
 
   /// Ready to be read from when something has arrived.
   int number() const { return lcm_get_fileno(lcm_.get()); }
 
-  /// Hands over what has arrived; waits for something if nothing has.
-  void handle() { lcm_handle(lcm_.get()); }
+  /// Hands over what has arrived; waits for something if nothing has. Throws what the handler does.
+  void handle();
 
   /// False if it could not be sent.
   bool publish(const Message& message);
 
  private:
+  struct Sequence {
+    std::int64_t first;
+    std::int64_t next;
+  };
+
   bool is_echo(const LcmMessage& message) const;
+  void take(const lcm_recv_buf_t& buffer, const char* channel);
   static void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* self);
 
   struct Destroy {
@@ -38,10 +46,10 @@ class LcmLink {
   };
   std::unique_ptr<lcm_t, Destroy> lcm_;
   Handler handler_;
-  std::array<std::int64_t, std::variant_size_v<Message>> sequences_{};  ///< one a type
-  /// When our own last messages were published, by which their echoes are known.
-  std::array<std::int64_t, 64> published_{};
-  std::size_t published_next_ = 0;
+  /// One a type, each from a random number on: by that we know our own messages, which multicast
+  /// brings back to us, however late it does.
+  std::array<Sequence, std::variant_size_v<Message>> sequences_;
+  std::exception_ptr failure_;  ///< in the handler, which LCM's own code must not see
 };
 
 }  // namespace flexcomp

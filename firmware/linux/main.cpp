@@ -1,9 +1,12 @@
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
 #include <stdexcept>
 
+#include "linux/background.hpp"
 #include "linux/clock.hpp"
 #include "linux/key_file.hpp"
 #include "linux/options.hpp"
@@ -47,15 +50,10 @@ std::optional<std::vector<char>> initial_table(const Options& options) {
 
 /// Puts the first table into slot 0. A damaged one ends the program; one that is refused for
 /// another reason is reported over the bus when somebody wants to arm.
-void load_table(const Options& options, Slots* slots, Node* node) {
-  const std::optional<std::vector<char>> bytes = initial_table(options);
-  if (!bytes) {
-    std::fprintf(stderr, "flexcompd: no table yet; waiting for one over the bus\n");
-    return;
-  }
-  std::memcpy(slots->first.data(), bytes->data(), bytes->size());
+void load_table(const Options& options, const std::vector<char>& bytes, Slots* slots, Node* node) {
+  std::memcpy(slots->first.data(), bytes.data(), bytes.size());
   Table table;
-  const Result opened = Table::open(slots->first.data(), bytes->size(), &table);
+  const Result opened = Table::open(slots->first.data(), bytes.size(), &table);
   if (opened != Result::ok) {
     throw std::runtime_error(options.table + ": " + describe(opened));
   }
@@ -80,8 +78,29 @@ int write_settings(const Options& options) {
   return kDone;
 }
 
-int serve(const Options& options, std::function<std::optional<Options>()> reread) {
-  Service::block_signals();
+/// Whatever happens, the real-time thread is told to fade and end before it is waited for.
+struct StopAtEnd {
+  explicit StopAtEnd(Exchange* shared) : exchange(shared) {}
+  StopAtEnd(const StopAtEnd&) = delete;
+  StopAtEnd& operator=(const StopAtEnd&) = delete;
+  ~StopAtEnd() { exchange->stop(); }
+  Exchange* exchange;
+};
+
+/// Ends the process when the last files are written, or, where the disk stalls, without them.
+int end(Background* background, int exit_code) {
+  constexpr std::chrono::milliseconds kPatience{2000};
+  if (!background->finish(kPatience)) {
+    say_at_once("flexcompd: ends with files not written: they take too long\n");
+    std::_Exit(exit_code);
+  }
+  return exit_code;
+}
+
+/// Prepares and serves. A signal to end does so at once until it is blocked: nothing is corrected
+/// yet. From then on nothing here may wait but for the next thing to do.
+int serve(const Options& options, Service::Reread reread) {
+  Service::hold_requests();
   std::optional<UnprivilegedUser> user;
   if (!options.user.empty()) {
     user.emplace(options.user);
@@ -98,22 +117,29 @@ int serve(const Options& options, std::function<std::optional<Options>()> reread
     authentication = std::make_unique<MessageAuthentication>(read_key(options.key), freshness_now);
   }
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
-  auto to_real_time = std::make_unique<Channel<ToRealTime>>();
-  auto from_real_time = std::make_unique<Channel<FromRealTime>>();
-  Service service(options, std::move(reread), to_real_time.get(), from_real_time.get());
-  load_table(options, &slots, node.get());
-  RealTimeLoop loop(options, node.get(), &can, authentication.get(), to_real_time.get(),
-                    from_real_time.get());
+  if (const std::optional<std::vector<char>> table = initial_table(options)) {
+    load_table(options, *table, &slots, node.get());
+  } else {
+    std::fprintf(stderr, "flexcompd: no table yet; waiting for one over the bus\n");
+  }
+
+  Service::block_signals();
+  Background background;
+  auto exchange = std::make_unique<Exchange>();
+  Service service(options, std::move(reread), exchange.get(), &background);
+  RealTimeLoop loop(options, node.get(), &can, authentication.get(), exchange.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
+  const StopAtEnd stop_at_end(exchange.get());
   int exit_code = kDone;
   if (user && !user->become()) {
-    std::fprintf(stderr, "flexcompd: the system does not let it become '%s'\n",
-                 options.user.c_str());
-    to_real_time->send(Stop{});
+    background.say("flexcompd: the system does not let it become '" + options.user + "'");
+    exchange->stop();
     exit_code = kInternalFault;
   }
-  service.run();
-  return exit_code;
+  if (!service.run()) {
+    exit_code = kInternalFault;
+  }
+  return end(&background, exit_code);
 }
 
 }  // namespace

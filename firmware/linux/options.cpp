@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "linux/build_info.hpp"
+#include "linux/whole_file.hpp"
 #include "node/default_config.hpp"
 
 namespace flexcomp {
@@ -174,6 +175,17 @@ void apply(const Typed& typed, Options* options) {
   }
 }
 
+/// Nothing if the configuration can be read at once and takes little memory: it is read again while
+/// the node runs.
+std::string complaint_about_file(const std::string& path) {
+  constexpr std::size_t kLargest = std::size_t{1} << 20;
+  try {
+    return read_whole(path, kLargest) ? "" : path + ": there is no such file";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
 std::optional<Options> read_options(int argc, const char* const* argv, int* exit_code) {
@@ -183,7 +195,8 @@ std::optional<Options> read_options(int argc, const char* const* argv, int* exit
   CLI::App app(kDescription);
   app.option_defaults()->always_capture_default();
   app.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
-  app.set_config("--config", "", "file with any of these options, one a line: name = value");
+  app.set_config("--config", "", "file with any of these options, one a line: name = value")
+      ->check(CLI::Validator(complaint_about_file, ""));
   app.allow_config_extras(CLI::config_extras_mode::error);
   add_links(&app, &options);
   add_table(&app, &options, &typed);

@@ -15,10 +15,11 @@ namespace flexcomp {
 namespace {
 
 constexpr int kFramesAtOnce = 128;
-constexpr int kMessagesATick = 4;                        // beside the corrected setpoint
-constexpr std::uint32_t kLcmCounter = 256;               // the low byte of the sequence is judged
-constexpr std::int64_t kLargestShift = 100;              // of the period, its divisor
-constexpr std::int64_t kLockstepPatience = 500'000'000;  // ns, for setpoints to fade out on
+constexpr int kMessagesATick = 4;                         // beside the corrected setpoint
+constexpr std::uint32_t kLcmCounter = 256;                // the low byte of the sequence is judged
+constexpr std::int64_t kLargestShift = 100;               // of the period, its divisor
+constexpr std::int64_t kVerdictPatience = 2'000'000'000;  // ns; a check takes milliseconds
+constexpr std::int64_t kLockstepPatience = 500'000'000;   // ns, for setpoints to fade out on
 
 constexpr std::array<CanSocket::Filter, 2> kFilters = {{
     {0x100, 0x7C0},  // what is sent to the node
@@ -37,8 +38,7 @@ void watch(int epoll, int number) {
 }  // namespace
 
 RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
-                           MessageAuthentication* authentication, Channel<ToRealTime>* in,
-                           Channel<FromRealTime>* out)
+                           MessageAuthentication* authentication, Exchange* exchange)
     : trigger_(options.settings.trigger),
       period_(std::llround(1e9 * static_cast<double>(options.settings.node.compensator.period))),
       node_(node),
@@ -49,11 +49,11 @@ RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
       use_lcm_(!options.lcm.empty()),
       lcm_setpoint_(kLcmCounter, options.settings.tolerated_losses),
       lcm_wrench_(kLcmCounter, options.settings.tolerated_losses),
-      in_(in),
-      out_(out),
+      exchange_(exchange),
       epoll_(epoll_create1(EPOLL_CLOEXEC)),
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
-  watch(epoll_.number(), in_->number());
+  watch(epoll_.number(), exchange_->to_real_time.number());
+  watch(epoll_.number(), exchange_->lcm_received.number());
   watch(epoll_.number(), timer_.number());
   if (can_->is_open()) {
     can_->receive_only(kFilters.data(), kFilters.size());
@@ -82,17 +82,18 @@ void RealTimeLoop::run() {
       break;
     }
   }
-  out_->send(snapshot());
-  out_->send(Ended{});
+  exchange_->from_real_time.send(snapshot());
+  exchange_->end();
 }
 
 RealTimeLoop::Ready RealTimeLoop::wait() {
-  std::array<epoll_event, 4> events{};
+  std::array<epoll_event, 5> events{};
   const int count = epoll_wait(epoll_.number(), events.data(), static_cast<int>(events.size()), -1);
   Ready ready;
   for (int i = 0; i < count; ++i) {
     const int number = events[static_cast<std::size_t>(i)].data.fd;
-    ready.messages |= number == in_->number();
+    ready.messages |=
+        number == exchange_->to_real_time.number() || number == exchange_->lcm_received.number();
     ready.frames |= number == can_->number();
     ready.timer |= number == timer_.number();
   }
@@ -113,28 +114,57 @@ std::int64_t RealTimeLoop::node_time(std::int64_t now) const {
 }
 
 void RealTimeLoop::take_messages(std::int64_t now) {
-  in_->clear();
+  exchange_->lcm_received.clear();
+  LcmSample sample;
+  while (exchange_->lcm_received.receive(&sample)) {
+    take(&sample, now);
+  }
+  exchange_->to_real_time.clear();
   ToRealTime item;
-  while (in_->receive(&item)) {
-    if (auto* sample = std::get_if<LcmSample>(&item)) {
-      take(sample, now);
-    } else if (const auto* config = std::get_if<NodeConfig>(&item)) {
+  while (exchange_->to_real_time.receive(&item)) {
+    if (const auto* config = std::get_if<NodeConfig>(&item)) {
       const Result result = node_->configure(*config);
       node_->announce(result == Result::ok ? kConfigInUseCode : kConfigRefusedCode,
                       static_cast<std::uint32_t>(result));
-      out_->send(ConfigResult{result});
+      exchange_->from_real_time.send(ConfigResult{result});
     } else if (const auto* verdict = std::get_if<Verdict>(&item)) {
-      transfer_announced_ = false;
-      if (node_->conclude_transfer(verdict->opened, verdict->table) == Result::ok) {
-        out_->send(TableInUse{node_->active_slot()});
-      }
+      take(*verdict);
     } else if (std::holds_alternative<SnapshotRequest>(item)) {
-      out_->send(snapshot());
-    } else if (std::holds_alternative<Stop>(item)) {
-      stopping_ = true;
-      stopping_since_ = now;
-      node_->disarm();
+      exchange_->from_real_time.send(snapshot());
     }
+  }
+  if (exchange_->is_to_stop() && !stopping_) {
+    stopping_ = true;
+    stopping_since_ = now;
+    node_->disarm();
+  }
+}
+
+void RealTimeLoop::take(const Verdict& verdict) {
+  if (!awaits_verdict_ || verdict.transfer != transfer_) {
+    return;  // it comes too late: the transfer was given up
+  }
+  awaits_verdict_ = false;
+  if (node_->conclude_transfer(verdict.opened, verdict.table) == Result::ok) {
+    exchange_->from_real_time.send(TableInUse{transfer_});
+  }
+}
+
+/// A complete transfer is handed over for the check, again each tick until there is room, and given
+/// up if no verdict comes: no later one would be taken else.
+void RealTimeLoop::hand_over_tables(std::int64_t now) {
+  std::size_t size = 0;
+  const void* received = node_->received_table(&size);
+  if (received == nullptr) {
+    return;
+  }
+  if (!awaits_verdict_) {
+    awaits_verdict_ = exchange_->from_real_time.send(TableReceived{transfer_ + 1, received, size});
+    transfer_ += awaits_verdict_ ? 1U : 0U;
+    verdict_due_ = now + kVerdictPatience;
+  } else if (now > verdict_due_) {
+    awaits_verdict_ = false;
+    node_->refuse_transfer(Reply::transfer_not_checked);
   }
 }
 
@@ -243,7 +273,7 @@ void RealTimeLoop::tick(std::int64_t now) {
     state.authentication = authentication_->counters();
   }
   state.bus_fault = sender_.has_fault();
-  state.dropped_frames = sender_.dropped();
+  state.dropped_frames = sender_.dropped() + lcm_dropped_;
   node_->set_link(state);
   sender_.tick();
 
@@ -256,12 +286,7 @@ void RealTimeLoop::tick(std::int64_t now) {
   for (int i = 0; i < kMessagesATick && node_->next_message(&message); ++i) {
     send(message);
   }
-  std::size_t size = 0;
-  const void* received = node_->received_table(&size);
-  if (received != nullptr && !transfer_announced_) {
-    transfer_announced_ = true;
-    out_->send(TableReceived{received, size});
-  }
+  hand_over_tables(monotonic_now());
 }
 
 void RealTimeLoop::send(const Message& message) {
@@ -274,8 +299,8 @@ void RealTimeLoop::send(const Message& message) {
       sender_.send(frames.frames.data(), frames.count);
     }
   }
-  if (use_lcm_) {
-    out_->send(message);
+  if (use_lcm_ && !exchange_->lcm_to_send.send(message)) {
+    ++lcm_dropped_;
   }
 }
 

@@ -22,8 +22,7 @@ class RealTimeLoop {
   /// `authentication`: of the messages on CAN, or null for none. Throws std::runtime_error if the
   /// system refuses what it needs.
   RealTimeLoop(const Options& options, Node* node, CanSocket* can,
-               MessageAuthentication* authentication, Channel<ToRealTime>* in,
-               Channel<FromRealTime>* out);
+               MessageAuthentication* authentication, Exchange* exchange);
 
   /// Runs until told to stop and the correction is zero.
   void run();
@@ -46,6 +45,8 @@ class RealTimeLoop {
   void on_period_end(std::int64_t now);
   void follow_setpoints(std::int64_t now);
   void tick(std::int64_t now);
+  void hand_over_tables(std::int64_t now);
+  void take(const Verdict& verdict);
   void send(const Message& message);
   void set_timer();
   Snapshot snapshot() const;
@@ -61,8 +62,7 @@ class RealTimeLoop {
   bool use_lcm_;
   SequenceMonitor lcm_setpoint_;
   SequenceMonitor lcm_wrench_;
-  Channel<ToRealTime>* in_;
-  Channel<FromRealTime>* out_;
+  Exchange* exchange_;
   FileDescriptor epoll_;
   FileDescriptor timer_;
 
@@ -71,8 +71,11 @@ class RealTimeLoop {
   bool ticked_ = false;  ///< in this period
   std::int64_t setpoint_at_ = 0;
   bool answers_setpoint_ = false;
-  std::int64_t steps_ = 0;  ///< ticks of Trigger::lockstep
-  bool transfer_announced_ = false;
+  std::int64_t steps_ = 0;      ///< ticks of Trigger::lockstep
+  std::uint32_t transfer_ = 0;  ///< the one that waits for a verdict, or did so last
+  bool awaits_verdict_ = false;
+  std::int64_t verdict_due_ = 0;
+  std::uint32_t lcm_dropped_ = 0;
   bool stopping_ = false;
   std::int64_t stopping_since_ = 0;
 };

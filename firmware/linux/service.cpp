@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <initializer_list>
 
 #include "linux/statistics_file.hpp"
 #include "linux/whole_file.hpp"
@@ -13,30 +14,42 @@
 namespace flexcomp {
 namespace {
 
-sigset_t served_signals() {
+sigset_t set_of(std::initializer_list<int> signals) {
   sigset_t set;
   sigemptyset(&set);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1}) {
+  for (const int signal : signals) {
     sigaddset(&set, signal);
   }
   return set;
 }
 
+sigset_t served_signals() { return set_of({SIGTERM, SIGINT, SIGHUP, SIGUSR1}); }
+
+std::shared_ptr<const std::vector<char>> copy_of(const TableReceived& received) {
+  const auto* bytes = static_cast<const char*>(received.data);
+  return std::make_shared<const std::vector<char>>(bytes, bytes + received.size);
+}
+
 }  // namespace
 
-Service::Service(const Options& options, std::function<std::optional<Options>()> reread,
-                 Channel<ToRealTime>* to_real_time, Channel<FromRealTime>* from_real_time)
+Service::Service(const Options& options, Reread reread, Exchange* exchange, Background* background)
     : options_(options),
       reread_(std::move(reread)),
-      to_real_time_(to_real_time),
-      from_real_time_(from_real_time) {
+      exchange_(exchange),
+      background_(background),
+      configurations_(std::make_shared<Channel<std::optional<NodeConfig>>>()) {
   const sigset_t set = served_signals();
   signals_ = FileDescriptor(signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!options.lcm.empty()) {
     lcm_.emplace(options.lcm, [this](const LcmMessage& message) {
-      to_real_time_->send(LcmSample{message.message, static_cast<std::uint32_t>(message.sequence)});
+      exchange_->lcm_received.send({message.message, static_cast<std::uint32_t>(message.sequence)});
     });
   }
+}
+
+void Service::hold_requests() {
+  const sigset_t set = set_of({SIGHUP, SIGUSR1});
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
 void Service::block_signals() {
@@ -44,90 +57,156 @@ void Service::block_signals() {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-void Service::run() {
-  while (!ended_) {
-    std::array<pollfd, 3> inputs = {{{signals_.number(), POLLIN, 0},
-                                     {from_real_time_->number(), POLLIN, 0},
-                                     {lcm_ ? lcm_->number() : -1, POLLIN, 0}}};
-    poll(inputs.data(), inputs.size(), -1);
-    if (inputs[0].revents != 0) {
-      on_signal();
+bool Service::run() {
+  try {
+    while (!exchange_->has_ended()) {
+      wait_and_serve();
     }
-    if (inputs[1].revents != 0) {
-      on_real_time();
-    }
-    if (inputs[2].revents != 0) {
-      lcm_->handle();
-    }
+    on_real_time();  // what was sent before the end
+    return true;
+  } catch (const std::exception& error) {
+    exchange_->stop();
+    say_at_once("flexcompd: internal fault: ");
+    say_at_once(error.what());
+    say_at_once("\n");
+    wait_for_end();
+    return false;
   }
 }
 
-void Service::on_signal() {
+/// Needs nothing that can fail.
+void Service::wait_for_end() {
+  while (!exchange_->has_ended()) {
+    pollfd input = {exchange_->from_real_time.number(), POLLIN, 0};
+    poll(&input, 1, -1);
+    exchange_->from_real_time.clear();
+  }
+}
+
+void Service::wait_and_serve() {
+  std::array<pollfd, 5> inputs = {{{signals_.number(), POLLIN, 0},
+                                   {exchange_->from_real_time.number(), POLLIN, 0},
+                                   {exchange_->lcm_to_send.number(), POLLIN, 0},
+                                   {configurations_->number(), POLLIN, 0},
+                                   {lcm_ ? lcm_->number() : -1, POLLIN, 0}}};
+  poll(inputs.data(), inputs.size(), -1);
+  if (inputs[0].revents != 0) {
+    on_signals();
+  }
+  if (inputs[1].revents != 0) {
+    on_real_time();
+  }
+  if (inputs[2].revents != 0) {
+    exchange_->lcm_to_send.clear();
+    Message message;
+    while (exchange_->lcm_to_send.receive(&message)) {
+      lcm_->publish(message);
+    }
+  }
+  if (inputs[3].revents != 0) {
+    on_configuration();
+  }
+  if (inputs[4].revents != 0) {
+    lcm_->handle();
+  }
+}
+
+void Service::on_signals() {
   signalfd_siginfo info{};
   while (read(signals_.number(), &info, sizeof info) == sizeof info) {
     if (info.ssi_signo == SIGUSR1) {
-      to_real_time_->send(SnapshotRequest{});
+      const ToRealTime request = SnapshotRequest{};
+      awaits_snapshot_ = awaits_snapshot_ || exchange_->to_real_time.send(request);
     } else if (info.ssi_signo == SIGHUP) {
-      if (const std::optional<Options> options = reread_()) {
-        to_real_time_->send(options->settings.node);
-      }
+      read_configuration();
     } else {
-      to_real_time_->send(Stop{});
+      exchange_->stop();
     }
   }
 }
 
 void Service::on_real_time() {
-  from_real_time_->clear();
+  exchange_->from_real_time.clear();
   FromRealTime item;
-  while (from_real_time_->receive(&item)) {
-    if (const auto* message = std::get_if<Message>(&item)) {
-      lcm_->publish(*message);
-    } else if (const auto* received = std::get_if<TableReceived>(&item)) {
+  while (exchange_->from_real_time.receive(&item)) {
+    if (const auto* received = std::get_if<TableReceived>(&item)) {
       check(*received);
-    } else if (std::holds_alternative<TableInUse>(item)) {
-      keep();
+    } else if (const auto* in_use = std::get_if<TableInUse>(&item)) {
+      keep(*in_use);
     } else if (const auto* config = std::get_if<ConfigResult>(&item)) {
-      std::fprintf(stderr, "flexcompd: new configuration: %s\n", describe(config->result));
+      reads_configuration_ = false;
+      background_->say(std::string("flexcompd: new configuration: ") + describe(config->result));
     } else if (const auto* snapshot = std::get_if<Snapshot>(&item)) {
+      awaits_snapshot_ = false;
       report(*snapshot);
-    } else if (std::holds_alternative<Ended>(item)) {
-      ended_ = true;
     }
   }
 }
 
+void Service::read_configuration() {
+  if (reads_configuration_) {
+    background_->say("flexcompd: a new configuration is being read already");
+    return;
+  }
+  reads_configuration_ = background_->start([reread = reread_, result = configurations_] {
+    std::optional<Options> options;
+    try {
+      options = reread();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "flexcompd: the configuration cannot be read: %s\n", error.what());
+    }
+    result->send(options ? std::optional(options->settings.node) : std::nullopt);
+  });
+}
+
+void Service::on_configuration() {
+  configurations_->clear();
+  std::optional<NodeConfig> config;
+  while (configurations_->receive(&config)) {
+    reads_configuration_ = config && exchange_->to_real_time.send(*config);
+  }
+}
+
 void Service::check(const TableReceived& received) {
-  received_ = received;
   Verdict verdict;
+  verdict.transfer = received.transfer;
   verdict.opened = Table::open(received.data, received.size, &verdict.table);
-  std::fprintf(stderr, "flexcompd: table of %zu bytes received: %s\n", received.size,
-               describe(verdict.opened));
-  to_real_time_->send(verdict);
+  if (verdict.opened == Result::ok && !options_.state_directory.empty()) {
+    received_ = copy_of(received);
+    received_transfer_ = received.transfer;
+  }
+  exchange_->to_real_time.send(verdict);
+  background_->say("flexcompd: table of " + std::to_string(received.size) +
+                   " bytes received: " + describe(verdict.opened));
 }
 
-void Service::keep() const {
-  if (options_.state_directory.empty()) {
+void Service::keep(const TableInUse& in_use) {
+  if (options_.state_directory.empty() || received_ == nullptr ||
+      in_use.transfer != received_transfer_) {
     return;
   }
-  try {
-    SlotFiles(options_.state_directory).keep(received_.data, received_.size);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "flexcompd: the table is in use but not kept: %s\n", error.what());
+  const bool started =
+      background_->start([directory = options_.state_directory, table = received_] {
+        try {
+          SlotFiles(directory).keep(table->data(), table->size());
+        } catch (const std::exception& error) {
+          std::fprintf(stderr, "flexcompd: the table is in use but not kept: %s\n", error.what());
+        }
+      });
+  received_ = nullptr;
+  if (!started) {
+    background_->say("flexcompd: the table is in use but not kept: the disk is too slow");
   }
 }
 
-void Service::report(const Snapshot& snapshot) const {
-  std::fputs(statistics_summary(snapshot).c_str(), stderr);
-  if (options_.statistics.empty()) {
-    return;
-  }
-  const std::string text = statistics_json(snapshot);
-  try {
-    write_whole(options_.statistics, text.data(), text.size());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "flexcompd: %s\n", error.what());
-  }
+void Service::report(const Snapshot& snapshot) {
+  background_->start([snapshot, path = options_.statistics] {
+    std::fputs(statistics_summary(snapshot).c_str(), stderr);
+    if (!path.empty()) {
+      const std::string text = statistics_json(snapshot);
+      write_whole(path, text.data(), text.size());
+    }
+  });
 }
 
 }  // namespace flexcomp

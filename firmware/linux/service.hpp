@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
+#include "linux/background.hpp"
 #include "linux/exchange.hpp"
 #include "linux/lcm_link.hpp"
 #include "linux/options.hpp"
@@ -10,34 +12,50 @@
 
 namespace flexcomp {
 
-/// What the real-time thread must not do: signals, LCM, checking and keeping tables, statistics.
+/// What the real-time thread must not do: signals, LCM, checking tables. It waits for nothing but
+/// the next of these: files and the terminal, which may stall, are the background's.
 class Service {
  public:
-  /// `reread`: the options again, from the same command line; nothing if they are unusable now.
-  Service(const Options& options, std::function<std::optional<Options>()> reread,
-          Channel<ToRealTime>* to_real_time, Channel<FromRealTime>* from_real_time);
+  using Reread = std::function<std::optional<Options>()>;
 
-  /// Blocks the signals it serves, for this thread and those it starts. Call it before any.
+  /// `reread`: the options again, from the same command line; nothing if they are unusable now. It
+  /// may take long.
+  Service(const Options& options, Reread reread, Exchange* exchange, Background* background);
+
+  /// Signals that ask for something wait from now on until it runs. Those that end still end the
+  /// process at once.
+  static void hold_requests();
+
+  /// Blocks all signals that it serves, for this thread and those it starts. Call it before any.
   static void block_signals();
 
-  /// Serves until the real-time thread has ended.
-  void run();
+  /// Serves until the real-time thread has ended. False if something failed here that must not:
+  /// the real-time thread was then told to fade and end, as by a signal.
+  bool run();
 
  private:
-  void on_signal();
+  void wait_and_serve();
+  void on_signals();
   void on_real_time();
+  void read_configuration();
+  void on_configuration();
   void check(const TableReceived& received);
-  void keep() const;
-  void report(const Snapshot& snapshot) const;
+  void keep(const TableInUse& in_use);
+  void report(const Snapshot& snapshot);
+  void wait_for_end();
 
   Options options_;
-  std::function<std::optional<Options>()> reread_;
-  Channel<ToRealTime>* to_real_time_;
-  Channel<FromRealTime>* from_real_time_;
+  Reread reread_;
+  Exchange* exchange_;
+  Background* background_;
   std::optional<LcmLink> lcm_;
   FileDescriptor signals_;
-  TableReceived received_;
-  bool ended_ = false;
+  /// From the background, which may outlive this. Nothing: they are unusable.
+  std::shared_ptr<Channel<std::optional<NodeConfig>>> configurations_;
+  bool reads_configuration_ = false;
+  bool awaits_snapshot_ = false;
+  std::uint32_t received_transfer_ = 0;
+  std::shared_ptr<const std::vector<char>> received_;  ///< a copy, which no transfer writes over
 };
 
 }  // namespace flexcomp

@@ -107,6 +107,7 @@ enum class Reply : std::uint8_t {
   transfer_refused = 36,  ///< no room, or one is under way
   transfer_out_of_order = 37,
   transfer_crc = 38,
+  transfer_not_checked = 39,  ///< it could not be checked in time
 };
 
 struct TransferReplyMessage {

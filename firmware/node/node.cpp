@@ -98,15 +98,22 @@ Result Node::start_with(std::size_t place, const Table& table, Result opened) {
 
 Result Node::conclude_transfer(Result opened, const Table& table) {
   const Result result = opened == Result::ok ? put_to_use(table) : opened;
-  table_result_ = number(result);
-  store_.conclude(result == Result::ok);
-  post(TransferReplyMessage{TransferStage::end, number(result), store_.words_received()});
-  if (result == Result::ok) {
-    post(FaultMessage{kTableInUseCode, true, static_cast<std::uint32_t>(store_.active() + 1)});
-  } else {
-    post(FaultMessage{kTableRefusedCode, true, number(result)});
-  }
+  end_transfer(number(result));
   return result;
+}
+
+void Node::refuse_transfer(Reply reason) { end_transfer(number(reason)); }
+
+void Node::end_transfer(std::uint8_t result) {
+  table_result_ = result;
+  const bool in_use = result == number(Result::ok);
+  store_.conclude(in_use);
+  post(TransferReplyMessage{TransferStage::end, result, store_.words_received()});
+  if (in_use) {
+    announce(kTableInUseCode, static_cast<std::uint32_t>(store_.active() + 1));
+  } else {
+    announce(kTableRefusedCode, result);
+  }
 }
 
 void Node::announce(std::uint16_t code, std::uint32_t detail) {

@@ -61,6 +61,8 @@ class Node {
   /// completed transfer: put to use between two ticks, or refused with a reason that `arm` repeats.
   Result start_with(std::size_t place, const Table& table, Result opened = Result::ok);
   Result conclude_transfer(Result opened, const Table& table);
+  /// Ends a completed transfer without its table, for a reason that is not the table's content.
+  void refuse_transfer(Reply reason);
   const void* received_table(std::size_t* size) const { return store_.received(size); }
 
   void receive(const Message& message, std::int64_t now);
@@ -111,6 +113,7 @@ class Node {
   std::int64_t made_at(std::int64_t timestamp, TransportDelay* delay, std::int64_t now) const;
   std::uint8_t arm();
   Result put_to_use(const Table& table);
+  void end_transfer(std::uint8_t result);
   void reply(TransferStage stage, Reply result);
   void post(const Message& message);
   Core::Input input(std::int64_t now) const;

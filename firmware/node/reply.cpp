@@ -23,6 +23,8 @@ const char* describe_reply(std::uint8_t reply) {
       return "a part of the table is missing";
     case Reply::transfer_crc:
       return "the table was damaged on its way";
+    case Reply::transfer_not_checked:
+      return "the table was not checked in time";
   }
   return describe(static_cast<Result>(reply));
 }

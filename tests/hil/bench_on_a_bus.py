@@ -70,7 +70,7 @@ class Flexcompd:
     """The real process, ended by SIGTERM."""
 
     def __init__(self, job, *options, preload=None, bus=("--can", BUS), environment=None,
-                 wait=True):
+                 wait=True, stderr=None):
         self.statistics_file = job.folder / "statistics.json"
         self.log = open(job.folder / "flexcompd.log", "w+")
         env = dict(os.environ, **(environment or {}))
@@ -78,7 +78,7 @@ class Flexcompd:
             env["LD_PRELOAD"] = str(preload)
         self.process = subprocess.Popen(
             [str(BIN / "flexcompd"), "--config", str(job.config), "--statistics",
-             str(self.statistics_file), *bus, *map(str, options)], stderr=self.log, env=env)
+             str(self.statistics_file), *bus, *map(str, options)], stderr=stderr or self.log, env=env)
         latest = time.monotonic() + 10
         while wait and not self.ticks() and time.monotonic() < latest:
             time.sleep(0.02)
