@@ -10,6 +10,8 @@
 #include <mutex>
 #include <thread>
 
+#include "linux/complaint.hpp"
+
 namespace flexcomp {
 namespace {
 
@@ -19,7 +21,7 @@ void do_one(const std::function<void()>& job) {
   try {
     job();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "flexcompd: %s\n", error.what());
+    complain(error.what());
   }
 }
 
@@ -76,8 +78,8 @@ bool Background::start(std::function<void()> job) {
   return true;
 }
 
-bool Background::say(const std::string& line) {
-  return start([line] { std::fprintf(stderr, "%s\n", line.c_str()); });
+bool Background::say(const std::string& message) {
+  return start([message] { complain(message); });
 }
 
 bool Background::finish(std::chrono::milliseconds patience) {

@@ -26,8 +26,8 @@ class Background {
   /// standard error.
   bool start(std::function<void()> job);
 
-  /// Says a line on standard error, after what was started before.
-  bool say(const std::string& line);
+  /// Says a message as `complain` does, after what was started before.
+  bool say(const std::string& message);
 
   /// Waits until all jobs are done; false if they are not within `patience`.
   bool finish(std::chrono::milliseconds patience);

@@ -1,5 +1,6 @@
+#include <fmt/format.h>
+
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -8,6 +9,7 @@
 
 #include "linux/background.hpp"
 #include "linux/clock.hpp"
+#include "linux/complaint.hpp"
 #include "linux/key_file.hpp"
 #include "linux/options.hpp"
 #include "linux/real_time_loop.hpp"
@@ -59,12 +61,10 @@ void load_table(const Options& options, const std::vector<char>& bytes, Slots* s
   }
   const Result used = node->start_with(0, table);
   if (used == Result::gain_too_high) {
-    std::fprintf(stderr,
-                 "flexcompd: refuses to arm: gain %.4g is above the largest safe gain %.4g\n",
-                 static_cast<double>(options.settings.node.compensator.gain),
-                 static_cast<double>(table.header().largest_gain));
+    complain(fmt::format("refuses to arm: gain {:.4g} is above the largest safe gain {:.4g}",
+                         options.settings.node.compensator.gain, table.header().largest_gain));
   } else if (used != Result::ok) {
-    std::fprintf(stderr, "flexcompd: refuses to arm: %s\n", describe(used));
+    complain(std::string("refuses to arm: ") + describe(used));
   }
 }
 
@@ -120,7 +120,7 @@ int serve(const Options& options, Service::Reread reread) {
   if (const std::optional<std::vector<char>> table = initial_table(options)) {
     load_table(options, *table, &slots, node.get());
   } else {
-    std::fprintf(stderr, "flexcompd: no table yet; waiting for one over the bus\n");
+    complain("no table yet; waiting for one over the bus");
   }
 
   Service::block_signals();
@@ -132,7 +132,7 @@ int serve(const Options& options, Service::Reread reread) {
   const StopAtEnd stop_at_end(exchange.get());
   int exit_code = kDone;
   if (user && !user->become()) {
-    background.say("flexcompd: the system does not let it become '" + options.user + "'");
+    background.say("the system does not let it become '" + options.user + "'");
     exchange->stop();
     exit_code = kInternalFault;
   }
@@ -160,10 +160,10 @@ int main(int argc, char** argv) {
       return flexcomp::read_options(argc, argv, &ignored);
     });
   } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "flexcompd: %s\n", error.what());
+    flexcomp::complain(error.what());
     return flexcomp::kUnusableInput;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "flexcompd: internal fault: %s\n", error.what());
+    flexcomp::complain(std::string("internal fault: ") + error.what());
     return flexcomp::kInternalFault;
   }
 }

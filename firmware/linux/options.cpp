@@ -1,9 +1,9 @@
 #include "linux/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "linux/build_info.hpp"
+#include "linux/complaint.hpp"
 #include "linux/whole_file.hpp"
 #include "node/default_config.hpp"
 
@@ -211,7 +211,7 @@ std::optional<Options> read_options(int argc, const char* const* argv, int* exit
     if (error.get_exit_code() == 0) {
       *exit_code = app.exit(error);
     } else {
-      std::fprintf(stderr, "flexcompd: %s (see --help)\n", error.what());
+      complain(std::string(error.what()) + " (see --help)");
       *exit_code = kUnusableInput;
     }
     return std::nullopt;

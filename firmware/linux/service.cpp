@@ -8,6 +8,7 @@
 #include <exception>
 #include <initializer_list>
 
+#include "linux/complaint.hpp"
 #include "linux/statistics_file.hpp"
 #include "linux/whole_file.hpp"
 
@@ -135,7 +136,7 @@ void Service::on_real_time() {
       keep(*in_use);
     } else if (const auto* config = std::get_if<ConfigResult>(&item)) {
       reads_configuration_ = false;
-      background_->say(std::string("flexcompd: new configuration: ") + describe(config->result));
+      background_->say(std::string("new configuration: ") + describe(config->result));
     } else if (const auto* snapshot = std::get_if<Snapshot>(&item)) {
       awaits_snapshot_ = false;
       report(*snapshot);
@@ -145,7 +146,7 @@ void Service::on_real_time() {
 
 void Service::read_configuration() {
   if (reads_configuration_) {
-    background_->say("flexcompd: a new configuration is being read already");
+    background_->say("a new configuration is being read already");
     return;
   }
   reads_configuration_ = background_->start([reread = reread_, result = configurations_] {
@@ -153,7 +154,7 @@ void Service::read_configuration() {
     try {
       options = reread();
     } catch (const std::exception& error) {
-      std::fprintf(stderr, "flexcompd: the configuration cannot be read: %s\n", error.what());
+      complain(std::string("the configuration cannot be read: ") + error.what());
     }
     result->send(options ? std::optional(options->settings.node) : std::nullopt);
   });
@@ -176,7 +177,7 @@ void Service::check(const TableReceived& received) {
     received_transfer_ = received.transfer;
   }
   exchange_->to_real_time.send(verdict);
-  background_->say("flexcompd: table of " + std::to_string(received.size) +
+  background_->say("table of " + std::to_string(received.size) +
                    " bytes received: " + describe(verdict.opened));
 }
 
@@ -190,12 +191,12 @@ void Service::keep(const TableInUse& in_use) {
         try {
           SlotFiles(directory).keep(table->data(), table->size());
         } catch (const std::exception& error) {
-          std::fprintf(stderr, "flexcompd: the table is in use but not kept: %s\n", error.what());
+          complain(std::string("the table is in use but not kept: ") + error.what());
         }
       });
   received_ = nullptr;
   if (!started) {
-    background_->say("flexcompd: the table is in use but not kept: the disk is too slow");
+    background_->say("the table is in use but not kept: the disk is too slow");
   }
 }
 

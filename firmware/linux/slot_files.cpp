@@ -1,10 +1,10 @@
 #include "linux/slot_files.hpp"
 
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
 #include "flexcomp/table.hpp"
+#include "linux/complaint.hpp"
 #include "linux/whole_file.hpp"
 
 namespace flexcomp {
@@ -19,7 +19,7 @@ std::optional<std::vector<char>> read_if_possible(const std::string& path, std::
   try {
     return read_whole(path, most);
   } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "flexcompd: %s\n", error.what());
+    complain(error.what());
     return std::nullopt;
   }
 }

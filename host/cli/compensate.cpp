@@ -13,6 +13,7 @@
 #include "flexcomp/compensator.hpp"
 #include "flexcomp/table_builder.hpp"
 #include "model/robot.hpp"
+#include "recording/plausible_angles.hpp"
 #include "recording/recording.hpp"
 #include "simulation/quasi_static.hpp"
 
@@ -133,7 +134,7 @@ recording::Samples wanted_positions(const model::Robot& robot, const recording::
 int run(const CompensateOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   const TableFile file = read_table(options.table, robot);
-  const recording::Recording path = recording::read_recording(options.path);
+  const recording::Recording path = recording::read_program_of(robot.elastic, options.path);
   OfflineCompensator compensator(robot, file.table, path);
 
   recording::Recording corrected = path;

@@ -7,6 +7,7 @@
 #include "cli/command.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
+#include "recording/plausible_angles.hpp"
 #include "recording/recording.hpp"
 #include "study/path_wrench.hpp"
 
@@ -56,10 +57,10 @@ int run(const ForceOptions& options) {
   if (!options.path.empty()) {
     study::Spindle spindle = options.spindle;
     spindle.is_mean = spindle.speed == 0;
+    const model::Robot robot = model::load_robot(options.model);
+    recording::Recording path = recording::read_recording_of(robot.elastic, options.path);
     recording::write_recording(
-        options.out,
-        study::with_milling_wrench(model::load_robot(options.model).elastic,
-                                   recording::read_recording(options.path), milling, spindle));
+        options.out, study::with_milling_wrench(robot.elastic, std::move(path), milling, spindle));
   }
   const Wrench<double> mean = study::mean_wrench(milling);
   const double peak = peak_force(milling);

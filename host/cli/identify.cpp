@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
+#include "recording/plausible_angles.hpp"
 #include "study/identification.hpp"
 #include "study/load_test_plan.hpp"
 
@@ -116,7 +117,8 @@ int run(const IdentifyOptions& options) {
     throw InputError("identify: --model and --recording are required (see --help)");
   }
   model::Robot robot = model::load_robot(options.model);
-  const recording::Recording recording = recording::read_recording(options.recording);
+  const recording::Recording recording =
+      recording::read_recording_of(robot.elastic, options.recording);
   const study::Identification found = study::identify_springs(
       robot.elastic, recording, options.sought,
       {options.deviations[0], options.deviations[1], options.deviations[2]});

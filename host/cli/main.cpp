@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "linux/printable_line.hpp"
 
 namespace {
 
@@ -21,12 +22,10 @@ void end_cleanly(int signal) {
   std::raise(signal);
 }
 
-/// One line, whatever the message holds.
-void complain(std::string message) {
-  for (char& c : message) {
-    c = c == '\n' || c == '\r' ? ' ' : c;
-  }
-  fmt::print(stderr, "flexcomp: {}\n", message);
+/// One printable line, whatever the message holds. All that flexcomp complains of goes through
+/// here.
+void complain(const std::string& message) {
+  fmt::print(stderr, "flexcomp: {}\n", flexcomp::printable_line(message));
 }
 
 int run(const Action& action) {

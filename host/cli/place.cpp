@@ -6,6 +6,7 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "model/robot.hpp"
+#include "recording/plausible_angles.hpp"
 #include "study/placement.hpp"
 
 namespace flexcomp::cli {
@@ -36,7 +37,7 @@ bool is_on_bound(const study::Placement& place, const study::PlacementRequest& r
 
 int run(const PlaceOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
-  const recording::Recording path = recording::read_recording(options.path);
+  const recording::Recording path = recording::read_recording_of(robot.elastic, options.path);
   study::PlacementRequest request = options.request;
   request.most_shift = {options.most_shift[0], options.most_shift[1], options.most_shift[2]};
   Progress progress("placing", static_cast<std::size_t>(request.evaluations));

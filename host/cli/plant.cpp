@@ -16,6 +16,7 @@
 #include "model/robot.hpp"
 #include "node/default_config.hpp"
 #include "node/reply.hpp"
+#include "recording/plausible_angles.hpp"
 
 namespace flexcomp::cli {
 namespace {
@@ -119,7 +120,8 @@ int run(const PlantOptions& options) {
   } else {
     bus = simulation::open_plant_bus(options.bus, options.key);
   }
-  simulation::Contour contour(robot.elastic, recording::read_recording(options.path),
+  simulation::Contour contour(robot.elastic,
+                              recording::read_recording_of(robot.elastic, options.path),
                               options.process.side);
   simulation::Plant plant(robot_in_cut(options, robot), std::move(contour), plant_options,
                           bus.get());

@@ -8,6 +8,7 @@
 #include "diagnosis/learned.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
+#include "recording/plausible_angles.hpp"
 #include "recording/recording.hpp"
 #include "simulation/quasi_static.hpp"
 
@@ -79,7 +80,7 @@ int run_path(const SimulateOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   const RobotModel<double, 6> plant =
       simulation::with_scaled_compliance(robot.elastic, options.compliance_scale);
-  recording::Recording recording = recording::read_recording(options.path);
+  recording::Recording recording = recording::read_recording_of(robot.elastic, options.path);
   const recording::Samples& q_cmd =
       recording::require(recording, recording.q_cmd, "q_cmd_1..q_cmd_6");
   const recording::Samples& wrench = recording::require(recording, recording.wrench, "fx..mz");

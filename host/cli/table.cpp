@@ -15,6 +15,7 @@
 #include "files/text_file.hpp"
 #include "flexcomp/table_builder.hpp"
 #include "model/robot.hpp"
+#include "recording/plausible_angles.hpp"
 #include "recording/recording.hpp"
 
 namespace flexcomp::cli {
@@ -97,7 +98,7 @@ int run_build(const BuildOptions& options) {
     throw InputError("--tolerance: expected a length above zero");
   }
   const model::Robot robot = model::load_robot(options.model);
-  const recording::Recording path = recording::read_recording(options.path);
+  const recording::Recording path = recording::read_program_of(robot.elastic, options.path);
   const recording::Samples& q_cmd = recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
   std::vector<JointVector<double, 6>> points;
   for (Eigen::Index row = 0; row < q_cmd.rows(); ++row) {
@@ -186,7 +187,7 @@ TableError<double> largest_error(const VerifyOptions& options, const model::Robo
                                  const Table& table) {
   TableError<double> worst = largest_error(robot, table, options.samples, chart_places(table));
   if (!options.path.empty()) {
-    const recording::Recording path = recording::read_recording(options.path);
+    const recording::Recording path = recording::read_program_of(robot.elastic, options.path);
     const recording::Samples& q_cmd = recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
     if (q_cmd.rows() < 2) {
       throw InputError(fmt::format("{}: expected two rows or more", options.path));

@@ -10,7 +10,7 @@
 namespace flexcomp::cli {
 
 TableFile read_table(const std::filesystem::path& path, const model::Robot& robot) {
-  const std::string bytes = files::read_file(path, std::size_t{4} << 30);
+  const std::string bytes = files::read_file(path, std::size_t{1} << 30);
   TableFile file;
   file.words.resize((bytes.size() + 3) / 4);
   std::memcpy(file.words.data(), bytes.data(), bytes.size());

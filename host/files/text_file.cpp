@@ -114,6 +114,13 @@ std::string read_file(const fs::path& path, std::size_t limit) {
   if (fs::is_directory(status)) {
     fail(path, "is a directory; expected a file");
   }
+  // A pipe is taken, because a shell may put one there; a device may have no end.
+  if (fs::is_character_file(status) || fs::is_block_file(status) || fs::is_socket(status)) {
+    fail(path, "is a device or socket; expected a file");
+  }
+  if (fs::is_regular_file(status) && fs::file_size(path, error) > limit && !error) {
+    fail(path, fmt::format("larger than {} MiB", limit >> 20));
+  }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
@@ -136,8 +143,8 @@ std::string read_file(const fs::path& path, std::size_t limit) {
   return content;
 }
 
-std::string read_text(const fs::path& path) {
-  std::string text = read_file(path, std::size_t{1} << 30);
+std::string read_text(const fs::path& path, std::size_t limit) {
+  std::string text = read_file(path, limit);
   if (text.find('\0') != std::string::npos) {
     fail(path, "not a text file");
   }

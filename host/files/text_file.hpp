@@ -7,12 +7,17 @@
 
 namespace flexcomp::files {
 
-/// The whole of a file. Throws InputError, with the reason, for a file that is missing, a
-/// directory, empty, unreadable, or larger than `limit` bytes.
+/// The whole of a file or of what a pipe delivers. Throws InputError, with the reason, for a file
+/// that is missing, a directory, a device, empty, unreadable, or larger than `limit` bytes, before
+/// more than that has been read.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
-/// Same, for text: also refuses a file with NUL bytes, which is binary. The limit is 1 GiB.
-std::string read_text(const std::filesystem::path& path);
+/// Longest recording or log, and longest file that a person writes.
+constexpr std::size_t kLargestRecording = std::size_t{1} << 30;
+constexpr std::size_t kLargestDescription = std::size_t{16} << 20;
+
+/// Same, for text: also refuses a file with NUL bytes, which is binary.
+std::string read_text(const std::filesystem::path& path, std::size_t limit = kLargestRecording);
 
 /// Writes a file through `write`, whole or not at all: to a temporary file in the same folder that
 /// replaces `path` when it is complete and on the disk, with the permissions that `path` had.

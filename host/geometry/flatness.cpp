@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "error.hpp"
+#include "geometry/off_line.hpp"
 #include "geometry/profile.hpp"
 
 namespace flexcomp::geometry {
@@ -22,36 +23,23 @@ struct Surface {
     if (!std::all_of(given.begin(), given.end(), [](const auto& p) { return p.allFinite(); })) {
       throw InputError("a point is not finite");
     }
+    if (given.size() < 3) {
+      throw InputError("fewer than three points have no reference plane");
+    }
     for (const Eigen::Vector3d& point : given) {
       mean += point - given.front();
     }
-    if (given.size() > 2) {
-      mean = given.front() + mean / static_cast<double>(given.size());
-    }
+    mean = given.front() + mean / static_cast<double>(given.size());
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    double largest = 0;
     for (const Eigen::Vector3d& point : given) {
       points.emplace_back(point - mean);
       moments += points.back() * points.back().transpose();
+      largest = std::max(largest, point.cwiseAbs().maxCoeff());
     }
+    OffLine<3>(points, largest).refuse_a_line("reference plane");
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
     axes = solver.eigenvectors();
-    if (given.size() < 3 || !(off_line(given) > 0)) {
-      throw InputError("points on a line have no reference plane");
-    }
-  }
-
- private:
-  /// How far the points lie off the line of their largest spread, beyond what the given
-  /// coordinates can resolve.
-  double off_line(const SpacePoints& given) const {
-    const Eigen::Vector3d along = axes.col(2);
-    double off = 0;
-    double largest = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      off = std::max(off, (points[i] - along.dot(points[i]) * along).norm());
-      largest = std::max(largest, given[i].cwiseAbs().maxCoeff());
-    }
-    return off - 16 * std::numeric_limits<double>::epsilon() * largest;
   }
 };
 

@@ -6,20 +6,19 @@
 #include <limits>
 
 #include "error.hpp"
-#include "geometry/convex_hull.hpp"
+#include "geometry/off_line.hpp"
 
 namespace flexcomp::geometry {
 namespace {
 
-/// Index of the point farthest from `from`.
-std::size_t farthest_from(const Points& points, const Eigen::Vector2d& from) {
-  std::size_t farthest = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if ((points[i] - from).squaredNorm() > (points[farthest] - from).squaredNorm()) {
-      farthest = i;
+std::size_t distinct_up_to_three(const Points& points) {
+  Points found;
+  for (const Eigen::Vector2d& point : points) {
+    if (found.size() < 3 && std::find(found.begin(), found.end(), point) == found.end()) {
+      found.push_back(point);
     }
   }
-  return farthest;
+  return found.size();
 }
 
 }  // namespace
@@ -28,7 +27,7 @@ Profile::Profile(const Points& points) {
   if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); })) {
     throw InputError("a point is not finite");
   }
-  if (points.size() < 3) {
+  if (distinct_up_to_three(points) < 3) {
     throw InputError("fewer than three distinct points have no reference circle");
   }
   Eigen::Vector2d lower = points.front();
@@ -43,35 +42,10 @@ Profile::Profile(const Points& points) {
     points_.emplace_back(point - origin_);
     extent_ = std::max(extent_, points_.back().cwiseAbs().maxCoeff());
   }
-  if (!std::isfinite(extent_)) {
-    throw InputError("the points lie too far apart to compute with");
-  }
-
-  const std::size_t one_end = farthest_from(points_, points_.front());
-  const std::size_t other_end = farthest_from(points_, points_[one_end]);
-  const Eigen::Vector2d a = points_[one_end];
-  const Eigen::Vector2d b = points_[other_end];
-  const double length = (b - a).norm();
-  // What the given coordinates can resolve.
-  const double resolution = 4 * std::numeric_limits<double>::epsilon() *
-                            std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
-  double height = 0;
-  std::size_t highest = 0;
-  std::size_t elsewhere = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Eigen::Vector2d& point = points_[i];
-    const double off = length > 0 ? std::abs(cross(b - a, point - a)) / length : 0;
-    highest = off > height ? i : highest;
-    height = std::max(height, off);
-    elsewhere += (point - a).norm() > resolution && (point - b).norm() > resolution ? 1 : 0;
-  }
-  triangle_ = {one_end, other_end, highest};
-  if (elsewhere == 0) {
-    throw InputError("fewer than three distinct points have no reference circle");
-  }
-  if (height <= resolution) {
-    throw InputError("points on a line have no reference circle");
-  }
+  refuse_extreme_extent(extent_);
+  const OffLine<2> off(points_, std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff()));
+  off.refuse_a_line("reference circle");
+  triangle_ = {off.one_end(), off.other_end(), off.highest()};
 }
 
 Profile::Range Profile::range(const Eigen::Vector2d& center) const {

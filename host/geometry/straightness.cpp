@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "geometry/convex_hull.hpp"
+#include "geometry/off_line.hpp"
 
 namespace flexcomp::geometry {
 namespace {
@@ -24,7 +25,13 @@ Eigen::Vector2d mean_of(const Points& points) {
   for (const Eigen::Vector2d& point : points) {
     sum += point - points.front();
   }
-  return points.front() + sum / static_cast<double>(points.size());
+  const Eigen::Vector2d mean = points.front() + sum / static_cast<double>(points.size());
+  double extent = 0;
+  for (const Eigen::Vector2d& point : points) {
+    extent = std::max(extent, (point - mean).cwiseAbs().maxCoeff());
+  }
+  refuse_extreme_extent(mean.allFinite() ? extent : mean.norm());
+  return mean;
 }
 
 /// The deviations about a line; the support is left empty.

@@ -47,6 +47,8 @@ struct Robot {
 /// Reads a robot (schema flexcomp/robot/1). Throws InputError naming the file and the line, key,
 /// link or joint for anything that is missing, unknown, misspelt, of the wrong type or impossible.
 ///
+/// A compliance beyond what a robot can be (plausible_springs.hpp) is refused too.
+///
 /// Beside the schema's keys a joint may have `link_compliance`: six numbers, m/N (3) and rad/(N·m)
 /// (3), of the link that the joint moves, diagonal in the link's frame, at the joint's origin; and
 /// the robot `effects`, a list of maps: `effect`, `joint` (1 to 6) and `form` where it has them,

@@ -5,6 +5,8 @@
 
 #include "error.hpp"
 #include "files/one_line.hpp"
+#include "linux/printable_line.hpp"
+#include "model/plausible_springs.hpp"
 #include "model/robot.hpp"
 #include "model/robot_schema.hpp"
 #include "model/urdf_chain.hpp"
@@ -18,6 +20,14 @@ Vector vector(const std::array<double, Size>& values) {
   return Eigen::Map<const Vector>(values.data());
 }
 
+void refuse_softer_than(double most, const char* unit, double found, const YamlMap& yaml,
+                        const std::string& key) {
+  if (std::abs(found) > most) {
+    yaml.refuse(key, fmt::format("{:g} {} is softer than any robot; expected {:g} {} at most",
+                                 found, unit, most, unit));
+  }
+}
+
 DiagonalCompliance<double> read_compliance(const YamlMap& yaml, const std::string& key) {
   if (!yaml.has(key)) {
     return DiagonalCompliance<double>::Zero();
@@ -26,6 +36,10 @@ DiagonalCompliance<double> read_compliance(const YamlMap& yaml, const std::strin
   if (std::any_of(values.begin(), values.end(), [](double value) { return value < 0; })) {
     yaml.refuse(key, "a compliance must not be negative");
   }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    refuse_softer_than(i < 3 ? kMostShift : kMostTurn, i < 3 ? "m/N" : "rad/(N·m)", values[i], yaml,
+                       key);
+  }
   return vector<DiagonalCompliance<double>>(values);
 }
 
@@ -33,7 +47,10 @@ void read_joint(const YamlMap& yaml, Joint<double>* spring, JointDynamics* dynam
   yaml.allow_only({"compliance", "viscous", "coulomb", "rotor_inertia", "backlash",
                    "cubic_compliance", "link_compliance"});
   spring->compliance = yaml.non_negative("compliance");
+  refuse_softer_than(kMostTurn, "rad/(N·m)", spring->compliance, yaml, "compliance");
   spring->cubic_compliance = yaml.number_or("cubic_compliance", 0);
+  refuse_softer_than(kMostCubicTurn, "rad/(N·m)³", spring->cubic_compliance, yaml,
+                     "cubic_compliance");
   spring->link_compliance = read_compliance(yaml, "link_compliance");
   dynamics->viscous = yaml.non_negative_or("viscous", 0);
   dynamics->coulomb = yaml.non_negative_or("coulomb", 0);
@@ -105,6 +122,9 @@ Robot load_robot(const std::filesystem::path& file) {
   Robot robot;
   robot.yaml = file;
   robot.name = yaml.text("name");
+  if (printable_line(robot.name) != robot.name) {  // it stands in reports, configurations and JSON
+    yaml.refuse("name", "expected one line of UTF-8 without control characters");
+  }
   robot.urdf = urdf_beside(file, yaml);
   robot.base_link = yaml.text("base_link");
   robot.tool_link = yaml.text("tool_link");

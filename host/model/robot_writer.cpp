@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "model/plausible_springs.hpp"
 #include "model/robot.hpp"
 #include "model/robot_schema.hpp"
 
@@ -127,7 +128,8 @@ bool is_valid(const JointDynamics& dynamics) {
 }
 
 void refuse_impossible(const Robot& robot) {
-  bool valid = validate(robot.elastic) == Result::ok && !robot.name.empty();
+  bool valid = validate(robot.elastic) == Result::ok && has_plausible_springs(robot.elastic) &&
+               !robot.name.empty();
   for (const JointDynamics& dynamics : robot.dynamics) {
     valid = valid && is_valid(dynamics);
   }

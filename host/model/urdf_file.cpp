@@ -15,6 +15,7 @@
 #include "error.hpp"
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
+#include "model/urdf_values.hpp"
 
 namespace flexcomp::model {
 namespace {
@@ -55,14 +56,15 @@ void refuse_endless_nesting(const std::filesystem::path& file, const std::string
   }
 }
 
-/// urdfdom parses again and tells no line.
-void refuse_malformed_xml(const std::filesystem::path& file, const std::string& text) {
+/// urdfdom parses again, tells no line, and takes for zero or leaves out what it cannot read.
+void refuse_what_urdfdom_cannot_read(const std::filesystem::path& file, const std::string& text) {
   TiXmlDocument document;
   document.Parse(text.c_str());
   if (document.Error()) {
     throw InputError(fmt::format("{}:{}: not valid XML: {}", file.string(), document.ErrorRow(),
                                  document.ErrorDesc()));
   }
+  refuse_unreadable_values(file.string(), document);
 }
 
 /// urdfdom takes for granted that links form a tree: who walks one with a loop never arrives, and
@@ -96,9 +98,9 @@ void refuse_what_is_no_tree(const std::filesystem::path& file, const urdf::Model
 }  // namespace
 
 urdf::ModelInterfaceSharedPtr read_urdf(const std::filesystem::path& file) {
-  const std::string text = files::read_text(file);
+  const std::string text = files::read_text(file, files::kLargestDescription);
   refuse_endless_nesting(file, text);
-  refuse_malformed_xml(file, text);
+  refuse_what_urdfdom_cannot_read(file, text);
   const ParserMessages messages;
   urdf::ModelInterfaceSharedPtr tree;
   try {

@@ -43,7 +43,7 @@ bool goes_on_after_first_document(const std::string& text) {
 }  // namespace
 
 YAML::Node read_yaml(const std::filesystem::path& file) {
-  const std::string text = files::read_text(file);
+  const std::string text = files::read_text(file, files::kLargestDescription);
   try {
     if (goes_on_after_first_document(text)) {
       throw InputError(

@@ -10,6 +10,7 @@
 
 #include "error.hpp"
 #include "files/one_line.hpp"
+#include "model/edit_distance.hpp"
 #include "model/yaml_document.hpp"
 
 namespace flexcomp::model {
@@ -26,22 +27,6 @@ std::string description(const YAML::Node& node) {
     default:
       return "nothing";
   }
-}
-
-/// Letters to insert, drop or replace to make one word of the other (Levenshtein).
-std::size_t edit_distance(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  for (std::size_t j = 0; j <= to.size(); ++j) {
-    row[j] = j;
-  }
-  for (std::size_t i = 1; i <= from.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
-    }
-  }
-  return row[to.size()];
 }
 
 /// "did you mean" for a slip of the pen that is near to one key alone, else all there are.

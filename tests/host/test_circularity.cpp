@@ -377,6 +377,50 @@ bool is_refused(const Points& points) {
                      [&](Method method) { return refuses(method, points); });
 }
 
+/// Its corners are numbers that a double holds exactly, eight units in the last place apart.
+void a_triangle_far_from_the_origin_is_no_line() {
+  for (const double offset : {0.0, 1.0, 1e6, 1e12, 1e15, -1e15}) {
+    const Points triangle = {
+        {offset, offset}, {offset + 1, offset}, {offset, offset + 1}, {offset, offset}};
+    for (const Method method : kMethods) {
+      const Circularity circle = method(triangle);
+      TEST_ASSERT_DOUBLE_WITHIN(1e-9, std::sqrt(0.5), circle.r_max);
+      TEST_ASSERT_DOUBLE_WITHIN(0.13, offset + 0.5, circle.center.x());
+    }
+  }
+}
+
+std::string refusal(const Points& points) {
+  try {
+    minimum_zone_circularity(points);
+    return "accepted";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+void a_line_of_rounded_coordinates_is_one() {
+  const char* const line = "points on a line have no reference circle";
+  for (const double slope : {0.1, 0.3, -0.7, 3.3}) {
+    for (const double offset : {0.0, 0.1, 1000.1, 1e6 + 0.3}) {
+      Points points;
+      for (int i = 0; i < 20; ++i) {
+        points.emplace_back(offset + 0.1 * i, offset * slope + slope * 0.1 * i);
+      }
+      TEST_ASSERT_EQUAL_STRING(line, refusal(points).c_str());
+    }
+  }
+}
+
+void points_whose_digits_do_not_tell_are_refused_as_such() {
+  const double unit = 0.125;  // the last place at 1e15
+  const Points points = {{1e15, 1e15}, {1e15 + unit, 1e15}, {1e15, 1e15 + unit}};
+  const std::string message = refusal(points);
+  TEST_ASSERT_TRUE_MESSAGE(
+      message.find("do not tell whether the points lie on a line") != std::string::npos,
+      message.c_str());
+}
+
 void points_without_a_reference_circle_are_refused() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   TEST_ASSERT_TRUE(is_refused({}));
@@ -387,6 +431,8 @@ void points_without_a_reference_circle_are_refused() {
   TEST_ASSERT_TRUE(is_refused({{1000, 1000}, {1000.1, 1000.1}, {1000.3, 1000.3}}));
   TEST_ASSERT_TRUE(is_refused({{0, 0}, {1, 0}, {nan, 1}}));
   TEST_ASSERT_TRUE(is_refused({{-1e308, 0}, {1e308, 0}, {0, 1e308}}));
+  TEST_ASSERT_TRUE(is_refused({{-1e200, 0}, {1e200, 0}, {0, 1e200}}));
+  TEST_ASSERT_TRUE(is_refused({{-1e-200, 0}, {1e-200, 0}, {0, 1e-200}}));
 }
 
 }  // namespace
@@ -408,6 +454,9 @@ int main() {
   RUN_TEST(arcs_are_measured_as_well);
   RUN_TEST(points_of_a_short_arc_lie_in_a_zone_of_no_width);
   RUN_TEST(a_million_points_are_no_trouble);
+  RUN_TEST(a_triangle_far_from_the_origin_is_no_line);
+  RUN_TEST(a_line_of_rounded_coordinates_is_one);
+  RUN_TEST(points_whose_digits_do_not_tell_are_refused_as_such);
   RUN_TEST(points_without_a_reference_circle_are_refused);
   return UNITY_END();
 }

@@ -174,6 +174,21 @@ void known_forms_far_from_the_origin() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1e-4, minimum_zone_flatness(surface).value());
 }
 
+void a_triangle_far_from_the_origin_is_no_line() {
+  for (const double offset : {0.0, 1e6, 1e15, -1e15}) {
+    const SpacePoints corners = {{offset, offset, offset},
+                                 {offset + 1, offset, offset},
+                                 {offset, offset + 1, offset},
+                                 {offset, offset, offset + 1}};
+    const SpacePoints triangle(corners.begin(), corners.begin() + 3);
+    TEST_ASSERT_DOUBLE_WITHIN(0.5, 0, minimum_zone_flatness(triangle).value());
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, std::sqrt(1.0 / 3), minimum_zone_flatness(corners).value());
+    TEST_ASSERT_TRUE(least_squares_flatness(corners).value() < 1);
+    const Points flat = {{offset, offset}, {offset + 1, offset}, {offset, offset + 1}};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, std::sqrt(0.5), minimum_zone_straightness(flat).value());
+  }
+}
+
 void points_on_a_line_are_straight() {
   const Points points = {{0, 0}, {3, 3}, {1, 1}, {1, 1}, {2, 2}};
   TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0, minimum_zone_straightness(points).value());
@@ -202,12 +217,17 @@ void what_has_no_reference_is_refused() {
     TEST_ASSERT_TRUE(is_refused(measure, Points{}));
     TEST_ASSERT_TRUE(is_refused(measure, Points{{1, 1}, {1, 1}}));
     TEST_ASSERT_TRUE(is_refused(measure, Points{{1, 1}, {nan, 1}}));
+    TEST_ASSERT_TRUE(is_refused(measure, Points{{1e200, 1}, {-1e200, 1}, {0, 1e200}}));
+    TEST_ASSERT_TRUE(is_refused(measure, Points{{1e308, 1}, {-1e308, 1}, {-1e308, 1e200}}));
   }
   for (const auto measure : {least_squares_flatness, minimum_zone_flatness}) {
     TEST_ASSERT_TRUE(is_refused(measure, SpacePoints{}));
     TEST_ASSERT_TRUE(is_refused(measure, SpacePoints{{0, 0, 0}, {1, 1, 1}}));
     TEST_ASSERT_TRUE(is_refused(measure, SpacePoints{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}));
     TEST_ASSERT_TRUE(is_refused(measure, SpacePoints{{0, 0, 0}, {1, 1, 1}, {nan, 2, 2}}));
+    TEST_ASSERT_TRUE(is_refused(measure, SpacePoints{{0, 0, 0}, {1e200, 1, 1}, {0, 2e200, 2}}));
+    TEST_ASSERT_TRUE(
+        is_refused(measure, SpacePoints{{0.1, 0.3, 0.7}, {0.2, 0.6, 1.4}, {0.3, 0.9, 2.1}}));
   }
 }
 
@@ -221,6 +241,7 @@ int main() {
   RUN_TEST(least_squares_leave_no_slope);
   RUN_TEST(zones_are_never_wider_than_least_squares);
   RUN_TEST(known_forms_far_from_the_origin);
+  RUN_TEST(a_triangle_far_from_the_origin_is_no_line);
   RUN_TEST(points_on_a_line_are_straight);
   RUN_TEST(points_in_a_plane_are_flat);
   RUN_TEST(what_has_no_reference_is_refused);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "error.hpp"
 #include "host/arm_robot.hpp"
@@ -51,6 +52,9 @@ void a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key() {
       {{"name: An arm\n", ""}, "robot.yaml:1: 'name': missing"},
       {{"An arm", "[An, arm]"}, "robot.yaml:2: 'name': expected a text, found a list of 2"},
       {{"An arm", ""}, "robot.yaml:2: 'name': expected a text, found nothing"},
+      {{"An arm", "\"An\\narm\""},
+       "robot.yaml:2: 'name': expected one line of UTF-8 without control characters"},
+      {{"An arm", "\"An \\e[2Jarm\""}, "robot.yaml:2: 'name': expected one line of UTF-8"},
       {{"An arm", "[An"}, "robot.yaml:3: not valid YAML: "},
       {{"An arm", "An\tarm: \"\\q\""}, "robot.yaml:2: not valid YAML: "},
       {{"payload:", "---\npayload:"},
@@ -96,6 +100,20 @@ void a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key() {
        "robot.yaml:10: 'joints.j3.cubic_compliance': expected a finite number, found 'soft'"},
       {{"3e-6", "3e-6, link_compliance: [0, 0, 0, 0, 0, -1]"},
        "robot.yaml:10: 'joints.j3.link_compliance': a compliance must not be negative"},
+      {{"3e-6", "0.5"},
+       "robot.yaml:10: 'joints.j3.compliance': 0.5 rad/(N·m) is softer than any robot; expected "
+       "0.1 rad/(N·m) at most"},
+      {{"3e-6", "2e6"},
+       "robot.yaml:10: 'joints.j3.compliance': 2e+06 rad/(N·m) is softer than any robot"},
+      {{"3e-6", "3e-6, cubic_compliance: -2"},
+       "robot.yaml:10: 'joints.j3.cubic_compliance': -2 rad/(N·m)³ is softer than any robot"},
+      {{"3e-6", "3e-6, link_compliance: [0, 0, 0.1, 0, 0, 0]"},
+       "robot.yaml:10: 'joints.j3.link_compliance': 0.1 m/N is softer than any robot; expected "
+       "0.01 m/N at most"},
+      {{"payload:", "base_compliance: [0, 0, 0, 1, 0, 0]\npayload:"},
+       "robot.yaml:14: 'base_compliance': 1 rad/(N·m) is softer than any robot"},
+      {{"payload:", "tool_compliance: [1e-3, 0.02, 0, 0, 0, 0]\npayload:"},
+       "robot.yaml:14: 'tool_compliance': 0.02 m/N is softer than any robot"},
       {{"payload:", "base_compliance: 0\npayload:"},
        "robot.yaml:14: 'base_compliance': expected a list of 6 numbers, found '0'"},
       {{"payload:", "tool_compliance: [1, 2, 3, 4, 5, -6]\npayload:"},
@@ -117,6 +135,14 @@ void a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key() {
   }
 }
 
+void springs_of_a_desktop_arm_and_softer_are_read() {
+  const ScratchFolder folder;
+  for (const char* compliance : {"0", "1e-12", "1e-4", "1e-2", "0.05"}) {
+    put_arm(folder, {"3e-6", compliance});
+    TEST_ASSERT_EQUAL_STRING("accepted", load_refusal(folder).c_str());
+  }
+}
+
 void a_urdf_that_is_wrong_is_refused_with_the_link_or_joint() {
   const std::string limit = "<limit lower='-1' upper='1' effort='10' velocity='2'/>";
   const std::string expected = "expected six revolute joints between 'base' and 'tool'";
@@ -127,13 +153,7 @@ void a_urdf_that_is_wrong_is_refused_with_the_link_or_joint() {
       {{"<link name='other'/>", "<link name='l1'/>"},
        "arm.urdf: not a valid URDF: link 'l1' is not unique."},
       {{"link='base'", "link='bases'"}, "arm.urdf: not a valid URDF: "},
-      {{"'0.3 0.1 -0.2'", "'0.3 0.1'"}, "arm.urdf: not a valid URDF: "},
-      {{"'0.3 0.1 -0.2'", "'0.3 nan -0.2'"}, "arm.urdf: not a valid URDF: "},
       {{"'0.1 0 0.1'", "'1e200 0 0.1'"}, "arm.urdf: a length or mass is too large to compute with"},
-      {{limit, ""}, "arm.urdf: not a valid URDF: Joint [j1] is of type REVOLUTE"},
-      {{"effort='10'", ""}, "arm.urdf: not a valid URDF: joint limit: no effort"},
-      {{"lower='-1' upper='1'", ""},
-       "arm.urdf: joint 'j1': expected limits with lower below upper"},
       {{"lower='-1'", "lower='1.5'"},
        "arm.urdf: joint 'j1': expected limits with lower below upper"},
       {{"velocity='2'", "velocity='-2'"},
@@ -150,7 +170,7 @@ void a_urdf_that_is_wrong_is_refused_with_the_link_or_joint() {
        "arm.urdf: joint 'j1': is floating; " + expected},
       {{"'j1' type='revolute'", "'j1' type='fixed'"}, "arm.urdf: " + expected + ", found 5"},
       {{"'plate' type='fixed'><parent link='l6'/>",
-        "'plate' type='revolute'>" + limit + "<parent link='l6'/>"},
+        "'plate' type='revolute'><axis xyz='0 0 1'/>" + limit + "<parent link='l6'/>"},
        "arm.urdf: " + expected + ", found 7"},
       {{limit, limit + "<mimic joint='j2'/>"},
        "arm.urdf: joint 'j1': mimics another; expected joints that move by themselves"},
@@ -169,6 +189,108 @@ void a_urdf_that_is_wrong_is_refused_with_the_link_or_joint() {
     const std::string message = load_refusal(folder);
     TEST_ASSERT_EQUAL_STRING(one.message.c_str(), message.substr(0, one.message.size()).c_str());
     TEST_ASSERT_TRUE_MESSAGE(message.find('\n') == std::string::npos, message.c_str());
+  }
+}
+
+/// urdfdom reads zero, or leaves out the whole element, for each of these.
+void a_urdf_value_that_cannot_be_read_is_refused_with_its_line() {
+  const std::string mass = "<mass value='1'/>";
+  const std::string inertia = "<inertia ixx='1' iyy='2' izz='2.5' ixy='0.1' ixz='0' iyz='0.2'/>";
+  const std::string limit = "<limit lower='-1' upper='1' effort='10' velocity='2'/>";
+  const std::string in_link = "arm.urdf:6: link 'l1': ";
+  const std::string in_joint = "arm.urdf:4: joint 'j1': ";
+  const auto no_number = [](const std::string& where, const std::string& found) {
+    return where + ": expected a finite number, found '" + found + "'";
+  };
+  std::vector<Refusal> refusals = {
+      {{mass, ""}, in_link + "<inertial>: <mass> is missing"},
+      {{mass, "<mass/>"}, in_link + "<mass>: 'value' is missing"},
+      {{mass, "<mass>1</mass>"}, in_link + "<mass>: 'value' is missing"},
+      {{mass, "<mas value='1'/>"}, in_link + "<mas>: unknown in an <inertial>; expected <origin>"},
+      {{mass, "<mass valve='1'/>"}, in_link + "<mass>: 'valve' is unknown; expected value"},
+      {{mass, mass + "<mass value='2'/>"}, in_link + "<mass>: appears twice"},
+      {{inertia, ""}, in_link + "<inertial>: <inertia> is missing"},
+      {{"ixx='1' ", ""}, "arm.urdf:7: link 'l1': <inertia>: 'ixx' is missing"},
+      {{"ixx='1' ", "ixx='1' iyx='0' "},
+       "arm.urdf:7: link 'l1': <inertia>: 'iyx' is unknown; expected ixx, "},
+      {{"</inertial>", "</inertial><inertial/>"},
+       "arm.urdf:7: link 'l1': <inertial>: appears twice"},
+      {{"<inertial>", "<inertail>"}, "arm.urdf:7: not valid XML"},
+      {{"<link name='base'/>", "<link name='base'><inertail/></link>"},
+       "arm.urdf:2: link 'base': <inertail>: 'inertail' is unknown; did you mean 'inertial'?"},
+      {{"<link name='base'/>", "<link name='base'><mass value='1'/></link>"},
+       "arm.urdf:2: link 'base': <mass>: does not belong into a <link>"},
+      {{"<link name='base'/>", "<link name='base'/><inertial/>"},
+       "arm.urdf:2: <inertial>: does not belong here; expected it in a link or joint"},
+      {{"<axis xyz='0.6 0 0.8'/>", ""}, "arm.urdf:3: joint 'j1': <axis> is missing"},
+      {{"<axis xyz='0.6 0 0.8'/>", "<axis/>"}, in_joint + "<axis>: 'xyz' is missing"},
+      {{"<axis xyz=", "<axis rpy='0 0 0' xyz="}, in_joint + "<axis>: 'rpy' is unknown"},
+      {{"<axis", "<axis xyz='1 0 0'/><axis"}, in_joint + "<axis>: appears twice"},
+      {{"<axis", "<axes"}, in_joint + "<axes>: 'axes' is unknown; did you mean 'axis'?"},
+      {{"<axis", "<mass value='1'/><axis"}, in_joint + "<mass>: does not belong into a <joint>"},
+      {{limit, ""}, "arm.urdf:3: joint 'j1': <limit> is missing"},
+      {{"lower='-1' ", "Lower='-1' "}, "arm.urdf:5: joint 'j1': <limit>: 'Lower' is unknown; did "},
+      {{"<origin xyz=", "<origin quat_xyzw='0 0 0 1' xyz="},
+       in_joint + "<origin>: 'quat_xyzw' is unknown; expected xyz, rpy"},
+      {{"<origin xyz='0.3", "<Origin xyz='0.3"},
+       in_joint + "<Origin>: 'Origin' is unknown; did you mean 'origin'?"},
+      {{"<origin", "<origin/><origin"}, in_joint + "<origin>: appears twice"},
+      {{"rpy='0.1 -0.4 1.1'", "rpy='0 -90 0'"},
+       in_joint + "<origin>: rpy: expected radians, found -90, more than a whole turn; are these "},
+      {{"</robot>", "</robot>\n<robot name='two'/>"}, "arm.urdf:50: <robot>: appears twice"},
+  };
+  for (const char* name : {"lower", "upper", "effort", "velocity"}) {
+    const std::string written = limit.substr(limit.find(name));
+    const std::string attribute = written.substr(0, written.find('\'', written.find('\'') + 1) + 1);
+    const std::string in_limit = std::string("arm.urdf:5: joint 'j1': <limit>: ");
+    refusals.push_back({{attribute, ""}, in_limit + "'" + name + "' is missing"});
+    refusals.push_back(
+        {{attribute, std::string(name) + "='1,5'"}, no_number(in_limit + name, "1,5")});
+  }
+  const std::string in_inertia = "arm.urdf:7: link 'l1': <inertia>: ixx";
+  for (const char* number : {"", " ", "1,5", "nan", "inf", "-inf", "1e999", "0x10", "1 kg", "1 ",
+                             "1\t", "1.5.0", "one", "1e", "--1", "+-1", "1;5", "1'000", "1_000"}) {
+    const std::string quoted = std::string("\"") + number + "\"";
+    const std::string shown = number == std::string("1\t") ? "1 " : number;
+    refusals.push_back(
+        {{mass, "<mass value=" + quoted + "/>"}, no_number(in_link + "<mass>: value", shown)});
+    refusals.push_back({{"ixx='1'", "ixx=" + quoted}, no_number(in_inertia, shown)});
+  }
+  for (const char* three :
+       {"", "0.3 0.1", "0.3 0.1 -0.2 0", "0,3 0,1 -0,2", "0.3,0.1,-0.2", "0.3 nan -0.2",
+        "0.3 0.1 inf", "0.3 0.1 1e999", "0.3\t0.1\t-0.2", "0.3 0.1 -0.2m", "0x1 0 0", "a b c"}) {
+    const std::string quoted = std::string("\"") + three + "\"";
+    const std::string expected = ": expected 3 finite numbers between spaces, found '";
+    refusals.push_back({{"'0.3 0.1 -0.2'", quoted}, in_joint + "<origin>: xyz" + expected});
+    refusals.push_back({{"'0.1 -0.4 1.1'", quoted}, in_joint + "<origin>: rpy" + expected});
+    refusals.push_back({{"'0.6 0 0.8'", quoted}, in_joint + "<axis>: xyz" + expected});
+    refusals.push_back({{"'0.1 0 0.1'", quoted}, in_link + "<origin>: xyz" + expected});
+    refusals.push_back({{"'0.5 0 0'", quoted}, in_link + "<origin>: rpy" + expected});
+  }
+  const ScratchFolder folder;
+  for (const Refusal& one : refusals) {
+    put_arm(folder, {}, one.edit);
+    const std::string message = load_refusal(folder);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(
+        one.message.c_str(), message.substr(0, one.message.size()).c_str(), one.edit.to.c_str());
+    TEST_ASSERT_TRUE_MESSAGE(message.find('\n') == std::string::npos, message.c_str());
+  }
+}
+
+void what_the_urdf_standard_leaves_out_may_be_left_out() {
+  const Edit edits[] = {
+      {" rpy='0.1 -0.4 1.1'", ""},
+      {"<origin xyz='0.3 0.1 -0.2' rpy='0.1 -0.4 1.1'/>", ""},
+      {"<origin xyz='0.1 0 0.1' rpy='0.5 0 0'/>", ""},
+      {"'0.3 0.1 -0.2'", "'  +3e-1 .1   -2.e-1 '"},
+      {"velocity='2'", "velocity='2' acceleration='8'"},
+      {"<axis", "<dynamics damping='1'/><safety_controller k_velocity='1'/><axis"},
+      {"<link name='base'/>", "<link name='base'><visual/><self_collide/></link><gazebo/>"},
+  };
+  const ScratchFolder folder;
+  for (const Edit& edit : edits) {
+    put_arm(folder, {}, edit);
+    TEST_ASSERT_EQUAL_STRING("accepted", load_refusal(folder).c_str());
   }
 }
 
@@ -281,7 +403,7 @@ class StandardError {
 
 void the_urdf_parser_prints_nothing_of_its_own() {
   const ScratchFolder folder;
-  put_arm(folder, {}, {"'0.3 0.1 -0.2'", "'0.3 0.1'"});
+  put_arm(folder, {}, {"type='revolute'", "type='gliding'"});
   {
     const StandardError to_file(folder / "stderr");
     load_refusal(folder);
@@ -294,7 +416,10 @@ void the_urdf_parser_prints_nothing_of_its_own() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key);
+  RUN_TEST(springs_of_a_desktop_arm_and_softer_are_read);
   RUN_TEST(a_urdf_that_is_wrong_is_refused_with_the_link_or_joint);
+  RUN_TEST(a_urdf_value_that_cannot_be_read_is_refused_with_its_line);
+  RUN_TEST(what_the_urdf_standard_leaves_out_may_be_left_out);
   RUN_TEST(a_file_that_is_none_is_refused);
   RUN_TEST(a_urdf_that_is_no_urdf_is_refused);
   RUN_TEST(links_that_form_a_loop_or_have_two_parents_are_refused);

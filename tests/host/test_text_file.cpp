@@ -1,8 +1,11 @@
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
+#include <fstream>
 #include <functional>
 #include <ostream>
+#include <thread>
 
 #include "error.hpp"
 #include "files/text_file.hpp"
@@ -70,8 +73,34 @@ void unreadable_paths_are_refused_with_the_reason() {
                            refusal([&] { read_text(file); }).c_str());
   TEST_ASSERT_EQUAL_STRING("/: is a directory; expected a file",
                            refusal([] { read_text("/"); }).c_str());
-  TEST_ASSERT_EQUAL_STRING("/dev/zero: larger than 1 MiB",
-                           refusal([] { read_file("/dev/zero", kLimit); }).c_str());
+}
+
+/// None of them has an end, or one that is worth waiting for.
+void devices_sockets_and_files_beyond_the_limit_are_refused_unread() {
+  for (const char* device : {"/dev/zero", "/dev/null", "/dev/urandom", "/dev/full"}) {
+    TEST_ASSERT_EQUAL_STRING(
+        (std::string(device) + ": is a device or socket; expected a file").c_str(),
+        refusal([&] { read_file(device, kLimit); }).c_str());
+  }
+  const ScratchFolder folder;
+  put(folder / "huge", "");
+  fs::resize_file(folder / "huge", std::uintmax_t{1} << 42);
+  TEST_ASSERT_EQUAL_STRING(((folder / "huge").string() + ": larger than 1 MiB").c_str(),
+                           refusal([&] { read_file(folder / "huge", kLimit); }).c_str());
+}
+
+void a_pipe_is_read_up_to_the_limit() {
+  const ScratchFolder folder;
+  const std::string pipe = (folder / "pipe").string();
+  TEST_ASSERT_EQUAL(0, ::mkfifo(pipe.c_str(), 0600));
+  std::thread writer([&] { std::ofstream(pipe) << "through a pipe"; });
+  TEST_ASSERT_EQUAL_STRING("through a pipe", read_text(pipe).c_str());
+  writer.join();
+  ::signal(SIGPIPE, SIG_IGN);
+  writer = std::thread([&] { std::ofstream(pipe) << std::string(4 * kLimit, 'x'); });
+  TEST_ASSERT_EQUAL_STRING((pipe + ": larger than 1 MiB").c_str(),
+                           refusal([&] { read_file(pipe, kLimit); }).c_str());
+  writer.join();
 }
 
 void what_is_written_is_read_back_and_nothing_else_is_left() {
@@ -177,6 +206,8 @@ void the_permissions_of_a_replaced_file_are_kept() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(unreadable_paths_are_refused_with_the_reason);
+  RUN_TEST(devices_sockets_and_files_beyond_the_limit_are_refused_unread);
+  RUN_TEST(a_pipe_is_read_up_to_the_limit);
   RUN_TEST(what_is_written_is_read_back_and_nothing_else_is_left);
   RUN_TEST(a_full_disk_leaves_the_old_file_and_no_other);
   RUN_TEST(a_full_device_is_one_clear_error);
