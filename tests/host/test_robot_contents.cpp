@@ -35,7 +35,7 @@ Robot full_robot(const ScratchFolder& folder) {
     Joint<double>& joint = robot.elastic.joints[i];
     joint.compliance = n / 3 * 1e-6;
     joint.cubic_compliance = -n * 1e-17;
-    joint.link_compliance << n, 0, 1 / n, 1e-9, 2, 3;
+    joint.link_compliance << 1e-3 * n, 0, 1e-3 / n, 1e-9, 0.02, 0.03;
     robot.dynamics[i].viscous = n * 10;
     robot.dynamics[i].coulomb = n * 0.1;
     robot.dynamics[i].rotor_inertia = n * 7;
