@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "linux/printable_line.hpp"
 #include "model/plausible_springs.hpp"
 #include "model/robot.hpp"
 #include "model/robot_schema.hpp"
@@ -129,7 +130,7 @@ bool is_valid(const JointDynamics& dynamics) {
 
 void refuse_impossible(const Robot& robot) {
   bool valid = validate(robot.elastic) == Result::ok && has_plausible_springs(robot.elastic) &&
-               !robot.name.empty();
+               !robot.name.empty() && printable_line(robot.name) == robot.name;
   for (const JointDynamics& dynamics : robot.dynamics) {
     valid = valid && is_valid(dynamics);
   }

@@ -29,7 +29,7 @@ namespace {
 Robot full_robot(const ScratchFolder& folder) {
   put_arm(folder);
   Robot robot = load_robot(folder / "robot.yaml");
-  robot.name = "Name: with \"marks\" #1\n";
+  robot.name = "Name: with \"marks\" #1 ä";
   for (std::size_t i = 0; i < 6; ++i) {
     const double n = static_cast<double>(i) + 1;
     Joint<double>& joint = robot.elastic.joints[i];
