@@ -49,13 +49,15 @@ flexcomp::TableRequirements<float> convert(const flexcomp_table_requirements_t& 
           from.largest_gain};
 }
 
-/// The C view of a table is the C++ view itself.
-static_assert(sizeof(flexcomp_table_t) == sizeof(flexcomp::Table), "same two pointers");
-
-flexcomp::Table view(const flexcomp_table_t& from) {
-  flexcomp::Table table;
-  std::memcpy(static_cast<void*>(&table), &from, sizeof table);
-  return table;
+/// The C view tells where a table that was checked begins and ends. Not open if its fields no
+/// longer fit in between.
+flexcomp::Result view(const flexcomp_table_t& from, flexcomp::Table* table) {
+  if (from.header == nullptr) {
+    return flexcomp::Result::no_table;
+  }
+  const auto* begin = static_cast<const unsigned char*>(from.header);
+  const auto* end = static_cast<const unsigned char*>(from.end);
+  return flexcomp::Table::reopen(begin, static_cast<std::size_t>(end - begin), table);
 }
 
 Compensator* object(flexcomp_compensator_t* from) {
@@ -153,7 +155,7 @@ flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_ta
   const flexcomp::Result result = table == nullptr ? flexcomp::Result::bad_argument
                                                    : flexcomp::Table::open(data, size, &opened);
   if (result == flexcomp::Result::ok) {
-    std::memcpy(table, static_cast<const void*>(&opened), sizeof opened);
+    *table = {data, static_cast<const unsigned char*>(data) + size};
   }
   return to_c(result);
 }
@@ -163,9 +165,10 @@ flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
   if (table == nullptr || info == nullptr) {
     return FLEXCOMP_BAD_ARGUMENT;
   }
-  const flexcomp::Table opened = view(*table);
-  if (!opened.is_open()) {
-    return FLEXCOMP_NO_TABLE;
+  flexcomp::Table opened;
+  const flexcomp::Result result = view(*table, &opened);
+  if (result != flexcomp::Result::ok) {
+    return to_c(result);
   }
   const flexcomp::TableHeader& header = opened.header();
   *info = {opened.model_hash(),   opened.chart() == flexcomp::Chart::path,
@@ -190,7 +193,9 @@ flexcomp_result_t flexcomp_compensator_set_table(flexcomp_compensator_t* compens
   if (compensator == nullptr || table == nullptr) {
     return FLEXCOMP_BAD_ARGUMENT;
   }
-  return to_c(object(compensator)->set_table(view(*table)));
+  flexcomp::Table opened;
+  const flexcomp::Result result = view(*table, &opened);
+  return to_c(result == flexcomp::Result::ok ? object(compensator)->set_table(opened) : result);
 }
 
 flexcomp_result_t flexcomp_compensator_arm(flexcomp_compensator_t* compensator) {

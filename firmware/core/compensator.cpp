@@ -109,6 +109,7 @@ Result Compensator<Scalar, Joints>::arm() {
   }
   locate<Scalar, Joints>(table_, setpoint_, &cursor_);
   fade_ = 0;
+  bad_excess_ = 0;
   aim_.setZero();
   state_ = State::fading_in;
   return Result::ok;
@@ -232,13 +233,18 @@ std::uint32_t Compensator<Scalar, Joints>::aim(Output* output) {
 
 template <typename Scalar, int Joints>
 void Compensator<Scalar, Joints>::change_state(std::uint32_t faults) {
-  if (is_correcting() && faults != 0) {
-    state_ = State::holding;
-    held_ticks_ = 0;
-  } else if (state_ == State::holding && faults == 0) {
-    state_ = fade_ < Scalar(1) ? State::fading_in : State::active;
+  if (!is_correcting() && state_ != State::holding) {
+    return;
   }
-  if (state_ == State::holding && held_ticks_++ >= hold_ticks_) {
+  if (faults == 0) {
+    bad_excess_ -= bad_excess_ > 0 ? 1U : 0U;
+    if (state_ == State::holding) {
+      state_ = fade_ < Scalar(1) ? State::fading_in : State::active;
+    }
+    return;
+  }
+  state_ = State::holding;
+  if (++bad_excess_ > hold_ticks_) {
     state_ = State::fading_out;
     latched_faults_ = faults;
   }

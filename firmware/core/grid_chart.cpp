@@ -17,15 +17,17 @@ struct GridPlace {
 };
 
 template <typename Scalar>
-GridPlace<Scalar> place_on_axis(const TableHeader& header, std::size_t axis, Scalar angle) {
-  const auto last = static_cast<Scalar>(header.grid_nodes[axis] - 1);
+GridPlace<Scalar> place_on_axis(const Table& table, std::size_t axis, Scalar angle) {
+  const TableHeader& header = table.header();
+  const std::uint32_t nodes = table.shape().grid_nodes[axis];
+  const auto last = static_cast<Scalar>(nodes - 1);
   const Scalar step = static_cast<Scalar>(header.grid_step[axis]);
   const Scalar place = (angle - static_cast<Scalar>(header.grid_lower[axis])) / step;
   if (!(place > Scalar(0))) {
     return {0, Scalar(0), -place * step};
   }
   if (place >= last) {
-    return {header.grid_nodes[axis] - 2, Scalar(1), (place - last) * step};
+    return {nodes - 2, Scalar(1), (place - last) * step};
   }
   const auto node = static_cast<std::uint32_t>(place);
   return {node, place - static_cast<Scalar>(node), Scalar(0)};
@@ -36,13 +38,14 @@ GridPlace<Scalar> place_on_axis(const TableHeader& header, std::size_t axis, Sca
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up_grid(const Table& table, const JointVector<Scalar, Joints>& q) {
   const TableHeader& header = table.header();
+  const TableShape& shape = table.shape();
   const RecordLayout layout = record_layout(table);
   std::array<GridPlace<Scalar>, kMaxGridAxes> places;
   std::array<bool, Joints> is_axis{};
   Scalar outside = 0;
-  for (std::size_t axis = 0; axis < header.grid_axes; ++axis) {
-    const std::uint32_t joint = header.grid_joint[axis];
-    places[axis] = place_on_axis<Scalar>(header, axis, q[static_cast<Eigen::Index>(joint)]);
+  for (std::size_t axis = 0; axis < shape.grid_axes; ++axis) {
+    const std::uint32_t joint = shape.grid_joint[axis];
+    places[axis] = place_on_axis<Scalar>(table, axis, q[static_cast<Eigen::Index>(joint)]);
     is_axis[joint] = true;
     outside = places[axis].outside > outside ? places[axis].outside : outside;
   }
@@ -53,14 +56,14 @@ TableEntry<Scalar, Joints> look_up_grid(const Table& table, const JointVector<Sc
   }
 
   std::array<Scalar, kMaxRecordSize> blend{};
-  const std::uint32_t corners = 1U << header.grid_axes;
+  const std::uint32_t corners = 1U << shape.grid_axes;
   for (std::uint32_t corner = 0; corner < corners; ++corner) {
     Scalar weight = 1;
     std::uint32_t node = 0;
-    for (std::size_t axis = 0; axis < header.grid_axes; ++axis) {
+    for (std::size_t axis = 0; axis < shape.grid_axes; ++axis) {
       const bool upper = ((corner >> axis) & 1U) != 0;
       weight *= upper ? places[axis].t : Scalar(1) - places[axis].t;
-      node = node * header.grid_nodes[axis] + places[axis].node + (upper ? 1U : 0U);
+      node = node * shape.grid_nodes[axis] + places[axis].node + (upper ? 1U : 0U);
     }
     const float* record = table.record(node);
     for (std::uint32_t i = 0; i < layout.size; ++i) {

@@ -125,8 +125,8 @@ template <typename Scalar>
 [[gnu::always_inline]] inline Segment<Scalar> follow(const Table& table, const PackedSix<Scalar>& q,
                                                      std::uint32_t* at) {
   constexpr int kMaxMoves = 2;
-  const std::uint32_t last = table.header().node_count - 2;
-  const bool closed = table.header().closed != 0;
+  const std::uint32_t last = table.shape().node_count - 2;
+  const bool closed = table.shape().closed;
   std::uint32_t number = *at > last ? last : *at;
   Segment<Scalar> segment = segment_of(table, number, q);
   int direction = 0;
@@ -156,7 +156,7 @@ template <typename Scalar>
 [[gnu::noinline]] SegmentFind<Scalar> search(const Table& table, const PackedSix<Scalar>& q,
                                              SegmentFind<Scalar> find, TableCursor* cursor) {
   constexpr std::uint32_t kSearchedACall = 4;
-  const std::uint32_t segments = table.header().node_count - 1;
+  const std::uint32_t segments = table.shape().node_count - 1;
   const std::uint32_t first = find.segment;
   for (std::uint32_t i = 0; i < kSearchedACall; ++i) {
     cursor->searched = cursor->searched < segments ? cursor->searched + 1 : 1;
@@ -262,7 +262,7 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
                                               Scalar* outside) {
   const SegmentFind<Scalar> find = find_segment(table, PackedSix<Scalar>(q), cursor, outside);
   const float* from = table.record(find.segment);
-  const float* to = from + table.header().record_size;
+  const float* to = from + table.shape().record_size;
   using Six = PackedSix<Scalar>;
   const auto jacobian =
       PackedColumns<Scalar>::blend(from + kPath.jacobian, to + kPath.jacobian, find.t);
@@ -289,7 +289,7 @@ void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCurso
   }
   const PackedSix<Scalar> place(q);
   SegmentFind<Scalar> nearest = {0, 0, std::numeric_limits<Scalar>::infinity()};
-  for (std::uint32_t segment = 0; segment + 1 < table.header().node_count; ++segment) {
+  for (std::uint32_t segment = 0; segment + 1 < table.shape().node_count; ++segment) {
     const SegmentFind<Scalar> other = find_on(segment_of(table, segment, place), segment);
     nearest = other.off < nearest.off ? other : nearest;
   }

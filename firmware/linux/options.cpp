@@ -95,7 +95,8 @@ void add_correction(CLI::App* app, Options* options, Typed* typed) {
            "m, predicted: fault");
   positive(app, "--chart-margin", &core.chart_margin,
            "rad, outside the table, over which the correction fades");
-  not_negative(app, "--hold-time", &core.hold_time, "s, a fault may last before fading out");
+  not_negative(app, "--hold-time", &core.hold_time,
+               "s, a fault may last before fading out; bad ticks count up, good ones down");
   not_negative(app, "--fade-time", &core.fade_time, "s, from nothing to full correction and back");
   app->add_option("--ready-ticks", core.ready_ticks, "good inputs in a row before arming");
 }
@@ -114,7 +115,7 @@ void add_plausibility(CLI::App* app, Options* options, Typed* typed) {
   positive(app, "--wrench-age-limit", &core.wrench_age_limit, "s, beyond it one is stale");
   one_or_six(app, "--joint-speed", &typed->joint_speed, "rad/s, largest plausible");
   positive(app, "--late-ticks", &options->settings.node.late_ticks,
-           "late ticks in a row that are a fault");
+           "late ticks, beyond those on time, that are a fault");
 }
 
 void add_process(CLI::App* app, Options* options) {

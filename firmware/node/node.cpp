@@ -89,7 +89,7 @@ Result Node::start_with(std::size_t place, const Table& table, Result opened) {
   const Result result = opened == Result::ok ? put_to_use(table) : opened;
   table_result_ = number(result);
   if (result == Result::ok) {
-    store_.use(place, &table.header(), table.header().size);
+    store_.use(place, &table.header(), table.size());
   } else {
     announce(kTableRefusedCode, number(result));
   }
@@ -253,9 +253,9 @@ void Node::check_period(std::int64_t now) {
   const bool on_time = elapsed >= kEarliestTick * period && elapsed <= kLatestTick * period;
   if (ticks_ > 0 && !on_time) {
     ++late_ticks_;
-    ++late_in_a_row_;
+    late_excess_ = std::min(late_excess_ + 1, config_.late_ticks);
   } else {
-    late_in_a_row_ = 0;
+    late_excess_ -= late_excess_ > 0 ? 1U : 0U;
   }
   last_tick_ = now;
 }
@@ -276,7 +276,7 @@ std::uint16_t Node::judge(std::int64_t now) {
   return static_cast<std::uint16_t>(
       sticky_ | bit_if(wrench_monitor_.is_stuck(), kWrenchStuck) |
       bit_if(config_.require_identity && has_identity_ && !identity_fits, kIdentityMismatch) |
-      bit_if(late_in_a_row_ >= config_.late_ticks, kTickLate) | bit_if(link_.bus_fault, kBusFault) |
+      bit_if(late_excess_ >= config_.late_ticks, kTickLate) | bit_if(link_.bus_fault, kBusFault) |
       bit_if(wrench_monitor_.last_was_saturated(), kWrenchSaturated) |
       bit_if(wrench_monitor_.last_was_implausible(), kWrenchImplausible) | bit_if(lost, kSomeLost));
 }

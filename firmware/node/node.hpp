@@ -21,7 +21,7 @@ struct NodeConfig {
   bool require_identity = true;     ///< refuse to arm until the sender has named its robot
   double deflection_warning = 1e9;  ///< m, predicted: remark
   double deflection_error = 1e9;    ///< m, predicted: fault
-  std::uint32_t late_ticks = 10;    ///< ticks late or early in a row that are a fault
+  std::uint32_t late_ticks = 10;    ///< ticks late or early, beyond those on time, that are a fault
   double heartbeat_period = 0.1;    ///< s
   /// Ages from the senders' clocks too, where messages carry them; not where time is not real.
   bool use_timestamps = true;
@@ -155,7 +155,7 @@ class Node {
   std::uint64_t ticks_ = 0;
   std::uint64_t late_ticks_ = 0;
   std::uint64_t clock_jumps_ = 0;
-  std::uint32_t late_in_a_row_ = 0;
+  std::uint32_t late_excess_ = 0;  ///< late or early ticks beyond those on time, up to a fault
   std::uint64_t faults_ = 0;
   std::uint32_t ticks_to_heartbeat_ = 0;
   std::uint32_t announced_ = 0;

@@ -60,7 +60,8 @@ struct CompensatorConfig {
   std::array<CorrectionLimits<Scalar>, Joints> limits{};
   Scalar deflection_limit = 0;  ///< m, largest correction at the TCP
   Scalar chart_margin = 0;      ///< rad, outside the chart, over which the correction fades
-  Scalar hold_time = 0;         ///< s, a fault may last before fading out
+  Scalar hold_time =
+      0;  ///< s, by which time with a fault may exceed time without before fading out
   Scalar fade_time = 0;  ///< s, from nothing to full correction and back; at most 1e6 periods
   std::uint32_t ready_ticks = 10;  ///< good inputs in a row before it may be armed
 };
@@ -94,6 +95,12 @@ struct CompensatorOutput {
 /// (`Guard`), also through faults, arming, disarming and a change of table. A fault holds the
 /// correction for `hold_time`; if it lasts longer the correction fades to zero and stays there
 /// until `reset`. An unusable setpoint is replaced by the last usable one.
+///
+/// How long a fault lasts is counted, not timed, so that one that comes and goes cannot last for
+/// ever: each tick with any fault counts one up, each good tick one down, not below zero, and
+/// beyond `hold_time` in ticks the correction fades out. A single bad tick, or a burst shorter than
+/// `hold_time` with as many good ones after it, leaves nothing behind. Where a share s of the
+/// ticks, more than half, is bad, it fades out after hold_time / (2 s − 1).
 ///
 /// Not a safety function: the robot controller's own limits and stops must hold without it.
 template <typename Scalar, int Joints>
@@ -150,7 +157,7 @@ class Compensator {
   State state_ = State::off;
   std::uint32_t latched_faults_ = 0;
   std::uint32_t good_ticks_ = 0;
-  std::uint32_t held_ticks_ = 0;
+  std::uint32_t bad_excess_ = 0;  ///< ticks with a fault beyond those without, since it was armed
   Angles setpoint_ = Angles::Zero();  ///< last usable
   Scalar setpoint_age_ = 0;
   bool has_setpoint_ = false;

@@ -161,7 +161,7 @@ flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const
 /// A checked view of a table, which must outlive it. Do not touch the members.
 typedef struct flexcomp_table {
   const void* header;
-  const void* records;
+  const void* end;
 } flexcomp_table_t;
 
 typedef struct flexcomp_table_info {
@@ -181,7 +181,8 @@ typedef struct flexcomp_table_info {
 /// bytes.
 flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table);
 
-/// FLEXCOMP_OK, BAD_ARGUMENT or NO_TABLE (not opened).
+/// FLEXCOMP_OK, BAD_ARGUMENT, NO_TABLE (not opened) or TABLE_CORRUPT (its memory has changed
+/// since).
 flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
                                           flexcomp_table_info_t* info);
 
@@ -204,9 +205,11 @@ typedef struct flexcomp_config {
   flexcomp_limits_t limits[FLEXCOMP_JOINTS];
   float deflection_limit;  ///< m, largest correction at the TCP
   float chart_margin;      ///< rad, outside the chart, over which the correction fades
-  float hold_time;         ///< s, a fault may last before fading out
-  float fade_time;         ///< s, from nothing to full correction and back; at most 1e6 periods
-  uint32_t ready_ticks;    ///< good inputs in a row before it may be armed
+  /// s, a fault may last before fading out. Bad ticks count up, good ones down: a fault that comes
+  /// and goes fades out too, once bad ticks outnumber good ones by this time.
+  float hold_time;
+  float fade_time;       ///< s, from nothing to full correction and back; at most 1e6 periods
+  uint32_t ready_ticks;  ///< good inputs in a row before it may be armed
 } flexcomp_config_t;
 
 typedef struct flexcomp_input {
@@ -241,8 +244,13 @@ flexcomp_result_t flexcomp_compensator_init(flexcomp_compensator_t* compensator,
                                             const flexcomp_config_t* config);
 
 /// Gives it a table, at any time between ticks, also while correcting: the correction then moves to
-/// the new table's within its limits. FLEXCOMP_OK, or BAD_ARGUMENT, NO_TABLE, TABLE_OTHER_MODEL,
-/// GAIN_TOO_HIGH with the table in use unchanged. Cost: one look at every node.
+/// the new table's within its limits. FLEXCOMP_OK, or BAD_ARGUMENT, NO_TABLE, TABLE_CORRUPT (its
+/// memory has changed since it was opened), TABLE_OTHER_MODEL, GAIN_TOO_HIGH with the table in use
+/// unchanged. Cost: one look at every node.
+///
+/// The compensator keeps sizes and indices of the table in its own memory: should the table's
+/// memory change while it is in use, the correction may be wrong, within its limits, but nothing is
+/// read beyond the table. Check its CRC-32 now and then where that can be, as `flexcompd` does.
 flexcomp_result_t flexcomp_compensator_set_table(flexcomp_compensator_t* compensator,
                                                  const flexcomp_table_t* table);
 

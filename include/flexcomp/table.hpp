@@ -55,8 +55,24 @@ struct TableHeader {
   float largest_gain;       ///< largest safe correction gain; 0 where it was not analysed
 };
 
+/// What of a table's header sizes, indices and branches are taken from, in narrow types that hold
+/// any a table can have.
+struct TableShape {
+  std::uint8_t chart = 0;
+  std::uint8_t contents = 0;
+  std::uint16_t record_size = 0;  ///< floats
+  std::uint32_t node_count = 0;
+  bool closed = false;
+  std::uint8_t grid_axes = 0;
+  std::uint8_t grid_joint[kMaxGridAxes] = {};
+  std::uint16_t grid_nodes[kMaxGridAxes] = {};
+};
+
 /// A checked, read-only view of a table. Copying the view does not copy the table, which must
 /// outlive it.
+///
+/// The view keeps the shape that it has checked. A table whose memory changes while it is in use
+/// gives wrong numbers, which the compensator limits, but is never read beyond its end.
 class Table {
  public:
   Table() = default;
@@ -69,14 +85,24 @@ class Table {
   /// table_version, table_corrupt; `table` is untouched unless ok.
   static Result open(const void* data, std::size_t size, Table* table);
 
+  /// A view again of a table of `size` bytes that `open` has checked. Constant time: checks that
+  /// the fields still fit the size. Returns ok, bad_argument or table_corrupt.
+  static Result reopen(const void* data, std::size_t size, Table* table);
+
   bool is_open() const { return header_ != nullptr; }
   const TableHeader& header() const { return *header_; }
-  Chart chart() const { return static_cast<Chart>(header_->chart); }
+  const TableShape& shape() const { return shape_; }
+  std::size_t size() const {  ///< bytes
+    return sizeof(TableHeader) +
+           sizeof(float) * static_cast<std::size_t>(shape_.node_count) * shape_.record_size;
+  }
+  Chart chart() const { return static_cast<Chart>(shape_.chart); }
   std::uint64_t model_hash() const;
-  bool has_weight() const { return (header_->contents & kWeight) != 0; }
-  bool has_structure() const { return (header_->contents & kStructure) != 0; }
+  bool has_weight() const { return (shape_.contents & kWeight) != 0; }
+  bool has_structure() const { return (shape_.contents & kStructure) != 0; }
+  /// `node` is below `shape().node_count`.
   const float* record(std::uint32_t node) const {
-    return records_ + static_cast<std::size_t>(node) * header_->record_size;
+    return records_ + static_cast<std::size_t>(node) * shape_.record_size;
   }
 
   static constexpr std::uint32_t kMagic = 0x31544346;  // "FCT1"
@@ -86,6 +112,7 @@ class Table {
  private:
   const TableHeader* header_ = nullptr;
   const float* records_ = nullptr;
+  TableShape shape_;
 };
 
 /// Where in the chart the last lookup ended; keeps the next one short. Zero to begin with.

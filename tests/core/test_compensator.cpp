@@ -208,6 +208,56 @@ void a_short_fault_is_ridden_out() {
   }
 }
 
+/// Twelve ticks over and over, of which the first `bad` are spoiled, for five seconds at most;
+/// the ticks until it latches, 0 if it does not.
+int ticks_until_latched(void (*spoil)(Core::Input*), int bad) {
+  Running running;
+  for (int tick = 1; tick <= 5000; ++tick) {
+    running.run_with(
+        1, tick % 12 < bad ? spoil : [](Core::Input*) {});
+    if (running.output.state == State::latched) {
+      return tick;
+    }
+  }
+  return 0;
+}
+
+/// Whatever is wrong with the input: one good tick in twelve does not keep a correction that is
+/// never renewed but then.
+void a_fault_that_comes_and_goes_fades_out_when_more_ticks_are_bad_than_good() {
+  for (const Fault& fault : kFaults) {
+    const int straight = ticks_until_latched(fault.spoil, 12);
+    const int flickering = ticks_until_latched(fault.spoil, 11);
+    TEST_ASSERT_GREATER_THAN_MESSAGE(0, flickering, fault.name);
+    // The hold time by 2 × 11/12 − 1, and no good tick in which to stop fading.
+    TEST_ASSERT_LESS_OR_EQUAL_MESSAGE(straight + 13, flickering, fault.name);
+    TEST_ASSERT_GREATER_THAN_MESSAGE(0, ticks_until_latched(fault.spoil, 7), fault.name);
+  }
+}
+
+void a_fault_that_comes_and_goes_is_ridden_out_while_more_ticks_are_good_than_bad() {
+  for (const Fault& fault : kFaults) {
+    // What moves the setpoint is seen as a jump on the way back, too.
+    TEST_ASSERT_EQUAL_MESSAGE(0, ticks_until_latched(fault.spoil, 1), fault.name);
+    TEST_ASSERT_EQUAL_MESSAGE(0, ticks_until_latched(fault.spoil, 5), fault.name);
+  }
+}
+
+/// Two bursts, each shorter than the hold time, with as many good ticks between them.
+void bursts_that_the_time_between_them_makes_up_for_leave_nothing_behind() {
+  Running running;
+  for (int i = 0; i < 20; ++i) {
+    running.run_with(45, kFaults[7].spoil);
+    TEST_ASSERT_TRUE(running.output.state == State::holding);
+    running.run(45);
+    TEST_ASSERT_TRUE(running.output.state == State::active);
+  }
+  running.run_with(50, kFaults[7].spoil);
+  TEST_ASSERT_TRUE(running.output.state == State::holding);
+  running.run_with(1, kFaults[7].spoil);
+  TEST_ASSERT_TRUE(running.output.state == State::fading_out);
+}
+
 void a_jump_of_the_setpoint_is_noticed() {
   Running running;
   running.now += 300;  // along the program, but faster than the joints can move
@@ -642,6 +692,9 @@ int main() {
   RUN_TEST(the_filter_answers_a_step_as_a_low_pass_does);
   RUN_TEST(every_fault_is_named_held_faded_and_latched);
   RUN_TEST(a_short_fault_is_ridden_out);
+  RUN_TEST(a_fault_that_comes_and_goes_fades_out_when_more_ticks_are_bad_than_good);
+  RUN_TEST(a_fault_that_comes_and_goes_is_ridden_out_while_more_ticks_are_good_than_bad);
+  RUN_TEST(bursts_that_the_time_between_them_makes_up_for_leave_nothing_behind);
   RUN_TEST(a_jump_of_the_setpoint_is_noticed);
   RUN_TEST(an_unusable_setpoint_is_replaced_by_the_last_usable_one);
   RUN_TEST(where_the_age_of_a_setpoint_is_not_known_it_is_a_period_older_than_the_last);
