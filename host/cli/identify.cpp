@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -37,13 +38,13 @@ struct LoadTestPlanOptions {
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Puts a spring that is told into the model; a compliance cannot be below zero.
+/// Puts a spring that is told into the model; of any other the model's own value stays.
 void put(const study::IdentifiedSpring& spring, std::size_t index,
          const study::SoughtSprings& sought, model::Robot* robot) {
-  if (!spring.is_told) {
+  if (!spring.is_told()) {
     return;
   }
-  const double value = std::max(spring.value, 0.0);
+  const double value = spring.value;
   if (index < 6) {
     robot->elastic.joints[index].compliance = value;
   } else if (index < 12 && sought.base) {
@@ -53,16 +54,43 @@ void put(const study::IdentifiedSpring& spring, std::size_t index,
   }
 }
 
+bool is_any_told(const study::Identification& found) {
+  return std::any_of(found.springs.begin(), found.springs.end(),
+                     [](const study::IdentifiedSpring& spring) { return spring.is_told(); });
+}
+
+/// Why a spring is not told.
+std::string reason(const study::IdentifiedSpring& spring) {
+  return spring.told == study::Told::not_loaded ? "not_loaded" : "interval_holds_zero";
+}
+
 Json to_json(const study::Identification& found, const recording::Recording& recording) {
   Json springs = Json::object();
+  Json not_told = Json::object();
   for (const study::IdentifiedSpring& spring : found.springs) {
-    springs[spring.name] = spring.is_told ? Json{{"value", spring.value},
-                                                 {"std", spring.deviation},
-                                                 {"interval_95", {spring.lower, spring.upper}}}
-                                          : Json(nullptr);
+    const Json interval = {spring.lower, spring.upper};
+    if (spring.is_told()) {
+      springs[spring.name] = {
+          {"value", spring.value}, {"std", spring.deviation}, {"interval_95", interval}};
+      continue;
+    }
+    springs[spring.name] = nullptr;
+    const bool is_loaded = spring.told != study::Told::not_loaded;
+    not_told[spring.name] = {{"because", reason(spring)},
+                             {"interval_95", is_loaded ? interval : Json(nullptr)}};
+  }
+  Json sums = Json::array();
+  for (const study::IdentifiedSum& sum : found.sums) {
+    sums.push_back({{"first", found.springs[sum.first].name},
+                    {"second", found.springs[sum.second].name},
+                    {"factor", sum.factor},
+                    {"value", sum.value},
+                    {"interval_95", {sum.lower, sum.upper}}});
   }
   return {{"schema", "flexcomp/identification/1"},
           {"springs", springs},
+          {"not_told", not_told},
+          {"sums", sums},
           {"noise", found.noise},
           {"condition_number", found.condition_number},
           {"degrees_of_freedom", found.freedom},
@@ -74,17 +102,31 @@ Json to_json(const study::Identification& found, const recording::Recording& rec
           {"nonlinearity_p_value", found.nonlinearity_chance}};
 }
 
-void print(const study::Identification& found, const recording::Recording& recording) {
+void print_springs(const study::Identification& found) {
   fmt::print("{:10} {:>13} {:>13}   95 % interval, 1e-6 rad/(N·m) (translations: 1e-6 m/N)\n",
              "spring", "compliance", "deviation");
   for (const study::IdentifiedSpring& spring : found.springs) {
-    if (spring.is_told) {
+    if (spring.is_told()) {
       fmt::print("{:10} {:13.5f} {:13.5f}   {:.5f} to {:.5f}\n", spring.name, 1e6 * spring.value,
                  1e6 * spring.deviation, 1e6 * spring.lower, 1e6 * spring.upper);
+    } else if (spring.told == study::Told::not_loaded) {
+      fmt::print("{:10} these tests do not tell it: the model's value stays\n", spring.name);
     } else {
-      fmt::print("{:10} these tests do not tell it\n", spring.name);
+      fmt::print(
+          "{:10} these tests do not tell it: the model's value stays ({:.4g} to {:.4g} holds "
+          "zero)\n",
+          spring.name, 1e6 * spring.lower, 1e6 * spring.upper);
     }
   }
+  for (const study::IdentifiedSum& sum : found.sums) {
+    fmt::print("{} + {:.4g} × {} is told, no more: {:.5f}, {:.5f} to {:.5f}\n",
+               found.springs[sum.first].name, sum.factor, found.springs[sum.second].name,
+               1e6 * sum.value, 1e6 * sum.lower, 1e6 * sum.upper);
+  }
+}
+
+void print(const study::Identification& found, const recording::Recording& recording) {
+  print_springs(found);
   fmt::print(
       "noise of a coordinate {:.1f} µm, {} degrees of freedom, {} postures, condition number "
       "{:.1f}\n",
@@ -100,14 +142,20 @@ void print(const study::Identification& found, const recording::Recording& recor
   }
 }
 
-/// A spring that gives against its load is no spring.
-void refuse_below_zero(const study::Identification& found) {
+/// Springs that no robot has come of numbers that are not what they should be.
+void refuse_impossible(const study::Identification& found) {
   for (const study::IdentifiedSpring& spring : found.springs) {
-    if (spring.is_told && spring.upper < 0) {
-      throw InputError(
-          "the robot would give against its load: the wrench must be that on the robot, at the "
-          "TCP, "
-          "in the base frame");
+    if (spring.told == study::Told::against_load) {
+      throw InputError(fmt::format(
+          "{} would give against its load: the wrench must be that on the robot, at the TCP, in "
+          "the base frame",
+          spring.name));
+    }
+    if (spring.told == study::Told::not_plausible) {
+      throw InputError(fmt::format(
+          "{} would have a compliance of {:.3g}, as no robot has: forces must be in N, moments in "
+          "N·m, lengths in m, angles in rad",
+          spring.name, spring.value));
     }
   }
 }
@@ -122,8 +170,9 @@ int run(const IdentifyOptions& options) {
   const study::Identification found = study::identify_springs(
       robot.elastic, recording, options.sought,
       {options.deviations[0], options.deviations[1], options.deviations[2]});
-  refuse_below_zero(found);
-  if (!options.out.empty()) {
+  refuse_impossible(found);
+  const bool is_told = is_any_told(found);
+  if (!options.out.empty() && is_told) {
     for (std::size_t i = 0; i < found.springs.size(); ++i) {
       put(found.springs[i], i, options.sought, &robot);
     }
@@ -133,8 +182,11 @@ int run(const IdentifyOptions& options) {
     fmt::print("{}\n", to_json(found, recording).dump(2));
   } else {
     print(found, recording);
+    if (!is_told) {
+      fmt::print("no spring is told: nothing is written\n");
+    }
   }
-  return kDone;
+  return is_told ? kDone : kDoesNotHold;
 }
 
 int run_plan(const LoadTestPlanOptions& options) {
@@ -187,6 +239,9 @@ void add_identify(CLI::App* app, Action* action) {
       "each\n"
       "posture needs two loads or more (none is a load too). Errors of the geometry do not "
       "matter.\n"
+      "A spring whose 95 % interval holds zero is not told: the model's value stays. Exit code 1 "
+      "if\n"
+      "none is told.\n"
       "Example: flexcomp identify --model robot.yaml --recording load.csv --out identified.yaml\n"
       "         flexcomp identify plan --model robot.yaml --force 2000 --out plan.csv");
   command->add_option("--model", options->model, "robot.yaml");

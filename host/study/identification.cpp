@@ -151,6 +151,92 @@ double nonlinearity_chance(const Problem& problem, double sum, Eigen::Index free
   return chance_of_gain(sum, left, more, freedom - more);
 }
 
+/// The solution of the linear problem, with what is needed to judge it.
+struct Solution {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd covariance;  ///< over the noise's variance
+  Eigen::VectorXd untold;      ///< each spring's share, 0 to 1, in directions that no test tells
+  double condition_number = 0;
+  Eigen::Index rank = 0;
+};
+
+/// By singular values of the columns over their lengths; the smallest solution where not all is
+/// told.
+Solution solve(const Problem& problem) {
+  const Eigen::VectorXd length = problem.columns.colwise().norm().transpose();
+  const Eigen::VectorXd scale =
+      length.unaryExpr([](double own) { return own > 0 ? 1 / own : 0.0; });
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(problem.columns * scale.asDiagonal(),
+                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& singular = svd.singularValues();
+  const double limit = length.maxCoeff() > 0 ? kTold * singular[0] : 0;
+  Solution solution;
+  solution.rank = (singular.array() > limit).count();
+  if (solution.rank == 0) {
+    return solution;
+  }
+  solution.condition_number = singular[0] / singular[solution.rank - 1];
+  const Eigen::VectorXd inverse =
+      singular.unaryExpr([&](double value) { return value > limit ? 1 / value : 0.0; });
+  const Eigen::MatrixXd root = scale.asDiagonal() * svd.matrixV() * inverse.asDiagonal();
+  solution.value = root * (svd.matrixU().transpose() * problem.observed);
+  solution.covariance = root * root.transpose();
+  solution.untold = svd.matrixV().rightCols(singular.size() - solution.rank).rowwise().norm();
+  solution.untold = (length.array() > 0).select(solution.untold, 1);
+  return solution;
+}
+
+/// rad/(N·m) and m/N; a joint of a desktop arm has some 1e-3, a robot's bearing some 1e-8.
+constexpr double kMostCompliance = 1e-2;
+
+/// `untold`: as in Solution; `share`: of what was observed that it moves the TCP; `far`:
+/// deviations, to where none of the springs gets by chance.
+Told told_of(const IdentifiedSpring& spring, double untold, double share, double far) {
+  if (untold > 1e-3) {
+    return Told::not_loaded;
+  }
+  if (share < kTold) {
+    return Told::within_noise;  // of rounding, if of nothing else
+  }
+  if (spring.value < -far * spring.deviation) {
+    return Told::against_load;
+  }
+  if (!(spring.lower > 0)) {
+    return Told::within_noise;
+  }
+  return spring.lower > kMostCompliance ? Told::not_plausible : Told::yes;
+}
+
+/// Sums of two springs that are not told whose columns hardly differ in direction.
+std::vector<IdentifiedSum> told_sums(const Problem& problem, const Solution& solution,
+                                     const std::vector<IdentifiedSpring>& springs, double noise,
+                                     double reach) {
+  constexpr double kAlike = 0.9;  // cosine between columns
+  std::vector<IdentifiedSum> sums;
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    for (std::size_t k = i + 1; k < springs.size(); ++k) {
+      const auto a = problem.columns.col(static_cast<Eigen::Index>(i));
+      const auto b = problem.columns.col(static_cast<Eigen::Index>(k));
+      const double alike = a.dot(b) / (a.norm() * b.norm());
+      if (springs[i].is_told() || springs[k].is_told() || !(alike > kAlike)) {
+        continue;
+      }
+      IdentifiedSum sum{i, k, a.dot(b) / a.squaredNorm(), 0, 0, 0};
+      Eigen::VectorXd weight = Eigen::VectorXd::Zero(solution.value.size());
+      weight[static_cast<Eigen::Index>(i)] = 1;
+      weight[static_cast<Eigen::Index>(k)] = sum.factor;
+      sum.value = weight.dot(solution.value);
+      const double half = reach * noise * std::sqrt(weight.dot(solution.covariance * weight));
+      sum.lower = sum.value - half;
+      sum.upper = sum.value + half;
+      if (sum.lower > 0) {
+        sums.push_back(sum);
+      }
+    }
+  }
+  return sums;
+}
+
 }  // namespace
 
 std::vector<std::string> spring_names(const SoughtSprings& sought) {
@@ -209,47 +295,38 @@ Identification identify_springs(const RobotModel<double, 6>& model,
   const Tests tests = complete_rows(recording);
   const Problem problem = problem_of(model, tests, sought, deviations);
   const std::vector<std::string> names = spring_names(sought);
-  const Eigen::VectorXd length = problem.columns.colwise().norm().transpose();
-  const double longest = length.size() > 0 ? length.maxCoeff() : 0;
-  const Eigen::VectorXd scale =
-      length.unaryExpr([&](double own) { return own > 0 ? 1 / own : 0.0; });
-  const Eigen::MatrixXd scaled = problem.columns * scale.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& singular = svd.singularValues();
-  const double limit = longest > 0 ? kTold * singular[0] : 0;
-  const auto rank = static_cast<Eigen::Index>((singular.array() > limit).count());
+  const Solution solution = solve(problem);
 
   Identification result;
   result.postures = problem.postures;
-  result.freedom = problem.observed.size() - 3 * problem.postures - rank;
-  if (rank == 0 || result.freedom < 1) {
+  result.freedom = problem.observed.size() - 3 * problem.postures - solution.rank;
+  if (solution.rank == 0 || result.freedom < 1) {
     throw InputError(fmt::format(
         "{}: {} rows in {} postures tell nothing of springs: each posture needs two loads or more, "
         "and all together more coordinates than unknowns",
         recording.file, tests.rows.size(), problem.postures));
   }
-  result.condition_number = singular[0] / singular[rank - 1];
-  const Eigen::VectorXd inverse =
-      singular.unaryExpr([&](double value) { return value > limit ? 1 / value : 0.0; });
-  const Eigen::VectorXd solution = scale.cwiseProduct(
-      svd.matrixV() * (inverse.asDiagonal() * (svd.matrixU().transpose() * problem.observed)));
-  const Eigen::VectorXd residual = problem.observed - problem.columns * solution;
+  result.condition_number = solution.condition_number;
+  const Eigen::VectorXd residual = problem.observed - problem.columns * solution.value;
   const double sum = residual.squaredNorm();
-  result.noise = std::sqrt(sum / static_cast<double>(result.freedom));
-  const Eigen::VectorXd spread = (svd.matrixV() * inverse.asDiagonal()).rowwise().norm();
-  // A column that takes part in a direction that is not told is not told either.
-  const Eigen::VectorXd untold = svd.matrixV().rightCols(singular.size() - rank).rowwise().norm();
-  const double reach = statistics::student_exceeds(0.025, static_cast<double>(result.freedom));
-  for (Eigen::Index i = 0; i < solution.size(); ++i) {
+  const auto freedom = static_cast<double>(result.freedom);
+  result.noise = std::sqrt(sum / freedom);
+  const double reach = statistics::student_exceeds(0.025, freedom);
+  const double far =
+      statistics::student_exceeds(0.001 / static_cast<double>(names.size()), freedom);
+  for (Eigen::Index i = 0; i < solution.value.size(); ++i) {
     IdentifiedSpring spring;
     spring.name = names[static_cast<std::size_t>(i)];
-    spring.value = solution[i];
-    spring.deviation = result.noise * scale[i] * spread[i];
+    spring.value = solution.value[i];
+    spring.deviation = result.noise * std::sqrt(solution.covariance(i, i));
     spring.lower = spring.value - reach * spring.deviation;
     spring.upper = spring.value + reach * spring.deviation;
-    spring.is_told = length[i] > 0 && !(untold[i] > 1e-3);
+    const double share =
+        problem.columns.col(i).norm() * std::abs(spring.value) / problem.observed.norm();
+    spring.told = told_of(spring, solution.untold[i], share, far);
     result.springs.push_back(spring);
   }
+  result.sums = told_sums(problem, solution, result.springs, result.noise, reach);
 
   Eigen::Index worst = 0;
   const double largest = residual.cwiseAbs().maxCoeff(&worst);

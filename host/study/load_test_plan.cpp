@@ -135,6 +135,16 @@ class Planner {
     }
     springs_ = candidates_.front().columns.cols();
     best_widths_ = half_widths(information_of(candidates_, springs_));
+    // No plan tells a spring that interval holds zero of even if each of its tests were the best
+    // one for this spring and nothing else were sought.
+    Eigen::ArrayXd most_told = Eigen::ArrayXd::Zero(springs_);
+    for (const Candidate& each : candidates_) {
+      most_told = most_told.max(each.columns.colwise().squaredNorm().transpose().array());
+    }
+    const auto most = static_cast<double>(request.most);
+    constexpr double kZero = 1;  // half the interval over the compliance: it holds zero
+    best_widths_ = (kQuantile * (most * most_told).rsqrt() > kZero)
+                       .select(std::numeric_limits<double>::infinity(), best_widths_);
     matters_ = compliances(model, request.sought).array() > kLeastCompliance;
   }
 

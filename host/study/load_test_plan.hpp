@@ -25,7 +25,7 @@ struct LoadTestPlan {
   std::vector<LoadTest> tests;
   std::vector<std::string> names;  ///< of the springs, in the order of identification
   Eigen::VectorXd half_width;  ///< of 95 % intervals over the model's compliance; infinite where
-                               ///< no test can tell
+                               ///< tests cannot tell it: not by `most` tests, each of them the best
   bool is_precise = false;     ///< is every spring that can be told told to the precision?
 };
 

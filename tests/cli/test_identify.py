@@ -5,10 +5,11 @@ import functools
 import json
 import pathlib
 import random
+import re
 import tempfile
 import unittest
 
-from command import KR270, Command, flexcomp
+from command import KR270, ROBOTS, Command, flexcomp
 
 TRUTH = 0.54e-6, 0.29e-6, 0.42e-6, 2.79e-6, 3.48e-6  # KR 270; joint 6 is not loaded at its flange
 
@@ -59,6 +60,36 @@ class Identify(Command):
         self.assertNotEqual(KR270.read_text(), out.read_text())
         said = self.run_well("identify", "--model", KR270, "--recording", recording)
         self.assertIn("these tests do not tell it", said)
+
+    def off_axis(self):
+        """The KR 270 with its flange 0.24 mm off axis 6, as in published models."""
+        urdf = (ROBOTS / "kr270" / "kr270.urdf").read_text()
+        self.assertEqual(1, urdf.count('<origin xyz="0 0 0" rpy="0 1.57'))
+        self.file("kr270.urdf", urdf.replace('<origin xyz="0 0 0" rpy="0 1.57', '<origin xyz="0 0.00024 0" rpy="0 1.57'))
+        return self.file("robot.yaml", KR270.read_text())
+
+    def test_noise_is_never_written_as_a_compliance(self):
+        model, recording = self.off_axis(), self.measured()
+        out = self.folder / "identified.yaml"
+        found = json.loads(self.run_well("identify", "--model", model, "--recording", recording,
+                                         "--out", out, "--json"))
+        self.assertIsNone(found["springs"]["joint_6"])
+        self.assertEqual("interval_holds_zero", found["not_told"]["joint_6"]["because"])
+        lower, upper = found["not_told"]["joint_6"]["interval_95"]
+        self.assertLess(lower, upper)
+        self.assertLessEqual(lower, 0)
+        compliances = [float(value) for value in re.findall(r"[{ ]compliance: ([-+.e0-9]+)", out.read_text())]
+        self.assertEqual(6, len(compliances))
+        self.assertEqual(2.07e-6, compliances[5])
+        said = self.run_well("identify", "--model", model, "--recording", recording)
+        self.assertRegex(said, "joint_6 .*the model's value stays")
+
+    def test_where_noise_hides_every_spring_nothing_is_written_and_the_exit_code_says_it(self):
+        recording, out = self.measured(noise=0.1), self.folder / "identified.yaml"
+        done = flexcomp("identify", "--model", KR270, "--recording", recording, "--out", out)
+        self.assertEqual(1, done.returncode, done.stdout + done.stderr)
+        self.assertIn("no spring is told", done.stdout)
+        self.assertFalse(out.exists())
 
     def test_a_wrong_reading_is_named_with_its_line(self):
         # Of two readings of a posture, in lines 6 and 7, none is the wrong one by itself.
