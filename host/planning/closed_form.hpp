@@ -7,15 +7,26 @@
 
 namespace flexcomp::planning {
 
-/// All joint angles (rad, to whole turns, limits not looked at) that put the TCP of an industrial
-/// robot at `target` (base frame): two ways round joint 1, two elbows, two wrists, so at most
-/// eight.
+/// Joint angles of an industrial robot, from formulas.
+struct ClosedForm {
+  /// rad, to whole turns, joint limits not looked at; at most eight.
+  std::vector<JointVector<double, 6>> solutions;
+  /// Are they solutions, and all there are? Else the robot is of the kind only nearly, and they are
+  /// places for Newton's method to begin at, which may miss some.
+  bool is_exact = true;
+};
+
+/// All joint angles that put the TCP of an industrial robot at `target` (base frame): two ways
+/// round joint 1, two elbows, two wrists. Of a robot of another kind, nothing.
 ///
-/// In closed form (Pieper 1968; Brandstötter et al. 2014 for this kind of robot): joint 1 turns
-/// about the base's z axis, joints 2 and 3 are parallel and move the wrist in the plane y = 0 when
-/// joint 1 is at zero, the last three axes meet in a point, joint 5 across the two beside it, which
-/// are in line when joint 5 is at zero. Of any other robot, nothing.
-std::optional<std::vector<JointVector<double, 6>>> solve_closed_form(
-    const RobotModel<double, 6>& model, const Pose<double>& target);
+/// The axes of joints 2 and 3 are parallel and at right angles to that of joint 1, wherever they
+/// are; joint 5 turns at right angles to joints 4 and 6; and one of these holds:
+/// - the last three axes meet in a point (Pieper 1968; Brandstötter et al. 2014), or
+/// - joint 4 is parallel to joints 2 and 3, and the last two axes meet (arms such as the UR).
+///
+/// What is so to 10⁻⁵ (rad, and of the robot's reach) is exact, as model files round π/2 to six
+/// digits; what is so to 10⁻³ is nearly so, as a calibrated robot is.
+std::optional<ClosedForm> solve_closed_form(const RobotModel<double, 6>& model,
+                                            const Pose<double>& target);
 
 }  // namespace flexcomp::planning

@@ -1,5 +1,6 @@
 #include "planning/inverse_kinematics.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <kdl/chainiksolverpos_lma.hpp>
@@ -52,17 +53,22 @@ bool is_within_limits(const RobotModel<double, 6>& model, const Angles& q) {
   return true;
 }
 
-/// Newton's method, to the last digits; nothing if it does not begin close to a solution.
+/// Newton's method, to the last digits; nothing if it does not begin close to a solution. Not
+/// damped as the core's inverse is, which near singularities would cost its quadratic convergence;
+/// a direction that is singular outright is left as it is.
 std::optional<Angles> by_newton(const RobotModel<double, 6>& model, const Pose<double>& target,
                                 Angles q) {
-  constexpr int kMostSteps = 6;
+  constexpr int kMostSteps = 8;
+  constexpr double kSingular = 1e-6;  // of the largest singular value
   for (int step = 0; step < kMostSteps; ++step) {
     const Kinematics<double, 6> at = forward_kinematics<double, 6>(model, q);
     const Twist<double> off = pose_difference(at.tcp, target);
     if (off.cwiseAbs().maxCoeff() <= 1e-13) {
       break;
     }
-    q += joint_motion<double, 6>(geometric_jacobian<double, 6>(at), off);
+    Eigen::CompleteOrthogonalDecomposition<Jacobian<double, 6>> jacobian;
+    jacobian.setThreshold(kSingular);
+    q += jacobian.compute(geometric_jacobian<double, 6>(at)).solve(off);
   }
   const Pose<double> reached = forward_kinematics<double, 6>(model, q).tcp;
   if (!(pose_difference(reached, target).cwiseAbs().maxCoeff() <= 1e-9)) {
@@ -139,7 +145,7 @@ std::vector<Angles> search(const RobotModel<double, 6>& model, const Pose<double
 }
 
 /// Those within the joint limits, each once, each joint turned to the middle of its range as far as
-/// may be.
+/// may be, those farthest from the limits first.
 std::vector<Angles> within_limits(const RobotModel<double, 6>& model, const Pose<double>& target,
                                   const std::vector<Angles>& solutions) {
   std::vector<Angles> within;
@@ -158,6 +164,9 @@ std::vector<Angles> within_limits(const RobotModel<double, 6>& model, const Pose
       within.push_back(*exact);
     }
   }
+  std::sort(within.begin(), within.end(), [&](const Angles& a, const Angles& b) {
+    return off_middle(model, a) < off_middle(model, b);
+  });
   return within;
 }
 
@@ -174,13 +183,16 @@ std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<
 }
 
 std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<double>& target) {
-  const std::optional<std::vector<Angles>> closed = solve_closed_form(model, target);
-  std::vector<Angles> solutions =
-      within_limits(model, target, closed ? *closed : search(model, target));
-  std::sort(solutions.begin(), solutions.end(), [&](const Angles& a, const Angles& b) {
-    return off_middle(model, a) < off_middle(model, b);
-  });
-  return solutions;
+  const std::optional<ClosedForm> closed = solve_closed_form(model, target);
+  if (!closed) {
+    return search_all(model, target);
+  }
+  std::vector<Angles> solutions = within_limits(model, target, closed->solutions);
+  return solutions.empty() && !closed->is_exact ? search_all(model, target) : solutions;
+}
+
+std::vector<Angles> search_all(const RobotModel<double, 6>& model, const Pose<double>& target) {
+  return within_limits(model, target, search(model, target));
 }
 
 }  // namespace flexcomp::planning
