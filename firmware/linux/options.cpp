@@ -4,6 +4,7 @@
 
 #include "linux/build_info.hpp"
 #include "linux/complaint.hpp"
+#include "linux/option_list.hpp"
 #include "linux/whole_file.hpp"
 #include "node/default_config.hpp"
 
@@ -21,7 +22,8 @@ constexpr const char* kDescription =
     "and the sender of setpoints has said which robot it works with.\n\n"
     "  flexcompd --config node.toml --can can0\n\n"
     "SIGTERM and SIGINT: fade to zero, then end. SIGHUP: read the configuration file again (only\n"
-    "while nothing is corrected). SIGUSR1: write the statistics. Not a safety function.\n"
+    "while nothing is corrected; refused as a whole if it changes what is read at start only).\n"
+    "SIGUSR1: write the statistics. Not a safety function.\n"
     "Exit codes: 0 done, 2 unusable input or arguments, 3 internal fault.";
 
 /// Options as they are typed; six numbers may be given as one for all.
@@ -35,53 +37,57 @@ struct Typed {
 };
 
 template <typename Number>
-void positive(CLI::App* app, const char* name, Number* value, const char* help) {
-  app->add_option(name, *value, help)->check(CLI::PositiveNumber);
+void positive(OptionList* app, const char* name, Number* value, const char* help) {
+  app->add_changeable(name, value, help)->check(CLI::PositiveNumber);
 }
 
 template <typename Number>
-void not_negative(CLI::App* app, const char* name, Number* value, const char* help) {
-  app->add_option(name, *value, help)->check(CLI::NonNegativeNumber);
+void not_negative(OptionList* app, const char* name, Number* value, const char* help) {
+  app->add_changeable(name, value, help)->check(CLI::NonNegativeNumber);
 }
 
-void one_or_six(CLI::App* app, const char* name, std::vector<float>* values, const char* help) {
-  app->add_option(name, *values, help)->check(CLI::PositiveNumber)->expected(1, 6)->delimiter(',');
+void one_or_six(OptionList* app, const char* name, std::vector<float>* values, const char* help) {
+  app->add_changeable(name, values, help)
+      ->check(CLI::PositiveNumber)
+      ->expected(1, 6)
+      ->delimiter(',');
 }
 
-void add_links(CLI::App* app, Options* options) {
-  app->add_option("--can", options->can, "CAN interface, such as can0");
-  app->add_flag("--fd", options->fd, "answer with CAN FD frames");
-  app->add_option("--lcm", options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
-  app->add_option("--key", options->key,
-                  "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
-                  "authenticated with it (CAN only; SECURITY.md)");
+void add_links(OptionList* app, Options* options) {
+  app->add_fixed("--can", &options->can, "CAN interface, such as can0");
+  app->add_fixed("--fd", &options->fd, "answer with CAN FD frames");
+  app->add_fixed("--lcm", &options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
+  app->add_fixed("--key", &options->key,
+                 "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
+                 "authenticated with it (CAN only; SECURITY.md)");
   const std::map<std::string, Trigger> triggers = {
       {"setpoint", Trigger::setpoint}, {"clock", Trigger::clock}, {"lockstep", Trigger::lockstep}};
-  app->add_option("--trigger", options->settings.trigger,
-                  "what makes a tick: setpoint, clock or lockstep")
+  app->add_fixed("--trigger", &options->settings.trigger,
+                 "what makes a tick: setpoint, clock or lockstep")
       ->transform(CLI::CheckedTransformer(triggers, CLI::ignore_case));
-  app->add_option("--tolerated-losses", options->settings.tolerated_losses,
-                  "messages in a row that may be lost without a break")
+  app->add_fixed("--tolerated-losses", &options->settings.tolerated_losses,
+                 "messages in a row that may be lost without a break")
       ->check(CLI::Range(0, 6));
   positive(app, "--heartbeat", &options->settings.node.heartbeat_period,
            "s, from one heartbeat to the next");
 }
 
-void add_table(CLI::App* app, Options* options, Typed* typed) {
-  app->add_option("--model-hash", typed->model_hash,
-                  "fingerprint of the robot, 16 hexadecimal digits (flexcomp configure)")
+void add_table(OptionList* app, Options* options, Typed* typed) {
+  app->add_changeable("--model-hash", &typed->model_hash,
+                      "fingerprint of the robot, 16 hexadecimal digits (flexcomp configure)")
       ->required();
-  app->add_option("--table", options->table, "table to start with (flexcomp table)");
-  app->add_option("--state-directory", options->state_directory,
-                  "where tables that come over the bus are kept; the last one is used at start");
-  app->add_flag("--without-identity", typed->without_identity,
-                "arm even if the sender has not said which robot it works with");
+  app->add_fixed("--table", &options->table, "table to start with (flexcomp table)");
+  app->add_fixed("--state-directory", &options->state_directory,
+                 "where tables that come over the bus are kept; the last one is used at start");
+  app->add_changeable("--without-identity", &typed->without_identity,
+                      "arm even if the sender has not said which robot it works with");
 }
 
-void add_correction(CLI::App* app, Options* options, Typed* typed) {
+void add_correction(OptionList* app, Options* options, Typed* typed) {
   auto& core = options->settings.node.compensator;
-  positive(app, "--period", &core.period, "s, from one tick to the next");
-  app->add_option("--gain", core.gain, "share of the deflection that is corrected")
+  app->add_fixed("--period", &core.period, "s, from one tick to the next")
+      ->check(CLI::PositiveNumber);
+  app->add_changeable("--gain", &core.gain, "share of the deflection that is corrected")
       ->check(CLI::Range(0.0, 1.0));
   not_negative(app, "--filter-cutoff", &core.filter_cutoff, "Hz, low-pass on the wrench; 0: none");
   one_or_six(app, "--correction-limit", &typed->value,
@@ -98,10 +104,10 @@ void add_correction(CLI::App* app, Options* options, Typed* typed) {
   not_negative(app, "--hold-time", &core.hold_time,
                "s, a fault may last before fading out; bad ticks count up, good ones down");
   not_negative(app, "--fade-time", &core.fade_time, "s, from nothing to full correction and back");
-  app->add_option("--ready-ticks", core.ready_ticks, "good inputs in a row before arming");
+  app->add_changeable("--ready-ticks", &core.ready_ticks, "good inputs in a row before arming");
 }
 
-void add_plausibility(CLI::App* app, Options* options, Typed* typed) {
+void add_plausibility(OptionList* app, Options* options, Typed* typed) {
   auto& core = options->settings.node.compensator;
   positive(app, "--force-range", &core.force_range, "N, largest plausible");
   positive(app, "--moment-range", &core.moment_range, "N m, largest plausible");
@@ -118,15 +124,15 @@ void add_plausibility(CLI::App* app, Options* options, Typed* typed) {
            "late ticks, beyond those on time, that are a fault");
 }
 
-void add_process(CLI::App* app, Options* options) {
-  app->add_option("--priority", options->priority, "SCHED_FIFO priority; 0: ordinary scheduling")
+void add_process(OptionList* app, Options* options) {
+  app->add_fixed("--priority", &options->priority, "SCHED_FIFO priority; 0: ordinary scheduling")
       ->check(CLI::Range(0, 99));
-  app->add_option("--user", options->user,
-                  "started as root: become this user once sockets, memory and priority are set up");
-  app->add_option("--statistics", options->statistics,
-                  "file for the statistics, written at the end and on SIGUSR1");
-  app->add_option("--settings-out", options->settings_out,
-                  "write these settings to a file for a microcontroller's flash, and end");
+  app->add_fixed("--user", &options->user,
+                 "started as root: become this user once sockets, memory and priority are set up");
+  app->add_fixed("--statistics", &options->statistics,
+                 "file for the statistics, written at the end and on SIGUSR1");
+  app->add_fixed("--settings-out", &options->settings_out,
+                 "write these settings to a file for a microcontroller's flash, and end");
 }
 
 /// `values` at a joint: its own, or the one for all.
@@ -199,14 +205,16 @@ std::optional<Options> read_options(int argc, const char* const* argv, int* exit
   app.set_config("--config", "", "file with any of these options, one a line: name = value")
       ->check(CLI::Validator(complaint_about_file, ""));
   app.allow_config_extras(CLI::config_extras_mode::error);
-  add_links(&app, &options);
-  add_table(&app, &options, &typed);
-  add_correction(&app, &options, &typed);
-  add_plausibility(&app, &options, &typed);
-  add_process(&app, &options);
+  OptionList list(&app);
+  add_links(&list, &options);
+  add_table(&list, &options, &typed);
+  add_correction(&list, &options, &typed);
+  add_plausibility(&list, &options, &typed);
+  add_process(&list, &options);
   try {
     app.parse(argc, argv);
     apply(typed, &options);
+    options.fixed = list.fixed();
     return options;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
@@ -217,6 +225,16 @@ std::optional<Options> read_options(int argc, const char* const* argv, int* exit
     }
     return std::nullopt;
   }
+}
+
+std::string refused_changes(const Options& running, const Options& wanted) {
+  std::string names;
+  for (std::size_t i = 0; i < running.fixed.size(); ++i) {
+    if (wanted.fixed.at(i).value != running.fixed[i].value) {
+      names += (names.empty() ? "" : ", ") + running.fixed[i].name;
+    }
+  }
+  return names.empty() ? names : names + " cannot change while running; restart flexcompd";
 }
 
 }  // namespace flexcomp

@@ -2,10 +2,17 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "node/node_settings.hpp"
 
 namespace flexcomp {
+
+/// An option that only the start reads.
+struct FixedOption {
+  std::string name;   ///< as in the configuration file
+  std::string value;  ///< as text, the same for the same value
+};
 
 /// What flexcompd is told on its command line and in its configuration file.
 struct Options {
@@ -21,10 +28,15 @@ struct Options {
   std::size_t table_capacity = std::size_t{4} << 20;  ///< bytes a slot
   int priority = 80;                                  ///< SCHED_FIFO; 0: ordinary scheduling
   NodeSettings settings;
+  std::vector<FixedOption> fixed;  ///< all that only the start reads
 };
 
 /// Reads command line and configuration file. Returns nothing where the program is to end with
 /// `exit_code` (help, version, or a complaint that has been made).
 std::optional<Options> read_options(int argc, const char* const* argv, int* exit_code);
+
+/// What `wanted` would change that only the start reads, by name, as a sentence for a person; empty
+/// if nothing: then the rest may take effect.
+std::string refused_changes(const Options& running, const Options& wanted);
 
 }  // namespace flexcomp

@@ -149,15 +149,21 @@ void Service::read_configuration() {
     background_->say("a new configuration is being read already");
     return;
   }
-  reads_configuration_ = background_->start([reread = reread_, result = configurations_] {
-    std::optional<Options> options;
-    try {
-      options = reread();
-    } catch (const std::exception& error) {
-      complain(std::string("the configuration cannot be read: ") + error.what());
-    }
-    result->send(options ? std::optional(options->settings.node) : std::nullopt);
-  });
+  reads_configuration_ =
+      background_->start([reread = reread_, result = configurations_, running = options_] {
+        std::optional<Options> options;
+        try {
+          options = reread();
+          const std::string refused = options ? refused_changes(running, *options) : "";
+          if (!refused.empty()) {
+            complain("new configuration refused: " + refused);
+            options.reset();
+          }
+        } catch (const std::exception& error) {
+          complain(std::string("the configuration cannot be read: ") + error.what());
+        }
+        result->send(options ? std::optional(options->settings.node) : std::nullopt);
+      });
 }
 
 void Service::on_configuration() {

@@ -62,12 +62,16 @@ Result Node::configure(const NodeConfig& config) {
   if (core_.state() != State::off && core_.state() != State::latched) {
     return Result::not_ready;
   }
+  if (ticks_ > 0 && config.compensator.period != config_.compensator.period) {
+    return Result::bad_config;
+  }
   Core core;
   if (!own_numbers_are_usable(config) || core.configure(config.compensator) != Result::ok) {
     return Result::bad_config;
   }
   core_ = core;
   config_ = config;
+  ticks_to_heartbeat_ = 0;
   wrench_monitor_.configure(config.wrench);
   if (table_.is_open()) {
     table_result_ = number(put_to_use(table_));
@@ -121,10 +125,26 @@ void Node::announce(std::uint16_t code, std::uint32_t detail) {
 }
 
 void Node::post(const Message& message) {
-  if (queue_size_ == kQueue) {
+  if (!has_room(message)) {
     return;  // nobody takes them: the oldest are the ones that explain how it began
   }
   queue_[(queue_begin_ + queue_size_++) % kQueue] = message;
+}
+
+/// Of answers few wait, or who asks much would crowd out what the node says by itself.
+bool Node::has_room(const Message& message) const {
+  constexpr std::size_t kMostAnswers = 8;  // of a kind
+  if (queue_size_ == kQueue) {
+    return false;
+  }
+  const bool is_answer = std::holds_alternative<CommandReplyMessage>(message) ||
+                         std::holds_alternative<TransferReplyMessage>(message);
+  std::size_t alike = 0;
+  for (std::size_t i = 0; is_answer && i < queue_size_; ++i) {
+    const Message& waiting = queue_[(queue_begin_ + i) % kQueue];
+    alike += waiting.index() == message.index() ? 1U : 0U;
+  }
+  return alike < kMostAnswers;
 }
 
 bool Node::next_message(Message* message) {
@@ -316,6 +336,7 @@ CorrectedMessage Node::tick(std::int64_t now) {
   node_status |= sticky_ & kDeflectionTooLarge;
 
   announce_faults(out.status & kFaultBits, node_status & kNodeFaultBits);
+  announce_refusals(now);
   beat(out);
   ++ticks_;
 
@@ -338,8 +359,13 @@ void Node::announce_faults(std::uint32_t status, std::uint16_t node_status) {
   announce_changes(node_status, &node_announced_, kNodeFaultCode, &node_inhibited_);
 }
 
+void Node::announce_refusals(std::int64_t now) {
+  announce_changes(refusal_watch_.observe(link_.authentication, now), &refusals_announced_,
+                   kForgedCode, &refusals_inhibited_);
+}
+
 /// Posts what began or ended, a bit at most once between two heartbeats: a fault that flickers must
-/// not fill the bus.
+/// not fill the bus. What the queue has no room for is posted later.
 void Node::announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
                             std::uint32_t* inhibited) {
   const std::uint32_t changed = (bits ^ *announced) & ~*inhibited;
@@ -348,14 +374,14 @@ void Node::announce_changes(std::uint32_t bits, std::uint32_t* announced, std::u
   }
   for (std::uint16_t i = 0; i < 16; ++i) {
     const std::uint32_t bit = 1U << i;
-    if ((changed & bit) != 0) {
+    if ((changed & bit) != 0 && queue_size_ < kQueue) {
       const bool began = (bits & bit) != 0;
       post(FaultMessage{static_cast<std::uint16_t>(base + i), began, 0});
       faults_ += began ? 1U : 0U;
+      *announced ^= bit;
+      *inhibited |= bit;
     }
   }
-  *announced ^= changed;
-  *inhibited |= changed;
 }
 
 void Node::beat(const Core::Output& output) {
@@ -374,10 +400,14 @@ void Node::beat(const Core::Output& output) {
     --ticks_to_heartbeat_;
     return;
   }
+  if (queue_size_ == kQueue) {
+    return;  // it comes when there is room
+  }
   const auto period = static_cast<double>(config_.compensator.period);
   ticks_to_heartbeat_ = static_cast<std::uint32_t>(config_.heartbeat_period / period);
   inhibited_ = 0;
   node_inhibited_ = 0;
+  refusals_inhibited_ = 0;
   HeartbeatMessage message;
   message.uptime = static_cast<std::uint32_t>((last_tick_ - started_at_) / 1'000'000'000);
   message.state = static_cast<std::uint8_t>(output.state);

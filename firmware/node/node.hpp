@@ -8,6 +8,7 @@
 #include "messages/messages.hpp"
 #include "messages/sequence.hpp"
 #include "node/node_status.hpp"
+#include "node/refusal_watch.hpp"
 #include "node/statistics.hpp"
 #include "node/table_store.hpp"
 #include "node/transport_delay.hpp"
@@ -50,8 +51,9 @@ class Node {
  public:
   using Core = Compensator<float, 6>;
 
-  /// Takes a configuration. Refused with not_ready while correcting, with bad_config if unusable;
-  /// the one in use then stays. Keeps the table.
+  /// Takes a configuration. Refused with not_ready while correcting, with bad_config if unusable
+  /// or, once it has ticked, with another period, which is its caller's too; the one in use then
+  /// stays. Keeps the table.
   Result configure(const NodeConfig& config);
 
   /// To be called once, before anything else.
@@ -78,7 +80,9 @@ class Node {
   /// One control period; `now` in ns of a monotonic clock.
   CorrectedMessage tick(std::int64_t now);
 
-  /// The next message to send beside the corrected setpoint; false if there is none.
+  /// The next message to send beside the corrected setpoint; false if there is none. At most eight
+  /// replies to commands and eight to transfers wait at a time, and more are not given, so that
+  /// heartbeats and faults have room however much is asked.
   bool next_message(Message* message);
 
   /// Tells the bus of an event: a code of node_status.hpp and what belongs to it.
@@ -116,10 +120,12 @@ class Node {
   void end_transfer(std::uint8_t result);
   void reply(TransferStage stage, Reply result);
   void post(const Message& message);
+  bool has_room(const Message& message) const;
   Core::Input input(std::int64_t now) const;
   std::uint16_t judge(std::int64_t now);
   void check_period(std::int64_t now);
   void announce_faults(std::uint32_t status, std::uint16_t node_status);
+  void announce_refusals(std::int64_t now);
   void announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
                         std::uint32_t* inhibited);
   void beat(const Core::Output& output);
@@ -162,6 +168,9 @@ class Node {
   std::uint32_t node_announced_ = 0;
   std::uint32_t inhibited_ = 0;  ///< bits whose change has been announced since the last heartbeat
   std::uint32_t node_inhibited_ = 0;
+  RefusalWatch refusal_watch_;
+  std::uint32_t refusals_announced_ = 0;
+  std::uint32_t refusals_inhibited_ = 0;
   int report_from_ = -1;  ///< next statistic to report, none if negative
   LatencyHistogram latency_;
 

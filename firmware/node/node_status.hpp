@@ -35,5 +35,10 @@ constexpr std::uint16_t kTableRefusedCode = 0x7202;      ///< detail: Result or 
 constexpr std::uint16_t kConfigInUseCode = 0x7203;
 constexpr std::uint16_t kConfigRefusedCode = 0x7204;  ///< detail: Result
 constexpr std::uint16_t kRestartCode = 0x7205;  ///< after a fault; detail: where the program was
+// Under a key: messages are refused that are forged, not fresh, or come without authentication.
+// Each is told when it begins, and when there was none for a second.
+constexpr std::uint16_t kForgedCode = 0x7206;
+constexpr std::uint16_t kNotFreshCode = 0x7207;
+constexpr std::uint16_t kUnauthenticatedCode = 0x7208;
 
 }  // namespace flexcomp

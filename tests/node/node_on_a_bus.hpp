@@ -125,6 +125,7 @@ class NodeOnABus {
     }
     LinkState state = link.state();
     state.bus_fault = bus_fault;
+    state.authentication = authentication;
     node.set_link(state);
     const CorrectedMessage corrected = node.tick(now);
     limits.check(corrected);
@@ -208,6 +209,7 @@ class NodeOnABus {
   LimitsChecker limits;
   CanLink link{false, 3};
   bool bus_fault = false;
+  AuthenticationCounters authentication;
   std::int64_t now = 1'000'000'000;
   Result started_with = Result::no_table;
   CommandReplyMessage command_reply;

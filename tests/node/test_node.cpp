@@ -219,7 +219,7 @@ void messages_that_nobody_takes_do_not_pile_up() {
   while (bus.node.next_message(&message)) {
     ++count;
   }
-  TEST_ASSERT_EQUAL(32, count);
+  TEST_ASSERT_EQUAL(8, count);
 }
 
 void every_reply_and_bit_has_a_name() {
