@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kFramesAtOnce = 128;
 constexpr int kMessagesATick = 4;                         // beside the corrected setpoint
-constexpr std::uint32_t kLcmCounter = 256;                // the low byte of the sequence is judged
 constexpr std::int64_t kLargestShift = 100;               // of the period, its divisor
 constexpr std::int64_t kVerdictPatience = 2'000'000'000;  // ns; a check takes milliseconds
 constexpr std::int64_t kLockstepPatience = 500'000'000;   // ns, for setpoints to fade out on
@@ -47,8 +46,7 @@ RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
       link_(options.fd, options.settings.tolerated_losses),
       sender_(can),
       use_lcm_(!options.lcm.empty()),
-      lcm_setpoint_(kLcmCounter, options.settings.tolerated_losses),
-      lcm_wrench_(kLcmCounter, options.settings.tolerated_losses),
+      lcm_(options.settings.tolerated_losses),
       exchange_(exchange),
       epoll_(epoll_create1(EPOLL_CLOEXEC)),
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
@@ -169,18 +167,8 @@ void RealTimeLoop::hand_over_tables(std::int64_t now) {
 }
 
 void RealTimeLoop::take(LcmSample* sample, std::int64_t now) {
-  const std::int64_t time = node_time(now);
-  if (std::holds_alternative<SetpointMessage>(sample->message)) {
-    if (lcm_setpoint_.accept(sample->sequence, 0, time)) {
-      node_->receive(sample->message, time);
-      on_setpoint(now);
-    }
-  } else if (std::holds_alternative<WrenchMessage>(sample->message)) {
-    if (lcm_wrench_.accept(sample->sequence, 0, time)) {
-      node_->receive(sample->message, time);
-    }
-  } else {
-    node_->receive(sample->message, time);
+  if (lcm_.receive(sample->message, sample->sequence, node_, node_time(now))) {
+    on_setpoint(now);
   }
 }
 
@@ -261,14 +249,10 @@ void RealTimeLoop::on_period_end(std::int64_t now) {
 void RealTimeLoop::tick(std::int64_t now) {
   if (node_->take_reset()) {
     link_.forget_conflicts();
-    lcm_setpoint_.clear_conflict();
-    lcm_wrench_.clear_conflict();
+    lcm_.forget_conflicts();
   }
   LinkState state = link_.state();
-  state.setpoint = state.setpoint + lcm_setpoint_.counters;
-  state.wrench = state.wrench + lcm_wrench_.counters;
-  state.setpoint_conflict |= lcm_setpoint_.has_conflict();
-  state.wrench_conflict |= lcm_wrench_.has_conflict();
+  lcm_.add_to(&state);
   if (authentication_ != nullptr) {
     state.authentication = authentication_->counters();
   }

@@ -6,6 +6,7 @@
 #include "linux/options.hpp"
 #include "messages/message_authentication.hpp"
 #include "node/can_link.hpp"
+#include "node/lcm_receiver.hpp"
 
 namespace flexcomp {
 
@@ -60,8 +61,7 @@ class RealTimeLoop {
   CanLink link_;
   CanSender sender_;
   bool use_lcm_;
-  SequenceMonitor lcm_setpoint_;
-  SequenceMonitor lcm_wrench_;
+  LcmReceiver lcm_;
   Exchange* exchange_;
   FileDescriptor epoll_;
   FileDescriptor timer_;

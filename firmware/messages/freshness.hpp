@@ -16,6 +16,25 @@ using FreshnessClock = Freshness (*)();
 /// message that is held back is taken this much later at most.
 constexpr Freshness kFreshnessWindow = 25'000;
 
+/// How long a clock must stay where it was set to be followed, ns.
+constexpr std::int64_t kClockSettles = 10'000'000'000;
+
+/// The time of day without its jumps: goes on by the monotonic clock when somebody sets the clock,
+/// and follows only where the clock stays where it was set for ten seconds. A clock that is wrong
+/// for a moment then neither makes every message old, nor lets a value far ahead be taken after
+/// which none of the true time is.
+class SteadyTime {
+ public:
+  /// `clock`: the time of day; `monotonic`: ns.
+  Freshness at(Freshness clock, std::int64_t monotonic);
+
+ private:
+  bool started_ = false;
+  std::int64_t offset_ = 0;  ///< of the time of day from the monotonic clock, in units of Freshness
+  std::int64_t jump_ = 0;    ///< what the clock shows beyond that, 0 where it has not jumped
+  std::int64_t jumped_at_ = 0;
+};
+
 /// The value closest to `clock` whose low `bits` (below 64) are `low`.
 Freshness whole_freshness(Freshness low, unsigned bits, Freshness clock);
 

@@ -23,26 +23,46 @@ bool SequenceMonitor::accept(std::uint32_t counter, std::uint32_t digest, std::i
   }
   const std::uint32_t step = ahead(counter, last_);
   if (step == 0) {
-    drop_repetition(digest == digest_);
+    drop_repetition(!recent_.contradict(counter, digest), now);
     return false;
   }
-  if (step <= tolerated_ + 1 || is_resynchronised(counter, now)) {
+  const bool follows = step <= tolerated_ + 1;
+  if (follows || is_resynchronised(counter, now)) {
+    // One sender that has lost messages goes on from where it is; it does not come back.
+    if (follows && has_stray_ && now - accepted_at_ <= kResynchroniseAfter) {
+      second_.raise(now);
+    }
+    has_stray_ = false;
     counters.lost += step - 1;
     take(counter, digest, now);
     return true;
   }
+  const bool is_far_off = step > tolerated_ + 1 && modulus_ - step > tolerated_;
+  if (!is_far_off && recent_.contradict(counter, digest)) {
+    contradict(now);
+    return false;
+  }
   ++(step > modulus_ / 2 ? counters.old : counters.out_of_sequence);
+  has_stray_ = has_stray_ || is_far_off;
   suspect();
   return false;
 }
 
-void SequenceMonitor::drop_repetition(bool same_content) {
+void SequenceMonitor::drop_repetition(bool same_content, std::int64_t now) {
   if (same_content) {
     ++counters.repeated;
   } else {
-    ++counters.contradicting;
-    suspect();
+    contradict(now);
   }
+}
+
+void SequenceMonitor::contradict(std::int64_t now) {
+  ++counters.contradicting;
+  // After a pause the counter may have come round.
+  if (now - accepted_at_ <= kResynchroniseAfter) {
+    second_.raise(now);
+  }
+  suspect();
 }
 
 void SequenceMonitor::drop_late() {
@@ -53,12 +73,13 @@ void SequenceMonitor::drop_late() {
 void SequenceMonitor::clear_conflict() {
   conflict_ = false;
   suspicion_ = 0;
+  second_.clear();
 }
 
 void SequenceMonitor::take(std::uint32_t counter, std::uint32_t digest, std::int64_t now) {
   ++counters.received;
+  recent_.add(counter, ahead(counter, last_), digest);
   last_ = counter;
-  digest_ = digest;
   accepted_at_ = now;
   consistent_ = 0;
   suspicion_ -= suspicion_ > 0 ? 1U : 0U;

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "messages/second_sender.hpp"
+
 namespace flexcomp {
 
 /// What became of the messages of one stream.
@@ -40,11 +42,12 @@ class SequenceMonitor {
   }
 
   /// Counts what was dropped without being asked about.
-  void drop_repetition(bool same_content);
+  void drop_repetition(bool same_content, std::int64_t now);
   void drop_late();
 
-  /// Do two senders seem to be at work: for some time as many messages dropped as accepted?
-  bool has_conflict() const { return conflict_; }
+  /// Do two senders seem to be at work: for some time as many messages dropped as accepted, or
+  /// enough of what one sender does not do (`SecondSender`)?
+  bool has_conflict() const { return conflict_ || second_.is_proven(); }
   void clear_conflict();
 
   StreamCounters counters;
@@ -54,6 +57,7 @@ class SequenceMonitor {
     return (counter - of) & (modulus_ - 1);
   }
   void take(std::uint32_t counter, std::uint32_t digest, std::int64_t now);
+  void contradict(std::int64_t now);
   void suspect();
   bool is_resynchronised(std::uint32_t counter, std::int64_t now);
 
@@ -62,12 +66,14 @@ class SequenceMonitor {
   bool may_restart_;
   bool started_ = false;
   std::uint32_t last_ = 0;
-  std::uint32_t digest_ = 0;
+  RecentContents recent_;
   std::int64_t accepted_at_ = 0;
   std::uint32_t candidate_ = 0;  ///< counter of the last message that was dropped
   std::uint32_t consistent_ = 0;
   std::uint32_t suspicion_ = 0;
   bool conflict_ = false;
+  bool has_stray_ = false;  ///< a counter far off was dropped since the last accepted message
+  SecondSender second_;
 };
 
 }  // namespace flexcomp

@@ -15,8 +15,8 @@ StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
 
 bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
   const Message message = decoder_.decode(frame, now);
-  node->receive(message, now);
-  return std::holds_alternative<SetpointMessage>(message);
+  const bool is_used = node->receive(message, frame.fd ? Source::can_fd : Source::can_classic, now);
+  return is_used && std::holds_alternative<SetpointMessage>(message);
 }
 
 LinkState CanLink::state() const {

@@ -12,7 +12,7 @@ class CanLink {
   /// `fd`: send corrected setpoints as FD frames. `tolerated`: see CanDecoder.
   CanLink(bool fd, std::uint32_t tolerated) : decoder_(tolerated), encoder_(fd) {}
 
-  /// Hands a frame to the node. True if it completed a setpoint.
+  /// Hands a frame to the node. True if it completed a setpoint that is used.
   bool receive(const CanFrame& frame, Node* node, std::int64_t now);
 
   /// As CanEncoder: overwritten by the next call.

@@ -29,10 +29,17 @@ JointAngles from_core(const JointVector<float, 6>& angles) {
   return {angles[0], angles[1], angles[2], angles[3], angles[4], angles[5]};
 }
 
-std::uint64_t stream_statistic(const StreamCounters& counters, unsigned which) {
-  const std::array<std::uint32_t, 8> values = {
-      counters.received,        counters.lost,          counters.repeated, counters.old,
-      counters.out_of_sequence, counters.contradicting, counters.corrupt,  counters.incomplete};
+/// `refused`: messages of another source than the one that has the stream.
+std::uint64_t stream_statistic(const StreamCounters& counters, std::uint32_t refused,
+                               unsigned which) {
+  const std::array<std::uint32_t, 8> values = {counters.received - refused,
+                                               counters.lost,
+                                               counters.repeated,
+                                               counters.old,
+                                               counters.out_of_sequence,
+                                               counters.contradicting + refused,
+                                               counters.corrupt,
+                                               counters.incomplete};
   return values[which];
 }
 
@@ -157,9 +164,13 @@ bool Node::next_message(Message* message) {
   return true;
 }
 
-// NOLINTNEXTLINE(readability-convert-member-functions-to-static): the lambda uses this object
-void Node::receive(const Message& message, std::int64_t now) {
+bool Node::receive(const Message& message, Source source, std::int64_t now) {
+  if ((std::holds_alternative<SetpointMessage>(message) && !setpoint_source_.admit(source, now)) ||
+      (std::holds_alternative<WrenchMessage>(message) && !wrench_source_.admit(source, now))) {
+    return false;
+  }
   std::visit([&](const auto& content) { receive_one(content, now); }, message);
+  return true;
 }
 
 void Node::receive_one(const SetpointMessage& message, std::int64_t now) {
@@ -202,6 +213,8 @@ void Node::receive_one(const CommandMessage& message, std::int64_t /*now*/) {
       reset_requested_ = true;
       link_.setpoint_conflict = false;
       link_.wrench_conflict = false;
+      setpoint_source_.clear_conflict();
+      wrench_source_.clear_conflict();
       sticky_ = 0;
       node_latched_ = 0;
       answer = number(core_.state() == State::latched ? core_.reset() : Result::ok);
@@ -286,8 +299,8 @@ std::uint16_t Node::judge(std::int64_t now) {
   wrench_monitor_.observe_motion(setpoint_moved_, now);
   setpoint_moved_ = false;
   sticky_ |= bit_if(!store_.scrub(), kTableDamaged);
-  sticky_ |= bit_if(link_.setpoint_conflict, kSetpointConflict);
-  sticky_ |= bit_if(link_.wrench_conflict, kWrenchConflict);
+  sticky_ |= bit_if(link_.setpoint_conflict || setpoint_source_.has_conflict(), kSetpointConflict);
+  sticky_ |= bit_if(link_.wrench_conflict || wrench_source_.has_conflict(), kWrenchConflict);
   const bool identity_fits = identity_.model_hash == config_.compensator.model_hash &&
                              identity_.wrench_frame == WrenchFrame::base;
   const std::uint32_t losses = losses_in(link_.setpoint) + losses_in(link_.wrench);
@@ -429,10 +442,10 @@ std::uint64_t Node::statistic(std::uint8_t name, bool* exists) const {
   constexpr unsigned kStreamNames = 8;
   *exists = true;
   if (name >= kSetpoint && name < kSetpoint + kStreamNames) {
-    return stream_statistic(link_.setpoint, name - kSetpoint);
+    return stream_statistic(link_.setpoint, setpoint_source_.refused(), name - kSetpoint);
   }
   if (name >= kWrench && name < kWrench + kStreamNames) {
-    return stream_statistic(link_.wrench, name - kWrench);
+    return stream_statistic(link_.wrench, wrench_source_.refused(), name - kWrench);
   }
   if (name >= kLatency && name < kLatency + LatencyHistogram::kBins) {
     return latency_.counts()[name - kLatency];

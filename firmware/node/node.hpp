@@ -6,6 +6,7 @@
 #include "flexcomp/compensator.hpp"
 #include "messages/authentication_counters.hpp"
 #include "messages/messages.hpp"
+#include "messages/second_sender.hpp"
 #include "messages/sequence.hpp"
 #include "node/node_status.hpp"
 #include "node/refusal_watch.hpp"
@@ -67,7 +68,8 @@ class Node {
   void refuse_transfer(Reply reason);
   const void* received_table(std::size_t* size) const { return store_.received(size); }
 
-  void receive(const Message& message, std::int64_t now);
+  /// False if it is not used: a setpoint or wrench of another source than the one that sends them.
+  bool receive(const Message& message, Source source, std::int64_t now);
   void set_link(const LinkState& link) { link_ = link; }
 
   /// True once after a reset was asked for: who moves messages then forgets conflicts.
@@ -150,6 +152,8 @@ class Node {
   IdentityMessage identity_;
   bool has_identity_ = false;
 
+  SourceMonitor setpoint_source_;
+  SourceMonitor wrench_source_;
   LinkState link_;
   std::uint32_t losses_before_ = 0;
   bool reset_requested_ = false;

@@ -7,6 +7,11 @@ namespace {
 
 constexpr std::int64_t kMicrosecond = 1000;
 constexpr std::int64_t kDriftDivisor = 10'000;  // 100 ppm
+/// µs: a busy computer's messages scatter by so much, and a delay that matters is no smaller.
+constexpr std::int32_t kAgreement = 10'000;
+constexpr std::uint32_t kShorterInARow = 4;
+constexpr std::uint32_t kLaterInARow = 16;
+constexpr std::int64_t kLaterFor = 1'000'000'000;  // ns
 
 }  // namespace
 
@@ -19,18 +24,54 @@ std::int64_t TransportDelay::observe(std::int64_t timestamp, std::int64_t now) {
   if (!started_) {
     started_ = true;
     reference_ = difference;
-  } else {
-    allowance_ += (now - observed_at_) / kDriftDivisor;
-    reference_ += static_cast<std::uint32_t>(allowance_ / kMicrosecond);
-    allowance_ %= kMicrosecond;
-  }
-  observed_at_ = now;
-  const auto delay = static_cast<std::int32_t>(difference - reference_);
-  if (delay < 0) {
-    reference_ = difference;
+    observed_at_ = now;
     return 0;
   }
-  return kMicrosecond * delay;
+  follow_drift(now);
+  const auto delay = static_cast<std::int32_t>(difference - reference_);
+  if (delay >= 0 && delay <= kAgreement) {
+    agreeing_ = 0;
+    return kMicrosecond * delay;
+  }
+  count(difference, delay < 0, now);
+  if (is_time_to_move(now)) {
+    reference_ = proposed_;
+    agreeing_ = 0;
+    return 0;
+  }
+  return delay < 0 ? 0 : kMicrosecond * delay;
+}
+
+void TransportDelay::follow_drift(std::int64_t now) {
+  allowance_ += (now - observed_at_) / kDriftDivisor;
+  reference_ += static_cast<std::uint32_t>(allowance_ / kMicrosecond);
+  allowance_ %= kMicrosecond;
+  observed_at_ = now;
+}
+
+bool TransportDelay::agrees(std::uint32_t difference) const {
+  const auto off = static_cast<std::int32_t>(difference - proposed_);
+  return off >= -kAgreement && off <= kAgreement;
+}
+
+/// Of shorter ways the longest is proposed, which all of them were not longer than; of later
+/// messages the earliest.
+void TransportDelay::count(std::uint32_t difference, bool is_shorter, std::int64_t now) {
+  if (agreeing_ == 0 || is_shorter != are_shorter_ || !agrees(difference)) {
+    agreeing_ = 1;
+    are_shorter_ = is_shorter;
+    proposed_ = difference;
+    agreeing_since_ = now;
+    return;
+  }
+  ++agreeing_;
+  const bool is_longer = static_cast<std::int32_t>(difference - proposed_) > 0;
+  proposed_ = is_longer == is_shorter ? difference : proposed_;
+}
+
+bool TransportDelay::is_time_to_move(std::int64_t now) const {
+  return are_shorter_ ? agreeing_ >= kShorterInARow
+                      : agreeing_ >= kLaterInARow && now - agreeing_since_ >= kLaterFor;
 }
 
 }  // namespace flexcomp

@@ -174,7 +174,7 @@ class Run {
     const std::size_t size = bytes_.take<std::uint8_t>() % data.size();
     bytes_.take_into(data.data(), size);
     node_.receive(decode_lcm(kChannels[channel % kChannels.size()], data.data(), size).message,
-                  now_);
+                  Source::lcm, now_);
   }
 
   /// Words of a table, some from the input; begun anew when it is complete.

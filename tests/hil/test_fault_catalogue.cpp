@@ -55,6 +55,7 @@ struct Fault {
   Reaction reaction;
   Injection inject;
   NodeConfig config = usual_config();
+  bool fd = false;  ///< the sender's frames from the start: a change of format is a second sender
 };
 
 std::string bit_names(std::uint32_t status, std::uint16_t node_status) {
@@ -94,6 +95,7 @@ void write_row(const Fault& fault, std::uint32_t status, std::uint16_t node_stat
 
 void run(const Fault& fault) {
   NodeOnABus bus(fault.config);
+  bus.use_fd(fault.fd);
   bus.bring_up();
   const std::uint64_t counted_before = fault.counter ? fault.counter(bus) : 0;
   std::uint32_t status = 0;
@@ -286,15 +288,17 @@ std::vector<Fault> faults() {
          0,
          {},
          Reaction::zero,
-         [=, encoder = std::make_shared<CanEncoder>(true)](NodeOnABus* bus, int tick) {
+         [=](NodeOnABus* bus, int tick) {
            const std::int64_t late = 1'000'000LL * tick;
            SetpointMessage q = bus->next_setpoint();
            WrenchMessage wrench = bus->next_wrench();
            (setpoint ? q.timestamp : wrench.timestamp) -= late;
-           bus->put(encoder->encode(wrench));
-           bus->put(encoder->encode(q));
+           bus->send(wrench);
+           bus->send(q);
            return bus->tick();
-         }});
+         },
+         usual_config(),
+         true});
     add({7,
          input,
          "not available: one sample",
@@ -329,14 +333,16 @@ std::vector<Fault> faults() {
            0,
            {},
            Reaction::zero,
-           [=, encoder = std::make_shared<CanEncoder>(true)](NodeOnABus* bus, int) {
+           [=](NodeOnABus* bus, int) {
              SetpointMessage q = bus->next_setpoint();
              WrenchMessage wrench = bus->next_wrench();
              (setpoint ? q.q[2] : wrench.wrench[1]) = value;
-             bus->put(encoder->encode(wrench));
-             bus->put(encoder->encode(q));
+             bus->send(wrench);
+             bus->send(q);
              return bus->tick();
-           }});
+           },
+           usual_config(),
+           true});
     }
     add({8, input, "garbage: random bits in every frame", stale, kSomeLost,
          [=](const NodeOnABus& bus) { return counters(bus).corrupt; }, Reaction::zero,
@@ -415,13 +421,15 @@ std::vector<Fault> faults() {
        0,
        {},
        Reaction::goes_on,
-       [encoder = std::make_shared<CanEncoder>(true)](NodeOnABus* bus, int) {
+       [](NodeOnABus* bus, int) {
          WrenchMessage wrench = bus->next_wrench();
          wrench.wrench[4] = 1e-40;
-         bus->put(encoder->encode(wrench));
-         bus->put(encoder->encode(bus->next_setpoint()));
+         bus->send(wrench);
+         bus->send(bus->next_setpoint());
          return bus->tick();
-       }});
+       },
+       usual_config(),
+       true});
   add({8,
        "setpoint",
        "wrong: degrees instead of radians",
@@ -684,6 +692,7 @@ void after_a_reset_every_fault_that_is_over_is_forgotten() {
       continue;  // a damaged table needs a new one, another robot its own
     }
     NodeOnABus bus(fault.config);
+    bus.use_fd(fault.fd);
     bus.bring_up();
     for (int tick = 0; tick < kFaultTicks; ++tick) {
       fault.inject(&bus, tick);

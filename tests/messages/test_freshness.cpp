@@ -60,6 +60,59 @@ void nothing_made_before_a_restart_is_taken_after_it() {
   TEST_ASSERT_TRUE(gate.is_fresh(latest_before + 1, latest_before + 1));
 }
 
+constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr Freshness kUnitsASecond = 100'000;
+
+/// A time of day and a monotonic clock that go on together.
+struct Clocks {
+  Freshness day = kNow;
+  std::int64_t monotonic = 5 * kSecond;
+
+  void pass(std::int64_t milliseconds) {
+    day += static_cast<Freshness>(100 * milliseconds);
+    monotonic += 1'000'000 * milliseconds;
+  }
+};
+
+void a_clock_that_is_wrong_for_a_moment_is_not_followed() {
+  for (const std::int64_t jump : {600, -600, 1, -1}) {  // s
+    const auto units = static_cast<Freshness>(jump * 100'000);
+    SteadyTime steady;
+    Clocks clocks;
+    for (int i = 0; i < 5000; ++i) {
+      const bool is_wrong = i >= 1000 && i < 2000;
+      clocks.pass(4);
+      const Freshness shown = is_wrong ? clocks.day + units : clocks.day;
+      TEST_ASSERT_EQUAL_UINT64(clocks.day, steady.at(shown, clocks.monotonic));
+    }
+  }
+}
+
+void a_clock_that_stays_where_it_was_set_is_followed_after_ten_seconds() {
+  SteadyTime steady;
+  Clocks clocks;
+  steady.at(clocks.day, clocks.monotonic);
+  const Freshness jump = 600 * kUnitsASecond;
+  clocks.pass(4);
+  TEST_ASSERT_EQUAL_UINT64(clocks.day, steady.at(clocks.day + jump, clocks.monotonic));
+  clocks.pass(9'900);
+  TEST_ASSERT_EQUAL_UINT64(clocks.day, steady.at(clocks.day + jump, clocks.monotonic));
+  clocks.pass(100);
+  TEST_ASSERT_EQUAL_UINT64(clocks.day + jump, steady.at(clocks.day + jump, clocks.monotonic));
+}
+
+void a_clock_that_is_slewed_is_followed_at_once() {
+  SteadyTime steady;
+  Clocks clocks;
+  steady.at(clocks.day, clocks.monotonic);
+  Freshness slewed = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    clocks.pass(4);
+    slewed += i % 5 == 0 ? 1 : 0;  // 500 ppm
+    TEST_ASSERT_EQUAL_UINT64(clocks.day + slewed, steady.at(clocks.day + slewed, clocks.monotonic));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -69,5 +122,8 @@ int main() {
   RUN_TEST(a_value_is_taken_once_and_nothing_before_it);
   RUN_TEST(only_values_near_the_clock_are_taken);
   RUN_TEST(nothing_made_before_a_restart_is_taken_after_it);
+  RUN_TEST(a_clock_that_is_wrong_for_a_moment_is_not_followed);
+  RUN_TEST(a_clock_that_stays_where_it_was_set_is_followed_after_ten_seconds);
+  RUN_TEST(a_clock_that_is_slewed_is_followed_at_once);
   return UNITY_END();
 }

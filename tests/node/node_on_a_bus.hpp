@@ -104,6 +104,9 @@ class NodeOnABus {
     started_with = node.start_with(0, opened);
   }
 
+  /// The sender's format; classic frames if not set.
+  void use_fd(bool fd) { sender_ = CanEncoder(fd); }
+
   /// Frames that `message` becomes at the sender.
   FrameList encode(const Message& message) { return sender_.encode(message); }
 

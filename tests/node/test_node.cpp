@@ -73,8 +73,9 @@ void it_does_not_arm_without_a_table_or_too_early() {
   TEST_ASSERT_EQUAL(number(Result::not_ready), early.command(Command::arm));
   Node empty;
   TEST_ASSERT_EQUAL(Result::ok, empty.configure(usual_config()));
-  empty.receive(IdentityMessage{usual_config().compensator.model_hash, WrenchFrame::base}, 0);
-  empty.receive(CommandMessage{Command::arm}, 0);
+  const std::uint64_t robot = usual_config().compensator.model_hash;
+  empty.receive(IdentityMessage{robot, WrenchFrame::base}, Source::can_classic, 0);
+  empty.receive(CommandMessage{Command::arm}, Source::can_classic, 0);
   Message message;
   TEST_ASSERT_TRUE(empty.next_message(&message));
   TEST_ASSERT_EQUAL(number(Result::no_table), std::get<CommandReplyMessage>(message).reply);

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace flexcomp {
+
+/// Evidence that a second sender is at work in a stream, kept for as long as it takes a slow one to
+/// give enough of it.
+///
+/// Each event is something that one sender does not do: another content under a counter that it has
+/// just used, a counter far off its own between two that follow each other, or a second format
+/// beside the first. Eight events at once prove a second sender. One event is forgotten every two
+/// seconds, because a faulty bus may bring about one now and then: a second sender with events at a
+/// rate of r a second is found after 16 / (2 - 1/r) of them, so within 32 where r is 2/3 or more.
+class SecondSender {
+ public:
+  /// An event at `now` (ns, only grows).
+  void raise(std::int64_t now) {
+    const std::int64_t elapsed = now - raised_at_;
+    level_ = level_ > elapsed ? level_ - elapsed : 0;
+    level_ += kForgetAfter;
+    raised_at_ = now;
+    is_proven_ = is_proven_ || level_ > kProof - kForgetAfter;
+  }
+
+  /// True from the proof on, until `clear`.
+  bool is_proven() const { return is_proven_; }
+
+  void clear() { *this = SecondSender(); }
+
+ private:
+  static constexpr std::int64_t kForgetAfter = 2'000'000'000;  // ns an event
+  static constexpr std::int64_t kProof = 8 * kForgetAfter;
+
+  std::int64_t level_ = 0;  ///< ns until all events are forgotten
+  std::int64_t raised_at_ = 0;
+  bool is_proven_ = false;
+};
+
+/// What the last messages of a stream held, by their counters: a message that comes late says the
+/// same again, one of a second sender does not.
+class RecentContents {
+ public:
+  /// The next that came, `step` after the one before; what did not come in between is not known.
+  void add(std::uint32_t counter, std::uint32_t step, std::uint32_t digest) {
+    known_ = step < kCount ? known_ & ~mask(counter, step) : 0;
+    known_ |= 1U << (counter % kCount);
+    digest_[counter % kCount] = digest;
+  }
+
+  /// Did the message with this counter, one of the last, hold something else?
+  bool contradict(std::uint32_t counter, std::uint32_t digest) const {
+    const std::uint32_t slot = counter % kCount;
+    return (known_ >> slot & 1U) != 0 && digest_[slot] != digest;
+  }
+
+ private:
+  static constexpr std::uint32_t kCount = 16;
+
+  /// Bits of the `step` counters up to this one.
+  static std::uint32_t mask(std::uint32_t counter, std::uint32_t step) {
+    const std::uint32_t run = (1U << step) - 1U;
+    const std::uint32_t turn = (counter - step + 1) % kCount;
+    return (run << turn | run >> (kCount - turn)) & 0xFFFFU;
+  }
+
+  std::array<std::uint32_t, kCount> digest_{};
+  std::uint32_t known_ = 0;  ///< one bit a slot
+};
+
+/// How a message came to the node.
+enum class Source : std::uint8_t { can_classic, can_fd, lcm };
+
+/// Lets one format and transport at a time have a stream (setpoints or wrenches).
+///
+/// A message of another source is refused, and counts as a second sender's, while the source that
+/// has the stream is at work: until its last message is 50 ms old. Then the other may take over, as
+/// a sender that was started anew in another format does.
+class SourceMonitor {
+ public:
+  /// Is a message of this source to be used? `now` (ns) only grows.
+  bool admit(Source source, std::int64_t now) {
+    const bool is_other = has_source_ && source != source_ && now - admitted_at_ <= kPause;
+    if (is_other) {
+      ++refused_;
+      second_.raise(now);
+      return false;
+    }
+    has_source_ = true;
+    source_ = source;
+    admitted_at_ = now;
+    return true;
+  }
+
+  bool has_conflict() const { return second_.is_proven(); }
+  void clear_conflict() { second_.clear(); }
+  std::uint32_t refused() const { return refused_; }  ///< messages of another source
+
+ private:
+  static constexpr std::int64_t kPause = 50'000'000;  // ns
+
+  bool has_source_ = false;
+  Source source_ = Source::can_classic;
+  std::int64_t admitted_at_ = 0;
+  std::uint32_t refused_ = 0;
+  SecondSender second_;
+};
+
+}  // namespace flexcomp
