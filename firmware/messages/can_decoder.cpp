@@ -22,11 +22,12 @@ std::uint32_t digest(const CanFrame& frame) {
 }
 
 /// The same of a set of classic frames, a word at a time: this is on the way of every setpoint.
-std::uint32_t digest(const std::array<std::array<std::uint8_t, 8>, kMaxFrameParts>& parts) {
+std::uint32_t digest(const std::array<std::array<std::uint8_t, 8>, kMaxFrameParts>& parts,
+                     std::size_t count) {
   std::uint32_t hash = 0;
-  for (const auto& part : parts) {
+  for (std::size_t i = 0; i < count; ++i) {
     std::array<std::uint32_t, 2> words{};
-    std::memcpy(words.data(), part.data(), part.size());
+    std::memcpy(words.data(), parts[i].data(), parts[i].size());
     hash = (hash << 7 | hash >> 25) ^ words[0];
     hash = (hash << 7 | hash >> 25) ^ words[1];
   }
@@ -106,7 +107,7 @@ bool CanDecoder::add_part(const FrameLayout& layout, const CanFrame& frame, std:
     return false;
   }
   set.received = 0;
-  if (!stream.accept(counter, digest(set.parts), now)) {
+  if (!stream.accept(counter, digest(set.parts, layout.parts), now)) {
     return false;
   }
   std::copy_n(set.parts.begin(), layout.parts, set.accepted.begin());

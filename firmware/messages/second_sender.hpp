@@ -16,13 +16,7 @@ namespace flexcomp {
 class SecondSender {
  public:
   /// An event at `now` (ns, only grows).
-  void raise(std::int64_t now) {
-    const std::int64_t elapsed = now - raised_at_;
-    level_ = level_ > elapsed ? level_ - elapsed : 0;
-    level_ += kForgetAfter;
-    raised_at_ = now;
-    is_proven_ = is_proven_ || level_ > kProof - kForgetAfter;
-  }
+  void raise(std::int64_t now);
 
   /// True from the proof on, until `clear`.
   bool is_proven() const { return is_proven_; }
@@ -30,9 +24,6 @@ class SecondSender {
   void clear() { *this = SecondSender(); }
 
  private:
-  static constexpr std::int64_t kForgetAfter = 2'000'000'000;  // ns an event
-  static constexpr std::int64_t kProof = 8 * kForgetAfter;
-
   std::int64_t level_ = 0;  ///< ns until all events are forgotten
   std::int64_t raised_at_ = 0;
   bool is_proven_ = false;
@@ -44,28 +35,30 @@ class RecentContents {
  public:
   /// The next that came, `step` after the one before; what did not come in between is not known.
   void add(std::uint32_t counter, std::uint32_t step, std::uint32_t digest) {
-    known_ = step < kCount ? known_ & ~mask(counter, step) : 0;
-    known_ |= 1U << (counter % kCount);
-    digest_[counter % kCount] = digest;
+    if (step != 1) {
+      forget_between(counter, step);
+    }
+    const std::uint32_t slot = counter % kCount;
+    known_ |= 1U << slot;
+    digest_[slot] = shortened(digest);
   }
 
   /// Did the message with this counter, one of the last, hold something else?
   bool contradict(std::uint32_t counter, std::uint32_t digest) const {
     const std::uint32_t slot = counter % kCount;
-    return (known_ >> slot & 1U) != 0 && digest_[slot] != digest;
+    return (known_ >> slot & 1U) != 0 && digest_[slot] != shortened(digest);
   }
 
  private:
-  static constexpr std::uint32_t kCount = 16;
+  static constexpr std::uint32_t kCount = 8;  // more than the losses in a row that are borne
 
-  /// Bits of the `step` counters up to this one.
-  static std::uint32_t mask(std::uint32_t counter, std::uint32_t step) {
-    const std::uint32_t run = (1U << step) - 1U;
-    const std::uint32_t turn = (counter - step + 1) % kCount;
-    return (run << turn | run >> (kCount - turn)) & 0xFFFFU;
+  static std::uint16_t shortened(std::uint32_t digest) {
+    return static_cast<std::uint16_t>(digest ^ digest >> 16);
   }
 
-  std::array<std::uint32_t, kCount> digest_{};
+  void forget_between(std::uint32_t counter, std::uint32_t step);
+
+  std::array<std::uint16_t, kCount> digest_{};
   std::uint32_t known_ = 0;  ///< one bit a slot
 };
 
@@ -80,26 +73,13 @@ enum class Source : std::uint8_t { can_classic, can_fd, lcm };
 class SourceMonitor {
  public:
   /// Is a message of this source to be used? `now` (ns) only grows.
-  bool admit(Source source, std::int64_t now) {
-    const bool is_other = has_source_ && source != source_ && now - admitted_at_ <= kPause;
-    if (is_other) {
-      ++refused_;
-      second_.raise(now);
-      return false;
-    }
-    has_source_ = true;
-    source_ = source;
-    admitted_at_ = now;
-    return true;
-  }
+  bool admit(Source source, std::int64_t now);
 
   bool has_conflict() const { return second_.is_proven(); }
   void clear_conflict() { second_.clear(); }
   std::uint32_t refused() const { return refused_; }  ///< messages of another source
 
  private:
-  static constexpr std::int64_t kPause = 50'000'000;  // ns
-
   bool has_source_ = false;
   Source source_ = Source::can_classic;
   std::int64_t admitted_at_ = 0;

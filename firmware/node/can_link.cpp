@@ -15,6 +15,9 @@ StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
 
 bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
   const Message message = decoder_.decode(frame, now);
+  if (std::holds_alternative<std::monostate>(message)) {
+    return false;  // most frames are a part of a message
+  }
   const bool is_used = node->receive(message, frame.fd ? Source::can_fd : Source::can_classic, now);
   return is_used && std::holds_alternative<SetpointMessage>(message);
 }
