@@ -39,7 +39,7 @@ class AskedTooMuch {
     std::vector<std::pair<int, Message>> said;
     for (int tick = 0; tick < ticks; ++tick) {
       for (int i = 0; i < kAtOnce; ++i) {
-        bus_.node.receive(question_(i), bus_.now);
+        bus_.node.receive(question_(i), Source::can_classic, bus_.now);
       }
       if (wrenches) {
         bus_.send(bus_.next_wrench());
