@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 
+#include "diagnosis/plausible.hpp"
+
 namespace flexcomp::diagnosis {
 namespace {
 
@@ -27,6 +29,7 @@ constexpr int kMostInGroup = 5;  // more would be a sum that fits anything
 /// A load test's poses lie all over: its many small errors of geometry tell themselves apart.
 constexpr int kMostInLoadTest = 16;
 constexpr std::size_t kShortlist = 5;
+constexpr std::size_t kLongShortlist = 2;  // times as many, where some of it cannot be
 constexpr std::size_t kMany = 4;  // findings, from which on fits are slow and little is ambiguous
 constexpr std::size_t kShortShortlist = 2;
 constexpr int kQuickSteps = 4;
@@ -197,11 +200,22 @@ class Chooser {
     return fit(*observations_, std::move(others), kQuickSteps, &dictionary_);
   }
 
-  /// Those of a shortlist beside a fit, quickly fitted, the best first.
+  /// Can the last hypothesis of a fit be, as fitted?
+  bool can_be(const Fit& fit) const {
+    return why_impossible(*observations_, fit, fit.chosen.size() - 1).empty();
+  }
+
+  /// Those of a shortlist beside a fit that can be, quickly fitted, the best first.
   std::vector<Fit> tried_with(const Fit& before, std::size_t most) const {
     std::vector<Fit> all;
-    for (const Chosen& candidate : shortlist(before, most)) {
-      all.push_back(with(before, candidate, kQuickSteps));
+    for (const Chosen& candidate : shortlist(before, kLongShortlist * most)) {
+      Fit tried = with(before, candidate, kQuickSteps);
+      if (can_be(tried)) {
+        all.push_back(std::move(tried));
+      }
+      if (all.size() == most) {
+        break;
+      }
     }
     std::stable_sort(all.begin(), all.end(),
                      [&](const Fit& a, const Fit& b) { return criterion(a) < criterion(b); });
@@ -219,8 +233,9 @@ class Chooser {
   }
 
   bool holds(const Evidence& evidence) const {
-    return evidence.delta_bic > kStrongEvidence && evidence.p_value < false_discovery_ &&
-           evidence.confirmation > kConfirmed && evidence.strength > kLeastStrength &&
+    return evidence.impossible.empty() && evidence.delta_bic > kStrongEvidence &&
+           evidence.p_value < false_discovery_ && evidence.confirmation > kConfirmed &&
+           evidence.strength > kLeastStrength &&
            (observations_->is_static || evidence.relative_strength > kExactness) &&
            (observations_->is_static || evidence.beyond_noise > kLeastBeyondNoise ||
             evidence.confirmation > kOverwhelming) &&
@@ -250,7 +265,8 @@ class Chooser {
         *current = std::move(grown);
         return true;
       }
-      if (evidence.confirmation > kConfirmed || evidence.delta_bic < kStrongEvidence) {
+      const bool can_be = evidence.impossible.empty();
+      if (can_be && (evidence.confirmation > kConfirmed || evidence.delta_bic < kStrongEvidence)) {
         return false;
       }
     }
@@ -313,7 +329,7 @@ class Chooser {
     return false;
   }
 
-  /// Drops what no longer holds beside the others, the weakest first.
+  /// Drops what no longer holds beside the others: what cannot be first, then the weakest.
   void prune(Choice* choice) const {
     while (!choice->fit.chosen.empty()) {
       choice->findings.clear();
@@ -322,8 +338,10 @@ class Chooser {
       for (std::size_t i = 0; i < choice->fit.chosen.size(); ++i) {
         choice->findings.push_back(judge(choice->fit, i));
         const Evidence& evidence = choice->findings.back().evidence;
-        if (!stands(evidence) && evidence.delta_bic < least) {
-          least = evidence.delta_bic;
+        const double worth = evidence.impossible.empty() ? evidence.delta_bic
+                                                         : std::numeric_limits<double>::lowest();
+        if (!stands(evidence) && worth < least) {
+          least = worth;
           weakest = i;
         }
       }
@@ -516,7 +534,8 @@ class Chooser {
       const Fit tried = with(finding->without, candidate.chosen, kQuickSteps);
       const double gain = bic_gain(samples, finding->without.train_sum, tried.train_sum,
                                    candidate.chosen.values.size());
-      if (gain > kStrongEvidence && meet(shown, directions(tried, tried.chosen.size() - 1))) {
+      if (gain > kStrongEvidence && can_be(tried) &&
+          meet(shown, directions(tried, tried.chosen.size() - 1))) {
         finding->alternatives.push_back({other.effect, other.joint,
                                          std::max(finding->evidence.delta_bic - gain, 0.0),
                                          tried.chosen.back()});

@@ -49,12 +49,13 @@ using Tell = std::function<void(std::size_t, std::size_t)>;
 /// best; then each choice is tried against all others anew, and dropped if it no longer holds. A
 /// hypothesis holds if its gain is strong, its chance (times the hypotheses looked at) is below
 /// `false_discovery`, what was held out confirms it, and it moves some component by more than a
-/// third of its noise; and if, where it shows most, it accounts for a tenth of what was left beyond
-/// the noise, for a fiftieth of the whole fit, and takes away what is beyond the noise rather than
-/// noise. In the end nine tenths of the mismatch there must be accounted for by all of them
-/// together, or four fifths where they leave less than twice the noise, or it is withdrawn; and so
-/// are several that come near the noise there together, but fail on what was held out (of two the
-/// weaker), and what remains there then if it leaves more than twice the noise.
+/// third of its noise; it can be (plausible.hpp); and if, where it shows most, it accounts for a
+/// tenth of what was left beyond the noise, for a fiftieth of the whole fit, and takes away what is
+/// beyond the noise rather than noise. In the end nine tenths of the mismatch there must be
+/// accounted for by all of them together, or four fifths where they leave less than twice the
+/// noise, or it is withdrawn; and so are several that come near the noise there together, but fail
+/// on what was held out (of two the weaker), and what remains there then if it leaves more than
+/// twice the noise.
 ///
 /// The starts of hypotheses that are sought in the residual are sought anew after every step (the
 /// observations' `unexplained` is used for that). In the end the best pairs of hypotheses are tried

@@ -52,7 +52,8 @@ struct Effect {
 /// Every effect that is known; a new one is a file in effects/ and a line in registry.cpp.
 const std::vector<Effect>& registry();
 
-/// All hypotheses of all effects; some may have no start for what was observed.
+/// All hypotheses of all effects, within what the machine can be (plausible.hpp); some may have no
+/// start for what was observed.
 std::vector<Hypothesis> all_hypotheses(const Observations& observations);
 
 }  // namespace flexcomp::diagnosis

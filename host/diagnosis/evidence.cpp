@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "diagnosis/plausible.hpp"
 #include "recording/noise.hpp"
 #include "statistics/distributions.hpp"
 
@@ -132,6 +133,7 @@ double bic_gain(const Observations& observations, const Fit& plain, const Fit& r
 Evidence weigh(const Observations& observations, const Fit& without, const Fit& with,
                double places) {
   Evidence evidence;
+  evidence.impossible = why_impossible(observations, with, with.chosen.size() - 1);
   evidence.effective_samples = independent_samples(observations, with.remainder);
   const std::size_t parameters = with.chosen.back().values.size();
   const double ratio = bic_gain(evidence.effective_samples, without.train_sum, with.train_sum, 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Evidence {
   double explained = 0;          ///< part of the mismatch's power that the whole fit accounts for
   double left = 0;               ///< by the whole fit, times the noise
   double effective_samples = 0;
+  std::string impossible;  ///< why it cannot be so, as fitted; empty if it can
 };
 
 constexpr double kStrongEvidence = 10;  ///< of BIC: "very strong" (Kass and Raftery 1995)

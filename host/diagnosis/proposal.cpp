@@ -132,7 +132,8 @@ Hypothesis term_of(const Observations& observations, const Feature& feature, int
                                     .maxCoeff());
   }
   const double step = is_torque ? std::max(0.02 * observations.largest_torque(joint), 0.01) : 1e-4;
-  const double far = 1e4 * step;
+  // A drive is in error by no more than twice what it was seen to give, an angle by 0.1 rad.
+  const double far = is_torque ? 100 * step : 0.1;
   const double unit = std::max(largest, 1e-9);
   const std::string output = is_torque ? "N·m" : "rad";
   Hypothesis term;
@@ -250,8 +251,9 @@ class Proposer {
   }
 
   static bool holds(const Evidence& evidence) {
-    return evidence.delta_bic > kLeastTermGain && evidence.confirmation > kTermConfirmed &&
-           evidence.share > kLeastTermShare && evidence.p_value < kTermChance;
+    return evidence.impossible.empty() && evidence.delta_bic > kLeastTermGain &&
+           evidence.confirmation > kTermConfirmed && evidence.share > kLeastTermShare &&
+           evidence.p_value < kTermChance;
   }
 
   bool add(const Hypothesis& term) {

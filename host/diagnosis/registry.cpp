@@ -1,4 +1,5 @@
 #include "diagnosis/effects/effects.hpp"
+#include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -46,8 +47,10 @@ bool are_the_same(const Hypothesis& a, const Hypothesis& b) {
 
 std::vector<Hypothesis> all_hypotheses(const Observations& observations) {
   std::vector<Hypothesis> all;
+  const MachineSize size = size_of(observations);
   for (const Effect& effect : registry()) {
     for (Hypothesis& hypothesis : effect.hypotheses(observations)) {
+      keep_plausible(observations.machine.robot, size, &hypothesis);
       all.push_back(std::move(hypothesis));
     }
   }

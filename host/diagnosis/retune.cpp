@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -73,6 +74,28 @@ std::vector<Chosen> known_of(const Fit& fit, std::size_t findings) {
   return known;
 }
 
+/// Can all of a fit be?
+bool can_be(const Observations& observations, const Fit& fit) {
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    if (!why_impossible(observations, fit, i).empty()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Findings, and behind them the numbers that can be.
+std::vector<Chosen> possible_of(const Observations& observations, const Fit& fit,
+                                std::size_t findings) {
+  std::vector<Chosen> possible;
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    if (i < findings || why_impossible(observations, fit, i).empty()) {
+      possible.push_back(fit.chosen[i]);
+    }
+  }
+  return possible;
+}
+
 /// Does the held-out error fall noticeably in a channel, and rise in none?
 bool predicts_better(const Observations& observations, const Fit& before, const Fit& after) {
   constexpr double kNoticeable = 0.99;
@@ -94,11 +117,14 @@ Fit retune(const Observations& observations, const Fit& findings,
   const std::size_t found = findings.chosen.size();
   Fit tuned =
       fit(observations, with_numbers(findings, hypotheses, dictionary), kSteps, &dictionary);
-  for (std::vector<Chosen> known = known_of(tuned, found); known.size() < tuned.chosen.size();
-       known = known_of(tuned, found)) {
-    tuned = fit(observations, std::move(known), kSteps, &dictionary);
+  const auto kept = [&] {
+    std::vector<Chosen> possible = possible_of(observations, tuned, found);
+    return possible.size() < tuned.chosen.size() ? possible : known_of(tuned, found);
+  };
+  for (std::vector<Chosen> next = kept(); next.size() < tuned.chosen.size(); next = kept()) {
+    tuned = fit(observations, std::move(next), kSteps, &dictionary);
   }
-  const bool stands = tuned.chosen.size() > found &&
+  const bool stands = tuned.chosen.size() > found && can_be(observations, tuned) &&
                       bic_gain(observations, findings, tuned) > kStrongEvidence &&
                       predicts_better(observations, findings, tuned) &&
                       cancellation(observations, tuned) < kMostCancellation;

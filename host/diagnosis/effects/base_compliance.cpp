@@ -15,7 +15,7 @@ std::vector<Hypothesis> base_compliance(const Observations& observations) {
   constexpr const char* kNames[] = {"x", "y", "z", "rx", "ry", "rz"};
   for (Eigen::Index i = 0; i < 6; ++i) {
     hypothesis.parameters.push_back(
-        {kNames[i], i < 3 ? "m/N" : "rad/(N·m)", -known[i], 1e-4, i < 3 ? 2e-8 : 5e-8});
+        {kNames[i], i < 3 ? "m/N" : "rad/(N·m)", -known[i], 1, i < 3 ? 2e-8 : 5e-8});
   }
   hypothesis.linear = 6;
   hypothesis.alters_model = true;

@@ -16,7 +16,7 @@ std::vector<Hypothesis> joint_stiffness(const Observations& observations) {
     const double known =
         observations.machine.robot.elastic.joints[static_cast<std::size_t>(joint - 1)].compliance;
     hypothesis.parameters = {
-        {"compliance_change", "rad/(N·m)", -known, 1e-4, std::max(0.2 * known, 1e-9)}};
+        {"compliance_change", "rad/(N·m)", -known, 1, std::max(0.2 * known, 1e-9)}};
     hypothesis.linear = 1;
     hypothesis.alters_model = true;
     hypothesis.statement = fmt::format("the spring of joint {} has another stiffness", joint);

@@ -71,7 +71,7 @@ std::vector<Hypothesis> link_flexibility(const Observations& observations) {
     const Eigen::Index across[] = {(along + 1) % 3, (along + 2) % 3};
     for (const Eigen::Index axis : across) {
       hypothesis.parameters.push_back(
-          {fmt::format("bending_{}", "xyz"[axis]), "rad/(N·m)", 0, 1e-4, 1e-7});
+          {fmt::format("bending_{}", "xyz"[axis]), "rad/(N·m)", 0, 1, 1e-7});
     }
     hypothesis.form = "springs";
     hypothesis.linear = 2;
@@ -86,7 +86,7 @@ std::vector<Hypothesis> link_flexibility(const Observations& observations) {
     if (observations.machine.robot.elastic.joints[index + 1].origin.position.norm() < 0.2) {
       continue;
     }
-    hypothesis.parameters = {{"beam", "rad/(N·m)", 0, 1e-4, 1e-7}};
+    hypothesis.parameters = {{"beam", "rad/(N·m)", 0, 1, 1e-7}};
     hypothesis.form = "beam";
     hypothesis.linear = 1;
     hypothesis.alters_model = false;

@@ -11,7 +11,7 @@ std::vector<Hypothesis> tcp_offset(const Observations& observations) {
   Hypothesis hypothesis;
   hypothesis.effect = "tcp_offset";
   hypothesis.parameters = {
-      {"x", "m", -0.1, 0.1, 1e-4}, {"y", "m", -0.1, 0.1, 1e-4}, {"z", "m", -0.1, 0.1, 1e-4}};
+      {"x", "m", -10, 10, 1e-4}, {"y", "m", -10, 10, 1e-4}, {"z", "m", -10, 10, 1e-4}};
   hypothesis.linear = 3;
   hypothesis.alters_model = true;
   hypothesis.statement = "the tool tip is elsewhere";

@@ -35,12 +35,13 @@ std::vector<Hypothesis> thermal_drift(const Observations& observations) {
   hypothesis.linear = 3;
   hypothesis.statement = "the structure grows as it warms";
   if (!by_temperature) {
+    constexpr double kQuickest = 60;  // s, in which anything of an arm warms
     const double duration = first.time[first.rows() - 1] - first.time[0];
-    hypothesis.parameters.push_back(
-        {"time_constant", "s", 0.02 * duration, 20 * duration, 0.05 * duration});
+    hypothesis.parameters.push_back({"time_constant", "s", 0.02 * duration,
+                                     20 * std::max(duration, kQuickest), 0.05 * duration});
     hypothesis.starts.clear();
     for (const double share : {0.2, 0.4, 0.8, 1.6, 5.0}) {
-      hypothesis.starts.push_back({share * duration});
+      hypothesis.starts.push_back({std::max(share * duration, kQuickest)});
     }
   }
   hypothesis.apply = [by_temperature](const Values& values, Machine* machine) {

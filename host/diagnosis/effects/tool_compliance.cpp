@@ -13,7 +13,7 @@ std::vector<Hypothesis> tool_compliance(const Observations& observations) {
   const DiagonalCompliance<double>& known = observations.machine.robot.elastic.tool_compliance;
   constexpr const char* kNames[] = {"x", "y", "z"};
   for (Eigen::Index i = 0; i < 3; ++i) {
-    hypothesis.parameters.push_back({kNames[i], "m/N", -known[i], 1e-4, 1e-7});
+    hypothesis.parameters.push_back({kNames[i], "m/N", -known[i], 1, 1e-7});
   }
   hypothesis.linear = 3;
   hypothesis.alters_model = true;
