@@ -19,6 +19,7 @@ constexpr double kGravity = 9.81;         // m/s²
 constexpr double kLargestPayload = 2300;  // kg, of the strongest arm that is sold (data sheet)
 constexpr double kAluminium = 23e-6;      // 1/K, growth of the lightest material of arms
 constexpr double kSpringTurn = 0.1;       // rad, under the load that it bore
+constexpr double kLinkTurn = 0.02;        // rad, under the load that it bore
 constexpr double kShiftOfReach = 0.05;    // of the reach, under the load that it bore
 constexpr double kMostTurn = 0.1;         // rad/(N·m), of springs that are made soft on purpose
 constexpr double kMostShift = 0.01;       // m/N, ten times as soft as rubber feet
@@ -144,12 +145,9 @@ const Row kTable[] = {
      "friction does not drive, and a joint moves that its drive can move"},
     {"friction_hysteresis", " torque ", [](const Subject& of) { return up_to(of.effort()); },
      "friction does not drive, and a joint moves that its drive can move"},
-    {"friction_hysteresis", " slip ",
-     [](const Subject&) {
-       return Range{0, 0.1};
-     },
+    {"friction_hysteresis", " slip ", [](const Subject&) { return up_to(0.1); },
      "friction of contacts and belts is built up within some degrees of turning back (Al-Bender "
-     "and Swevers 2008)"},
+     "and Swevers 2008); built up at once it is dry friction"},
     {"friction_hysteresis", " gap ", [](const Subject&) { return up_to(0.01); },
      "as the gap of backlash"},
     {"gravity_compensator", " stiffness_torque pull_torque ",
@@ -184,8 +182,10 @@ const Row kTable[] = {
      "up "
      "by 0.1 rad under what it bears (series elastic actuators do, Pratt and Williamson 1995)"},
     {"link_flexibility", " bending_x bending_y bending_z beam ",
-     [](const Subject& of) { return up_to(softest(kMostTurn, kSpringTurn, of.largest_load())); },
-     "no link bends by 0.1 rad under what the arm bears: it would yield"},
+     [](const Subject& of) { return up_to(softest(kMostTurn, kLinkTurn, of.largest_load())); },
+     "a slender aluminium link that bends by 0.02 rad is strained to half of what it yields at "
+     "(yield "
+     "strain 0.4 %, five times as long as high): no arm is built so"},
     {"link_length", " length ", link_length,
      "with half of its length more or less a link is that of another robot"},
     {"nonlinear_stiffness", " cubic_compliance ", cubic_spring,
