@@ -123,15 +123,16 @@ int run(const DiagnoseOptions& options) {
   settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };
   settings.choosing = [&](std::size_t done, std::size_t) { choosing.show(done); };
   const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
-  // All of it is made before any of it is written.
+  // All of it is made before any of it is written, and written whole or not at all.
   const std::string json = diagnosis::to_json(observations, result).dump(2) + "\n";
   const std::string html = diagnosis::to_html(observations, result, qualities);
-  output_folder(options.out);
   const std::filesystem::path folder(options.out);
-  files::write_text(folder / "diagnosis.json", json);
-  files::write_text(folder / "report.html", html);
-  model::write_robot(folder / "updated_model.yaml",
-                     diagnosis::updated_robot(observations, result.updated()));
+  const std::filesystem::path updated = folder / "updated_model.yaml";
+  const std::string yaml =
+      model::robot_text(updated, diagnosis::updated_robot(observations, result.updated()));
+  output_folder(options.out);
+  files::write_texts(
+      {{folder / "diagnosis.json", json}, {folder / "report.html", html}, {updated, yaml}});
   summarize(observations, result, options.out);
   return kDone;
 }

@@ -148,8 +148,8 @@ const Row kTable[] = {
     {"friction_hysteresis", " slip ", [](const Subject&) { return up_to(0.1); },
      "friction of contacts and belts is built up within some degrees of turning back (Al-Bender "
      "and Swevers 2008); built up at once it is dry friction"},
-    {"friction_hysteresis", " gap ", [](const Subject&) { return up_to(0.01); },
-     "as the gap of backlash"},
+    {"friction_hysteresis", " gap ", [](const Subject&) { return up_to(0.1); },
+     "brakes, belts and seals grip within some degrees of turning back; no gear's teeth are meant"},
     {"gravity_compensator", " stiffness_torque pull_torque ",
      [](const Subject& of) { return within(10 * of.size.weight_torque); },
      "a balancer holds about the arm's weight; its preload and rate may work against each other"},
@@ -386,7 +386,10 @@ std::string why_no_body(const Observations& observations, const MachineSize& siz
   } else if (hypothesis.effect != "rotor_inertia") {
     return "";
   }
-  return can_move(observations, learned) ? "" : "an arm of negative inertia cannot be";
+  // Of what is mounted mass and place are fitted, not its own inertia: some always makes it a body.
+  const bool tells_inertia = hypothesis.form != "mounted";
+  return !tells_inertia || can_move(observations, learned) ? ""
+                                                           : "an arm of negative inertia cannot be";
 }
 
 }  // namespace

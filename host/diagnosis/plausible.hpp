@@ -53,9 +53,9 @@ struct Fit;
 /// rests on a bound that means nothing, or the machine with it could not be. Empty if it can.
 ///
 /// A machine with other masses can be if no mass is negative, every centre of mass lies within the
-/// body, and its joint-space inertia matrix is positive definite wherever the model's is along the
-/// recordings (of the inertias of single bodies no recording tells more; Wensing, Kim and Slotine
-/// 2018).
+/// body (then some inertia makes it one; Wensing, Kim and Slotine 2018), and, where the effect says
+/// the inertia too, the joint-space inertia matrix is positive definite wherever the model's is
+/// along the recordings.
 std::string why_impossible(const Observations& observations, const Fit& fit, std::size_t index);
 
 }  // namespace flexcomp::diagnosis

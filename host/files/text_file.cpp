@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <system_error>
 
 #include "error.hpp"
@@ -64,17 +66,25 @@ fs::path resolved(const fs::path& path) {
   return target;
 }
 
-/// Name of the temporary file under way, for `remove_unfinished_file`; empty if there is none.
-std::array<char, 4096> unfinished_file{};
+/// Names of the temporary files under way, for `remove_unfinished_file`; empty where there is none.
+constexpr std::size_t kMostAtOnce = 8;
+std::array<std::array<char, 4096>, kMostAtOnce> unfinished_files{};
 
-/// Removes a temporary file unless it has taken its place.
+/// A temporary file beside the one whose place it is to take; removed unless it has taken it.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {
+  /// Messages speak of `asked`, the path that the caller knows; `target` is what it stands for.
+  TemporaryFile(fs::path target, fs::path asked)
+      : asked_(std::move(asked)),
+        target_(std::move(target)),
+        path_(target_.string() + fmt::format(".{}.part", ::getpid())) {
+    const auto free = std::find_if(unfinished_files.begin(), unfinished_files.end(),
+                                   [](const auto& name) { return name[0] == '\0'; });
     const std::size_t length = path_.native().size();
-    if (length < unfinished_file.size()) {
-      path_.native().copy(unfinished_file.data(), length);
-      unfinished_file[length] = '\0';
+    if (free != unfinished_files.end() && length < free->size()) {
+      path_.native().copy(free->data(), length);
+      (*free)[length] = '\0';
+      name_ = free->data();
     }
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -84,24 +94,51 @@ class TemporaryFile {
     if (!kept_) {
       fs::remove(path_, ignored);
     }
-    unfinished_file[0] = '\0';
+    if (name_ != nullptr) {
+      name_[0] = '\0';
+    }
   }
 
   const fs::path& path() const { return path_; }
 
-  void replace(const fs::path& target, const fs::path& asked) {
+  void take_its_place() {
     std::error_code error;
-    fs::rename(path_, target, error);
+    fs::rename(path_, target_, error);
     if (error) {
-      fail(asked, fmt::format("cannot be written: {}", error.message()));
+      fail(asked_, fmt::format("cannot be written: {}", error.message()));
     }
     kept_ = true;
   }
 
  private:
+  fs::path asked_;
+  fs::path target_;
   fs::path path_;
+  char* name_ = nullptr;  ///< among the unfinished files
   bool kept_ = false;
 };
+
+/// A file that is complete and on the disk, but has not taken its place yet; none for a device or
+/// pipe, which is written directly.
+std::unique_ptr<TemporaryFile> completed(const fs::path& path,
+                                         const std::function<void(std::ostream&)>& write) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) {
+    fail(path, "is a directory; expected a file to write");
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    write_into(path, path, write);
+    return nullptr;
+  }
+  auto temporary = std::make_unique<TemporaryFile>(resolved(path), path);
+  write_into(temporary->path(), path, write);
+  flush_to_disk(temporary->path(), path);
+  if (fs::exists(status)) {
+    fs::permissions(temporary->path(), status.permissions(), error);
+  }
+  return temporary;
+}
 
 }  // namespace
 
@@ -152,32 +189,34 @@ std::string read_text(const fs::path& path, std::size_t limit) {
 }
 
 void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) {
-    fail(path, "is a directory; expected a file to write");
+  const std::unique_ptr<TemporaryFile> file = completed(path, write);
+  if (file) {
+    file->take_its_place();
   }
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    write_into(path, path, write);
-    return;
-  }
-  const fs::path target = resolved(path);
-  TemporaryFile temporary(target.string() + fmt::format(".{}.part", ::getpid()));
-  write_into(temporary.path(), path, write);
-  flush_to_disk(temporary.path(), path);
-  if (fs::exists(status)) {
-    fs::permissions(temporary.path(), status.permissions(), error);
-  }
-  temporary.replace(target, path);
 }
 
 void write_text(const fs::path& path, const std::string& text) {
   write_file(path, [&](std::ostream& out) { out << text; });
 }
 
+void write_texts(const std::vector<std::pair<fs::path, std::string>>& texts) {
+  std::vector<std::unique_ptr<TemporaryFile>> files;
+  files.reserve(texts.size());
+  for (const auto& [path, text] : texts) {
+    files.push_back(completed(path, [&text = text](std::ostream& out) { out << text; }));
+  }
+  for (const std::unique_ptr<TemporaryFile>& file : files) {
+    if (file) {
+      file->take_its_place();
+    }
+  }
+}
+
 void remove_unfinished_file() noexcept {
-  if (unfinished_file[0] != '\0') {
-    ::unlink(unfinished_file.data());
+  for (const auto& name : unfinished_files) {
+    if (name[0] != '\0') {
+      ::unlink(name.data());
+    }
   }
 }
 

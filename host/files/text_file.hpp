@@ -4,6 +4,8 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace flexcomp::files {
 
@@ -28,7 +30,12 @@ void write_file(const std::filesystem::path& path, const std::function<void(std:
 /// Writes text, or any bytes, as `write_file` does.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
-/// Removes the temporary file of a `write_file` that is under way. For signal handlers: it does
+/// Writes several files, up to eight, as `write_text` does: all are complete and on the disk before
+/// the first takes its place, so that what cannot be written, or a full disk, leaves all as they
+/// were.
+void write_texts(const std::vector<std::pair<std::filesystem::path, std::string>>& texts);
+
+/// Removes the temporary files of writes that are under way. For signal handlers: it does
 /// nothing that is not allowed there.
 void remove_unfinished_file() noexcept;
 

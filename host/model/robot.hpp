@@ -62,4 +62,7 @@ Robot load_robot(const std::filesystem::path& file);
 /// written, std::invalid_argument for a robot that `load_robot` would refuse.
 void write_robot(const std::filesystem::path& file, const Robot& robot);
 
+/// What `write_robot` would write to a file; throws as it does, but for what only writing shows.
+std::string robot_text(const std::filesystem::path& file, const Robot& robot);
+
 }  // namespace flexcomp::model

@@ -152,10 +152,13 @@ std::string relative_urdf(const std::filesystem::path& file, const Robot& robot)
 
 }  // namespace
 
-void write_robot(const std::filesystem::path& file, const Robot& robot) {
+std::string robot_text(const std::filesystem::path& file, const Robot& robot) {
   refuse_impossible(robot);
-  const std::string text = document(robot, relative_urdf(file, robot));
-  files::write_text(file, text);
+  return document(robot, relative_urdf(file, robot));
+}
+
+void write_robot(const std::filesystem::path& file, const Robot& robot) {
+  files::write_text(file, robot_text(file, robot));
 }
 
 }  // namespace flexcomp::model

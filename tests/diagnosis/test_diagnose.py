@@ -430,6 +430,13 @@ class Diagnose(unittest.TestCase):
         self.assert_refused(good, "--false-discovery", "--false-discovery", "2")
         self.assert_refused(good, "missing.csv", "--holdout", self.folder / "missing.csv")
 
+    def test_nothing_is_written_where_one_of_the_files_cannot_be(self):
+        (self.out / "updated_model.yaml").mkdir(parents=True)
+        done = run("diagnose", "--model", ROBOT, "--recording", measured(self.folder, ROBOT, 3),
+                   "--out", self.out)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual([file.name for file in self.out.iterdir()], ["updated_model.yaml"])
+
     def test_recordings_that_do_not_show_the_same_things_are_refused_together(self):
         first = measured(self.folder, ROBOT, seed=8, poses=30)
         other = self.folder / "other.csv"

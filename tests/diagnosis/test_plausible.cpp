@@ -60,14 +60,19 @@ recording::Recording random_recording(const model::Robot& robot, unsigned seed) 
   simulation::Preparation preparation;
   const simulation::Scene scene = simulation::prepare(recording, kRows, &preparation);
   simulation::Machine truth = machine_of(robot, {scene});
+  const double share =
+      uniform(&random, 0.2, 1);  // of the masses: a payload would have to be less than none
   for (std::size_t i = 0; i < 6; ++i) {
-    truth.robot.elastic.joints[i].mass *= uniform(&random, 0.7, 1.3);
+    truth.robot.elastic.joints[i].mass *= share * uniform(&random, 0.8, 1.2);
+    truth.robot.link_inertia[i] *= share;
     truth.robot.dynamics[i].coulomb = uniform(&random, 0, 0.4);
     truth.robot.dynamics[i].viscous = uniform(&random, 0, 0.3);
     truth.robot.dynamics[i].rotor_inertia = uniform(&random, 0, 0.02);
   }
-  truth.robot.elastic.payload_mass = uniform(&random, 0, 0.5);
-  truth.robot.elastic.payload_center = {0.03, 0, 0};
+  if (seed % 2 == 0) {
+    truth.robot.elastic.payload_mass = uniform(&random, 0, 0.5);
+    truth.robot.elastic.payload_center = {0.03, 0, 0};
+  }
   const simulation::Prediction shown = simulate(truth, scene).prediction;
   recording.tau = shown.channel[simulation::joint_torque];
   add_noise(std::pow(10, uniform(&random, -2, 0.5)), &random, &*recording.tau);
@@ -102,7 +107,7 @@ void assert_can_be(const model::Robot& robot) {
 }
 
 void what_is_learnt_of_random_recordings_is_a_machine_that_can_be() {
-  constexpr unsigned kRecordings = 9;
+  constexpr unsigned kRecordings = 6;
   const model::Robot robot = model::load_robot(kDesktopArm);
   for (unsigned seed = 1; seed <= kRecordings; ++seed) {
     const recording::Recording recording = random_recording(robot, seed);

@@ -16,6 +16,7 @@ using flexcomp::InputError;
 using flexcomp::files::read_file;
 using flexcomp::files::read_text;
 using flexcomp::files::write_file;
+using flexcomp::files::write_texts;
 using flexcomp::test::content_of;
 using flexcomp::test::put;
 using flexcomp::test::ScratchFolder;
@@ -130,6 +131,25 @@ void a_full_disk_leaves_the_old_file_and_no_other() {
   TEST_ASSERT_EQUAL(1, folder.file_count());
 }
 
+void of_several_files_none_is_written_if_one_cannot_be() {
+  const ScratchFolder folder;
+  put(folder / "first", "before");
+  fs::create_directory(folder / "last");
+  const std::string message = refusal([&] {
+    write_texts(
+        {{folder / "first", "after"}, {folder / "new", "after"}, {folder / "last", "after"}});
+  });
+  TEST_ASSERT_EQUAL_STRING(
+      ((folder / "last").string() + ": is a directory; expected a file to write").c_str(),
+      message.c_str());
+  TEST_ASSERT_EQUAL_STRING("before", content_of(folder / "first").c_str());
+  TEST_ASSERT_EQUAL(2, folder.file_count());
+  write_texts({{folder / "first", "after"}, {folder / "new", "new"}});
+  TEST_ASSERT_EQUAL_STRING("after", content_of(folder / "first").c_str());
+  TEST_ASSERT_EQUAL_STRING("new", content_of(folder / "new").c_str());
+  TEST_ASSERT_EQUAL(3, folder.file_count());
+}
+
 void a_full_device_is_one_clear_error() {
   TEST_ASSERT_EQUAL_STRING("/dev/full: cannot be written: No space left on device",
                            refusal([] { write_text("/dev/full", "text"); }).c_str());
@@ -210,6 +230,7 @@ int main() {
   RUN_TEST(a_pipe_is_read_up_to_the_limit);
   RUN_TEST(what_is_written_is_read_back_and_nothing_else_is_left);
   RUN_TEST(a_full_disk_leaves_the_old_file_and_no_other);
+  RUN_TEST(of_several_files_none_is_written_if_one_cannot_be);
   RUN_TEST(a_full_device_is_one_clear_error);
   RUN_TEST(a_writer_that_throws_leaves_the_old_file_and_its_own_message);
   RUN_TEST(an_interrupted_write_can_be_cleaned_up);
