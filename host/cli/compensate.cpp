@@ -8,7 +8,7 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
-#include "diagnosis/learned_correction.hpp"
+#include "effects/learned_correction.hpp"
 #include "error.hpp"
 #include "flexcomp/compensator.hpp"
 #include "flexcomp/table_builder.hpp"
@@ -154,10 +154,9 @@ int run(const CompensateOptions& options) {
     larger(&after, tcp_error(robot.elastic, wanted, command, wrench));
     progress.show(static_cast<std::size_t>(row));
   }
-  std::optional<diagnosis::LearnedCorrection> learned;
+  std::optional<effects::LearnedCorrection> learned;
   if (!robot.effects.empty()) {
-    learned =
-        diagnosis::correct_for_learned(robot, corrected, wanted_positions(robot, *path.q_cmd));
+    learned = effects::correct_for_learned(robot, corrected, wanted_positions(robot, *path.q_cmd));
     corrected.q_cmd = learned->q_cmd;
   }
   recording::write_recording(options.out, corrected);

@@ -8,7 +8,6 @@
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/learned.hpp"
 #include "diagnosis/report.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
@@ -112,7 +111,7 @@ int run(const DiagnoseOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   std::vector<diagnosis::Quality> qualities;
   std::vector<simulation::Scene> scenes = read_scenes(options, &qualities);
-  simulation::Machine machine = diagnosis::machine_of(robot, scenes);
+  simulation::Machine machine = effects::machine_of(robot, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes),
                                        options.holdouts.size());
   const std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
@@ -129,7 +128,7 @@ int run(const DiagnoseOptions& options) {
   const std::filesystem::path folder(options.out);
   const std::filesystem::path updated = folder / "updated_model.yaml";
   const std::string yaml =
-      model::robot_text(updated, diagnosis::updated_robot(observations, result.updated()));
+      model::robot_text(updated, effects::with_learned(robot, result.updated().placed()));
   output_folder(options.out);
   files::write_texts(
       {{folder / "diagnosis.json", json}, {folder / "report.html", html}, {updated, yaml}});

@@ -5,7 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
-#include "diagnosis/learned.hpp"
+#include "effects/learned.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "recording/plausible_angles.hpp"
@@ -33,7 +33,7 @@ recording::Recording expected(const model::Robot& robot, const recording::Record
   simulation::Preparation preparation;
   const simulation::Scene scene = simulation::prepare(recording, recording.size(), &preparation);
   const simulation::Prediction prediction =
-      diagnosis::predict(diagnosis::machine_of(robot, {scene}), {scene}).front();
+      simulation::predict(effects::machine_of(robot, {scene}), {scene}).front();
   recording::Recording shown;
   shown.time = recording.time;
   std::array<recording::Samples, 3> values;

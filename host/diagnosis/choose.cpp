@@ -47,7 +47,7 @@ struct Candidate {
 
 class Chooser {
  public:
-  Chooser(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+  Chooser(const Observations* observations, const std::vector<Hypothesis>& hypotheses,
           const Dictionary& dictionary, double false_discovery)
       : observations_(observations),
         hypotheses_(hypotheses),
@@ -71,10 +71,10 @@ class Chooser {
     for (const Candidate& candidate : candidates(fit)) {
       const Hypothesis& own = *candidate.chosen.hypothesis;
       const bool is_known = std::any_of(all.begin(), all.end(), [&](const Ranked& other) {
-        return other.effect == own.effect && other.joint == own.joint;
+        return other.effect == own.effect() && other.joint == own.joint;
       });
       if (!is_known && candidate.gain > 0) {
-        all.push_back({own.effect, own.joint, candidate.gain});
+        all.push_back({own.effect(), own.joint, candidate.gain});
       }
     }
     return all;
@@ -124,13 +124,7 @@ class Chooser {
 
   /// Seeks new starts in what a fit leaves, for the hypotheses that need it.
   void seek(const Fit& fit) {
-    observations_->unexplained = fit.remainder;
-    std::vector<Hypothesis> found;
-    for (Hypothesis& hypothesis : all_hypotheses(*observations_)) {
-      if (hypothesis.is_sought && !hypothesis.starts.empty()) {
-        found.push_back(std::move(hypothesis));
-      }
-    }
+    std::vector<Hypothesis> found = sought_anew(*observations_, fit.remainder, hypotheses_);
     if (!found.empty()) {
       sought_.push_back(std::make_shared<const std::vector<Hypothesis>>(std::move(found)));
       sought_dictionary_ = std::make_unique<Dictionary>(*observations_, *sought_.back(),
@@ -462,10 +456,11 @@ class Chooser {
   static bool is_plainer(const Alternative& one, const Finding& finding, const Chosen& other) {
     constexpr double kIdentical = 0.1;    // of BIC
     constexpr double kNegligible = 1e-3;  // of what a finding gains: no simulation is so exact
-    if (one.chosen.hypothesis->is_shape_only) {
+    if (one.chosen.hypothesis->traits().is_curve_only) {
       return false;
     }
-    const bool are_bodies = one.effect == "payload" && other.hypothesis->effect == "link_mass";
+    const bool are_bodies =
+        one.chosen.hypothesis->traits().is_body && other.hypothesis->traits().is_body;
     const double negligible = are_bodies ? kNegligible * finding.evidence.delta_bic : 0;
     const double same = std::max(kSameEvidence, negligible);
     const bool is_smaller = one.chosen.values.size() < other.values.size();
@@ -484,7 +479,7 @@ class Chooser {
     constexpr double kIndifferent = 2;  // "not worth more than a bare mention" (Kass and Raftery)
     const double more =
         static_cast<double>(one.chosen.values.size()) - static_cast<double>(other.values.size());
-    return other.hypothesis->is_shape_only && one.joint == other.hypothesis->joint &&
+    return other.hypothesis->traits().is_curve_only && one.joint == other.hypothesis->joint &&
            one.delta_bic - more * std::log(finding.evidence.effective_samples) < kIndifferent;
   }
 
@@ -536,7 +531,7 @@ class Chooser {
                                    candidate.chosen.values.size());
       if (gain > kStrongEvidence && can_be(tried) &&
           meet(shown, directions(tried, tried.chosen.size() - 1))) {
-        finding->alternatives.push_back({other.effect, other.joint,
+        finding->alternatives.push_back({other.effect(), other.joint,
                                          std::max(finding->evidence.delta_bic - gain, 0.0),
                                          tried.chosen.back()});
       }
@@ -552,7 +547,7 @@ class Chooser {
   }
 
  private:
-  Observations* observations_;
+  const Observations* observations_;
   const std::vector<Hypothesis>& hypotheses_;
   const Dictionary& dictionary_;
   double false_discovery_;
@@ -579,7 +574,7 @@ void strongest_first(Choice* choice) {
 
 }  // namespace
 
-Choice choose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+Choice choose(const Observations* observations, const std::vector<Hypothesis>& hypotheses,
               const Dictionary& dictionary, double false_discovery, const Tell& tell) {
   Chooser chooser(observations, hypotheses, dictionary, false_discovery);
   Choice choice;

@@ -57,13 +57,13 @@ using Tell = std::function<void(std::size_t, std::size_t)>;
 /// on what was held out (of two the weaker), and what remains there then if it leaves more than
 /// twice the noise.
 ///
-/// The starts of hypotheses that are sought in the residual are sought anew after every step (the
-/// observations' `unexplained` is used for that). In the end the best pairs of hypotheses are tried
-/// too: a third may look better than either of the two alone. What grows from a pair that is better
-/// is taken; in a load test, whose fits are quick, the best pair grows even if it is not better
-/// yet, and is taken if it is in the end. What is plainer takes the place of what the evidence does
-/// not prefer to it: one hypothesis of two, or one with fewer parameters.
-Choice choose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+/// The starts of hypotheses that are sought in the residual are sought anew after every step. In
+/// the end the best pairs of hypotheses are tried too: a third may look better than either of the
+/// two alone. What grows from a pair that is better is taken; in a load test, whose fits are quick,
+/// the best pair grows even if it is not better yet, and is taken if it is in the end. What is
+/// plainer takes the place of what the evidence does not prefer to it: one hypothesis of two, or
+/// one with fewer parameters.
+Choice choose(const Observations* observations, const std::vector<Hypothesis>& hypotheses,
               const Dictionary& dictionary, double false_discovery, const Tell& tell);
 
 }  // namespace flexcomp::diagnosis

@@ -14,10 +14,10 @@ Eigen::MatrixXd delay_columns(const Observations& observations,
   const Changes changes(observations);
   std::vector<Eigen::VectorXd> columns;
   for (const Hypothesis& hypothesis : hypotheses) {
-    if (hypothesis.effect != "time_offset") {
+    if (!hypothesis.traits().is_clock) {
       continue;
     }
-    groups->push_back(hypothesis.form);
+    groups->push_back(hypothesis.law->form);
     columns.emplace_back(changes.by(hypothesis, {kStep}) / kStep);
   }
   Eigen::MatrixXd all(observations.size(), static_cast<Eigen::Index>(columns.size()));
@@ -41,7 +41,7 @@ std::vector<ClockCheck> check_clocks(const Observations& observations,
   std::vector<Eigen::Index> others;
   for (const Entry& entry : dictionary.entries) {
     const Hypothesis& hypothesis = hypotheses[entry.hypothesis];
-    if (hypothesis.effect == "time_offset" || !hypothesis.starts.front().empty()) {
+    if (hypothesis.traits().is_clock || !hypothesis.starts.front().empty()) {
       continue;
     }
     for (Eigen::Index i = 0; i < entry.count; ++i) {

@@ -62,7 +62,7 @@ bool lower_noise(Observations* observations, const Fit& chosen) {
 void find_groups(Diagnosis* diagnosis) {
   for (std::size_t i = 0; i < diagnosis->choice.findings.size(); ++i) {
     const Hypothesis& chosen = *diagnosis->choice.fit.chosen[i].hypothesis;
-    std::vector<Place> group = {{chosen.effect, chosen.joint}};
+    std::vector<Place> group = {{chosen.effect(), chosen.joint}};
     for (const Alternative& other : diagnosis->choice.findings[i].alternatives) {
       const bool is_in = std::any_of(group.begin(), group.end(), [&](const Place& place) {
         return place.effect == other.effect && place.joint == other.joint;
@@ -79,7 +79,7 @@ void find_groups(Diagnosis* diagnosis) {
 
 void add_nearest(const std::vector<Chosen>& chosen, Diagnosis* diagnosis) {
   for (const Chosen& each : chosen) {
-    diagnosis->nearest.push_back({each.hypothesis->effect, each.hypothesis->joint});
+    diagnosis->nearest.push_back({each.hypothesis->effect(), each.hypothesis->joint});
   }
 }
 
@@ -216,7 +216,7 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   const Finding& found = diagnosis.choice.findings[finding];
   const Fit& fit = diagnosis.choice.fit;
   const Estimate surest = surest_of(estimates(observations, fit, finding));
-  std::string clause = fit.chosen[finding].hypothesis->statement;
+  std::string clause = fit.chosen[finding].hypothesis->statement();
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
   // Parameters that only fit together, as a balancer's, say nothing one by one.
   const bool is_told = surest.deviation > 0 && std::abs(surest.value) >= kTold * surest.deviation;
@@ -235,7 +235,7 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
   std::vector<std::string> numbers;
   for (std::size_t i = found; i < fit.chosen.size(); ++i) {
     const Hypothesis& number = *fit.chosen[i].hypothesis;
-    numbers.push_back(place_name(number.effect, number.joint));
+    numbers.push_back(place_name(number.effect(), number.joint));
   }
   return fmt::format(
       "No finding, but a stand-in until one is made{}: with other numbers in updated_model.yaml "

@@ -63,7 +63,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
                             {"delta_bic", other.delta_bic}});
   }
   const Channel channel = main_channel(observations, finding.without, choice.fit);
-  return {{"effect", hypothesis.effect},
+  return {{"effect", hypothesis.effect()},
           {"joint", joint_or_null(hypothesis.joint)},
           {"parameters", parameters_of(observations, choice.fit, index)},
           {"evidence",
@@ -119,7 +119,7 @@ Json retuned(const Observations& observations, const Diagnosis& diagnosis) {
   Json numbers = Json::array();
   for (std::size_t i = diagnosis.choice.fit.chosen.size(); i < fit.chosen.size(); ++i) {
     const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
-    numbers.push_back({{"number", hypothesis.effect},
+    numbers.push_back({{"number", hypothesis.effect()},
                        {"joint", hypothesis.joint},
                        {"parameters", parameters_of(observations, fit, i)}});
   }

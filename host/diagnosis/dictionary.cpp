@@ -70,15 +70,15 @@ Changes::Changes(const Observations& observations)
 }
 
 Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) const {
-  if (hypothesis.alters_model && !hypothesis.sketch) {
+  if (hypothesis.traits().alters_model && !hypothesis.is_sketched) {
     Machine machine = observations_.machine;
     hypothesis.apply(values, &machine);
     return observations_.stacked(predict(machine, observations_.scenes)) - predicted_;
   }
   Machine machine;
   machine.robot = observations_.machine.robot;
-  if (hypothesis.sketch) {
-    machine.terms.push_back(hypothesis.sketch(values));
+  if (hypothesis.is_sketched) {
+    machine.terms.push_back(hypothesis.law->sketch(values, hypothesis.joint));
   } else {
     hypothesis.apply(values, &machine);
   }

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "diagnosis/effect.hpp"
+#include "diagnosis/search/hypothesis.hpp"
 
 namespace flexcomp::diagnosis {
 

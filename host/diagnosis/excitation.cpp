@@ -32,12 +32,12 @@ int reversals_of(const Observations& observations, int joint) {
   return count;
 }
 
-/// Of the first parameter of an effect at a joint.
+/// Half-width of the 95 % interval of the first parameter that measures a property of a joint.
 double resolution(const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary,
-                  const char* effect, int joint) {
+                  effects::Measures property, int joint) {
   for (const Entry& entry : dictionary.entries) {
     const Hypothesis& hypothesis = hypotheses[entry.hypothesis];
-    if (hypothesis.effect == effect && hypothesis.joint == joint) {
+    if (hypothesis.traits().measures == property && hypothesis.joint == joint) {
       return kWidth / std::sqrt(dictionary.gram(entry.first, entry.first));
     }
   }
@@ -55,16 +55,16 @@ std::vector<Excitation> excitation(const Observations& observations,
                                    const Dictionary& dictionary) {
   std::vector<Excitation> all;
   for (int joint = 1; joint <= 6; ++joint) {
-    const auto of = [&](const char* effect) {
-      return observations.noise_is_known ? resolution(hypotheses, dictionary, effect, joint)
+    const auto of = [&](effects::Measures property) {
+      return observations.noise_is_known ? resolution(hypotheses, dictionary, property, joint)
                                          : kUnknownSize;
     };
     const double compliance =
         observations.machine.robot.elastic.joints[static_cast<std::size_t>(joint - 1)].compliance;
     all.push_back({joint, observations.range(joint), observations.largest_speed(joint),
                    observations.largest_load(joint), reversals_of(observations, joint),
-                   compliance > 0 ? of("joint_stiffness") / compliance : kUnknownSize,
-                   of("joint_offset"), of("coulomb_friction")});
+                   compliance > 0 ? of(effects::Measures::stiffness) / compliance : kUnknownSize,
+                   of(effects::Measures::zero), of(effects::Measures::friction)});
   }
   return all;
 }

@@ -23,9 +23,9 @@ class Evaluator {
             const Dictionary* dictionary)
       : observations_(observations), chosen_(std::move(chosen)), dictionary_(dictionary) {
     for (const Chosen& each : chosen_) {
-      const bool alters = each.hypothesis->alters_model;
+      const bool alters = each.hypothesis->traits().alters_model;
       const bool is_linear = each.hypothesis->linear == each.hypothesis->parameters.size() &&
-                             !each.hypothesis->is_curved;
+                             !each.hypothesis->traits().is_curved;
       const Entry* entry = alters && is_linear && dictionary != nullptr
                                ? dictionary->find(*each.hypothesis)
                                : nullptr;
@@ -84,7 +84,7 @@ class Evaluator {
 
   bool alters_any() const {
     return std::any_of(chosen_.begin(), chosen_.end(),
-                       [](const Chosen& each) { return each.hypothesis->alters_model; });
+                       [](const Chosen& each) { return each.hypothesis->traits().alters_model; });
   }
 
   /// Of a machine near which derivatives are wanted; most parameters leave them as they are.
@@ -325,6 +325,15 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::Mat
   return widening.asDiagonal() * (inner * variance) * widening.asDiagonal();
 }
 
+std::vector<effects::Placed> placed_of(const std::vector<Chosen>& chosen) {
+  std::vector<effects::Placed> placed;
+  placed.reserve(chosen.size());
+  for (const Chosen& each : chosen) {
+    placed.push_back({each.hypothesis->law, each.hypothesis->joint, each.values});
+  }
+  return placed;
+}
+
 }  // namespace
 
 std::size_t Fit::parameters() const {
@@ -339,16 +348,11 @@ Eigen::Index Fit::first_parameter(std::size_t index) const {
   return static_cast<Eigen::Index>(count);
 }
 
+std::vector<effects::Placed> Fit::placed() const { return placed_of(chosen); }
+
 Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen) {
   Machine machine = observations.machine;
-  // Terms may hold a copy of the robot: what alters it comes first.
-  for (const bool alters : {true, false}) {
-    for (const Chosen& each : chosen) {
-      if (each.hypothesis->alters_model == alters) {
-        each.hypothesis->apply(each.values, &machine);
-      }
-    }
-  }
+  effects::add_effects(placed_of(chosen), &machine);
   return machine;
 }
 

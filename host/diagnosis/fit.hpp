@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnosis/dictionary.hpp"
+#include "effects/learned.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -27,6 +28,8 @@ struct Fit {
   std::size_t parameters() const;
   /// Column of `derivative` and of `covariance` where those of one that was chosen begin.
   Eigen::Index first_parameter(std::size_t index) const;
+  /// What was chosen, as laws of the machine.
+  std::vector<effects::Placed> placed() const;
 };
 
 /// The machine with hypotheses added to the observations' model.

@@ -53,25 +53,9 @@ Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows) {
   return row * kHoldoutStretches / rows;
 }
 
-simulation::Wanted wanted_of(const Machine& machine, const Scene& scene) {
-  simulation::Wanted wanted;
-  wanted.levers = !machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench);
-  return wanted;
-}
-
 const Eigen::MatrixXd& shown_load(const Scene& scene, const Prediction& prediction) {
   return prediction.dynamic_load.cols() > 0 && !scene.has(tcp_position) ? prediction.dynamic_load
                                                                         : prediction.load;
-}
-
-std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes) {
-  std::vector<Prediction> predictions;
-  predictions.reserve(scenes.size());
-  for (const Scene& scene : scenes) {
-    predictions.push_back(
-        with_terms(machine.terms, scene, simulate(machine, scene, wanted_of(machine, scene))));
-  }
-  return predictions;
 }
 
 Observations::Observations(Machine model, std::vector<Scene> all, std::size_t holdouts)
@@ -183,10 +167,7 @@ void Observations::add_component(const Sample& first, const PredictionNoise& pre
   }
 }
 
-void Observations::renew_residual() {
-  residual = residual_of(predictions);
-  unexplained = residual;
-}
+void Observations::renew_residual() { residual = residual_of(predictions); }
 
 bool Observations::has(Channel channel) const { return scenes.front().has(channel); }
 
@@ -310,7 +291,8 @@ double Observations::rms(const Eigen::VectorXd& values, Channel channel, bool he
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-std::vector<JointResidual> Observations::angle_residual(int joint) const {
+std::vector<JointResidual> Observations::angle_residual(int joint,
+                                                        const Eigen::VectorXd& unexplained) const {
   std::vector<JointResidual> all;
   for (const Scene& scene : scenes) {
     all.push_back({Eigen::VectorXd::Zero(scene.rows()), Eigen::VectorXd::Zero(scene.rows())});
@@ -330,7 +312,8 @@ std::vector<JointResidual> Observations::angle_residual(int joint) const {
   return all;
 }
 
-std::vector<JointResidual> Observations::torque_residual(int joint) const {
+std::vector<JointResidual> Observations::torque_residual(int joint,
+                                                         const Eigen::VectorXd& unexplained) const {
   std::vector<JointResidual> all;
   for (const Scene& scene : scenes) {
     all.push_back({Eigen::VectorXd::Zero(scene.rows()), Eigen::VectorXd::Zero(scene.rows())});

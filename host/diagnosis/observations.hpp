@@ -57,7 +57,6 @@ class Observations {
   Eigen::Index train = 0;        ///< how many of the samples are there to fit to
   Eigen::VectorXd noise;         ///< standard deviation of each sample, SI
   Eigen::VectorXd residual;      ///< measured less predicted, over the noise
-  Eigen::VectorXd unexplained;   ///< residual that starts are sought in; at first all of it
   std::size_t outliers = 0;      ///< samples that were left out
   bool noise_is_known = true;    ///< false in a load test, whose noise only a fit can tell
   double noise_uncertainty = 0;  ///< of a load test's noise: relative standard deviation
@@ -83,10 +82,11 @@ class Observations {
   Eigen::VectorXd residual_of(const std::vector<Prediction>& values) const;
   /// Root mean square over a channel of values that are over the noise, SI.
   double rms(const Eigen::VectorXd& values, Channel channel, bool held_out) const;
-  /// What is unexplained as an error of a joint's angle (TCP and link encoders), by scene.
-  std::vector<JointResidual> angle_residual(int joint) const;
-  /// What is unexplained of a joint's torque, by scene.
-  std::vector<JointResidual> torque_residual(int joint) const;
+  /// A residual (all samples, over the noise) as an error of a joint's angle, at the TCP and at the
+  /// link encoders, by scene.
+  std::vector<JointResidual> angle_residual(int joint, const Eigen::VectorXd& unexplained) const;
+  /// A residual as an error of a joint's torque, by scene.
+  std::vector<JointResidual> torque_residual(int joint, const Eigen::VectorXd& unexplained) const;
 
   /// Leaves out samples whose `values` (over the noise) are beyond `limit`.
   void drop_outliers(const Eigen::VectorXd& values, double limit);
@@ -104,15 +104,8 @@ class Observations {
   void renew_residual();
 };
 
-/// What the terms of a machine need of its simulation: levers only where they move a TCP or a
-/// wrench.
-simulation::Wanted wanted_of(const Machine& machine, const Scene& scene);
-
 /// Torques (n×6, N·m) on the joints' springs as what was measured shows them: with inertia where
 /// only link encoders do, else at rest.
 const Eigen::MatrixXd& shown_load(const Scene& scene, const Prediction& prediction);
-
-/// Predictions of a machine for all scenes.
-std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes);
 
 }  // namespace flexcomp::diagnosis

@@ -53,7 +53,7 @@ std::vector<Estimate> estimates(const Observations& observations, const Fit& fit
   const Values& values = fit.chosen[index].values;
   const auto count = static_cast<Eigen::Index>(values.size());
   const Eigen::MatrixXd covariance = fit.covariance.block(first, first, count, count);
-  const bool is_wave = hypothesis.parameters.front().name == "sine";
+  const bool is_wave = hypothesis.traits().is_wave;
   const bool is_shape_told = tells_the_shape(hypothesis, values, covariance);
   std::vector<Estimate> all;
   if (is_wave) {
@@ -66,13 +66,12 @@ std::vector<Estimate> estimates(const Observations& observations, const Fit& fit
     all.push_back({parameter.name, parameter.unit, values[at],
                    is_told ? deviation_at(covariance, i) : kUnknown});
   }
-  if (hypothesis.effect == "joint_stiffness") {
-    const Joint<double>& joint =
-        observations.machine.robot.elastic.joints[static_cast<std::size_t>(hypothesis.joint - 1)];
-    all.push_back(
-        {"compliance", "rad/(N·m)", joint.compliance + values[0], deviation_at(covariance, 0)});
-  } else if (hypothesis.effect == "wrench_scale") {
-    all.push_back({"gain", "1", 1 + values[0], deviation_at(covariance, 0)});
+  if (hypothesis.law->derived) {
+    const model::Robot& robot = observations.machine.robot;
+    for (const effects::Derived& each : hypothesis.law->derived(robot, hypothesis.joint, values)) {
+      all.push_back({each.name, each.unit, each.value,
+                     deviation_at(covariance, static_cast<Eigen::Index>(each.parameter))});
+    }
   }
   return all;
 }

@@ -372,22 +372,22 @@ bool can_move(const Observations& observations, const model::Robot& learned) {
 std::string why_no_body(const Observations& observations, const MachineSize& size,
                         const Hypothesis& hypothesis, const model::Robot& learned) {
   const RobotModel<double, 6>& elastic = learned.elastic;
-  if (hypothesis.effect == "payload") {
+  if (hypothesis.effect() == "payload") {
     if (elastic.payload_mass < 0 || elastic.payload_center.norm() > 0.5 * size.reach) {
       return "a payload without mass or farther from the flange than half of the reach cannot be";
     }
-  } else if (hypothesis.effect == "link_mass") {
+  } else if (hypothesis.effect() == "link_mass") {
     const auto index = static_cast<std::size_t>(hypothesis.joint - 1);
     const Joint<double>& link = elastic.joints[index];
     if (!(link.mass > 0) ||
         link.center_of_mass.norm() > link_size(observations.machine.robot, size, index)) {
       return "a link whose centre of mass lies outside of it cannot be";
     }
-  } else if (hypothesis.effect != "rotor_inertia") {
+  } else if (hypothesis.effect() != "rotor_inertia") {
     return "";
   }
   // Of what is mounted mass and place are fitted, not its own inertia: some always makes it a body.
-  const bool tells_inertia = hypothesis.form != "mounted";
+  const bool tells_inertia = hypothesis.law->form != "mounted";
   return !tells_inertia || can_move(observations, learned) ? ""
                                                            : "an arm of negative inertia cannot be";
 }
@@ -425,9 +425,9 @@ MachineSize size_of(const Observations& observations) {
 
 Range plausible_range(const model::Robot& robot, const MachineSize& size,
                       const Hypothesis& hypothesis, const std::string& parameter) {
-  const Row* row = find_row(hypothesis.effect, parameter);
+  const Row* row = find_row(hypothesis.effect(), parameter);
   if (row == nullptr) {
-    row = find_row(hypothesis.effect + " " + hypothesis.form, parameter);
+    row = find_row(hypothesis.effect() + " " + hypothesis.law->form, parameter);
   }
   if (row == nullptr) {
     return {-kEndless, kEndless, Rest::nowhere, ""};

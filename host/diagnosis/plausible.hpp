@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "diagnosis/effect.hpp"
+#include "diagnosis/search/hypothesis.hpp"
 
 namespace flexcomp::diagnosis {
 

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/effects/effects.hpp"
+#include "diagnosis/search/search.hpp"
+#include "effects/terms.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
@@ -121,6 +122,32 @@ bool is_known(const Feature& feature, int joint, bool is_torque, bool follows_co
          (follows_command && feature.kind == Feature::speed);
 }
 
+/// An error of a joint's torque (N·m) or angle (rad): coefficient · feature + constant.
+effects::LawPointer law_of(const Feature& feature, double reference, bool is_torque, int joint) {
+  const std::string output = is_torque ? "N·m" : "rad";
+  effects::Law law;
+  law.effect = fmt::format("{} of joint {} in error by {}", is_torque ? "torque" : "angle", joint,
+                           text_of(feature, reference));
+  law.traits.linear_in = 2;
+  law.parameters = [unit = unit_of(feature, output), output](const model::Robot&, int) {
+    return std::vector<effects::Parameter>{{"coefficient", unit}, {"constant", output}};
+  };
+  law.apply = [=](const Values& values, int at_joint, Machine* machine) {
+    machine->terms.push_back(
+        {simulation::Term::output,
+         [=](const Scene& scene, const Simulation& simulation, Prediction* prediction) {
+           const Eigen::VectorXd error =
+               values[1] + values[0] * values_along(feature, reference, scene, simulation).array();
+           if (is_torque) {
+             effects::add_torque(at_joint, error, prediction);
+           } else {
+             effects::add_joint_angle(simulation, at_joint, error, prediction);
+           }
+         }});
+  };
+  return std::make_shared<const effects::Law>(std::move(law));
+}
+
 Hypothesis term_of(const Observations& observations, const Feature& feature, int joint,
                    bool is_torque) {
   const double reference = reference_of(feature, observations);
@@ -131,31 +158,12 @@ Hypothesis term_of(const Observations& observations, const Feature& feature, int
                                     .cwiseAbs()
                                     .maxCoeff());
   }
-  const double step = is_torque ? std::max(0.02 * observations.largest_torque(joint), 0.01) : 1e-4;
+  const double step = is_torque ? torque_step(observations, joint) : 1e-4;
   // A drive is in error by no more than twice what it was seen to give, an angle by 0.1 rad.
   const double far = is_torque ? 100 * step : 0.1;
   const double unit = std::max(largest, 1e-9);
-  const std::string output = is_torque ? "N·m" : "rad";
-  Hypothesis term;
-  term.effect = fmt::format("{} of joint {} in error by {}", is_torque ? "torque" : "angle", joint,
-                            text_of(feature, reference));
-  term.parameters = {
-      {"coefficient", unit_of(feature, output), -far / unit, far / unit, step / unit},
-      {"constant", output, -far, far, step}};
-  term.linear = 2;
-  term.apply = [=](const Values& values, Machine* machine) {
-    machine->terms.push_back(
-        {simulation::Term::output,
-         [=](const Scene& scene, const Simulation& simulation, Prediction* prediction) {
-           const Eigen::VectorXd error =
-               values[1] + values[0] * values_along(feature, reference, scene, simulation).array();
-           if (is_torque) {
-             add_torque(joint, error, prediction);
-           } else {
-             add_joint_angle(simulation, joint, error, prediction);
-           }
-         }});
-  };
+  Hypothesis term(law_of(feature, reference, is_torque, joint), joint, observations.machine.robot);
+  term.set_bounds({{-far / unit, far / unit, step / unit}, {-far, far, step}});
   return term;
 }
 
@@ -293,7 +301,7 @@ class Proposer {
       const Chosen& chosen = fit_.chosen[i];
       if (i >= known_) {
         const Evidence evidence = weighed(with(others(i - known_)), fit_);
-        proposal.terms.push_back({chosen.hypothesis->effect,
+        proposal.terms.push_back({chosen.hypothesis->effect(),
                                   chosen.hypothesis->parameters.front().unit, chosen.values.front(),
                                   std::sqrt(std::max(fit_.covariance(index, index), 0.0)),
                                   std::min(evidence.share, 1.0)});

@@ -71,7 +71,7 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
     }
     rows +=
         fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
-                    place_name(hypothesis.effect, hypothesis.joint),
+                    place_name(hypothesis.effect(), hypothesis.joint),
                     parameters(observations, diagnosis.choice.fit, i), finding.evidence.delta_bic,
                     chance(finding.evidence.p_value), others.empty() ? "none comes near" : others);
   }
@@ -180,7 +180,7 @@ std::string retuned(const Observations& observations, const Diagnosis& diagnosis
   for (std::size_t i = diagnosis.choice.fit.chosen.size(); i < fit.chosen.size(); ++i) {
     const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
     rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n",
-                        place_name(hypothesis.effect, hypothesis.joint),
+                        place_name(hypothesis.effect(), hypothesis.joint),
                         parameters(observations, fit, i));
   }
   return "<p>" + escaped(statement_of_retuned(observations, diagnosis)) +

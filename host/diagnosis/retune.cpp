@@ -13,12 +13,6 @@ constexpr double kKnown = 2;  // deviations from what the model has
 constexpr int kSteps = 8;
 constexpr double kTiny = 1e-300;
 
-bool is_number_of_model(const Hypothesis& hypothesis) {
-  constexpr const char* kEffects[] = {"joint_stiffness", "viscous_friction", "coulomb_friction"};
-  return hypothesis.form.empty() && std::find(std::begin(kEffects), std::end(kEffects),
-                                              hypothesis.effect) != std::end(kEffects);
-}
-
 /// Findings, and behind them the numbers that they do not alter, as they are.
 std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothesis>& hypotheses,
                                  const Dictionary& dictionary) {
@@ -27,7 +21,7 @@ std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothes
     const bool is_found =
         std::any_of(findings.chosen.begin(), findings.chosen.end(),
                     [&](const Chosen& found) { return are_the_same(*found.hypothesis, each); });
-    if (is_number_of_model(each) && !is_found && dictionary.find(each) != nullptr) {
+    if (each.traits().is_model_number && !is_found && dictionary.find(each) != nullptr) {
       all.push_back({&each, Values(each.parameters.size(), 0.0)});
     }
   }

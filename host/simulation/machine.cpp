@@ -234,6 +234,22 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
   return prediction;
 }
 
+Wanted wanted_of(const Machine& machine, const Scene& scene) {
+  Wanted wanted;
+  wanted.levers = !machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench);
+  return wanted;
+}
+
+std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes) {
+  std::vector<Prediction> predictions;
+  predictions.reserve(scenes.size());
+  for (const Scene& scene : scenes) {
+    predictions.push_back(
+        with_terms(machine.terms, scene, simulate(machine, scene, wanted_of(machine, scene))));
+  }
+  return predictions;
+}
+
 void add_joint_angle(const Simulation& simulation, int joint, const Eigen::VectorXd& angle,
                      const Eigen::VectorXd& dynamic, Prediction* prediction) {
   const Eigen::Index column = joint - 1;

@@ -83,6 +83,13 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
 Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
                       const Simulation& simulation);
 
+/// What the terms of a machine need of its simulation: levers only where they move a TCP or a
+/// wrench.
+Wanted wanted_of(const Machine& machine, const Scene& scene);
+
+/// Predictions of a machine for scenes, with its terms.
+std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes);
+
 /// 1, −1, or 0 at speeds (rad/s) below any programmed motion, where only noise has a sign.
 int direction_of_motion(double speed);
 

@@ -4,7 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "diagnosis/learned.hpp"
+#include "diagnosis/observations.hpp"
+#include "effects/learned.hpp"
 #include "model/robot.hpp"
 #include "simulation/scene.hpp"
 
@@ -40,7 +41,7 @@ struct SwingingRobot {
     recording.position = recording::Samples::Zero(kRows, 3);
     simulation::Preparation preparation;
     scene = simulation::prepare(recording, kRows, &preparation);
-    const simulation::Machine machine = diagnosis::machine_of(robot, {scene});
+    const simulation::Machine machine = effects::machine_of(robot, {scene});
     predicted = simulation::simulate(machine, scene).prediction.channel[simulation::tcp_position];
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, kTcpNoise);
@@ -58,7 +59,7 @@ struct SwingingRobot {
     constexpr double kStep = 1e-6;
     simulation::Scene turned = scene;
     turned.q.col(joint - 1).array() += kStep;
-    const simulation::Machine machine = diagnosis::machine_of(robot, {scene});
+    const simulation::Machine machine = effects::machine_of(robot, {scene});
     const Eigen::MatrixXd other =
         simulation::simulate(machine, turned).prediction.channel[simulation::tcp_position];
     return error.asDiagonal() * ((other - predicted) / kStep);
@@ -70,7 +71,7 @@ struct SwingingRobot {
     *shown.position += error;
     simulation::Preparation preparation;
     std::vector<simulation::Scene> scenes = {simulation::prepare(shown, rows(), &preparation)};
-    simulation::Machine machine = diagnosis::machine_of(robot, scenes);
+    simulation::Machine machine = effects::machine_of(robot, scenes);
     return diagnosis::Observations(std::move(machine), std::move(scenes), 0);
   }
 

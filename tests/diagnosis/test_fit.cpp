@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/effects/effects.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/parameters.hpp"
+#include "diagnosis/search/search.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
 
@@ -36,14 +36,11 @@ struct Estimated {
 };
 
 Estimated offset_of(const Observations& observations) {
-  for (const Hypothesis& hypothesis : joint_offset(observations)) {
-    if (hypothesis.joint == kJoint) {
-      const Fit found = fit(observations, {{&hypothesis, {0.0}}}, 12);
-      return {found.chosen[0].values[0], std::sqrt(found.covariance(0, 0))};
-    }
-  }
-  TEST_FAIL_MESSAGE("no hypothesis of an offset");
-  return {0, 0};
+  Hypothesis hypothesis(flexcomp::effects::find_law("joint_offset", ""), kJoint,
+                        observations.machine.robot);
+  TEST_ASSERT_TRUE(search::joint_offset().prepare(observations, &hypothesis));
+  const Fit found = fit(observations, {{&hypothesis, {0.0}}}, 12);
+  return {found.chosen[0].values[0], std::sqrt(found.covariance(0, 0))};
 }
 
 /// Of true values that are known, within 1.96 stated deviations.
@@ -79,12 +76,20 @@ void intervals_hold_where_errors_hang_together() {
   TEST_ASSERT_TRUE(intervals_that_hold(kTcpNoise, &stated) >= 34);
 }
 
+/// A law that says it acts.
+flexcomp::effects::LawPointer made_up(const std::vector<flexcomp::effects::Parameter>& parameters,
+                                      std::size_t linear_in) {
+  flexcomp::effects::Law law;
+  law.traits.linear_in = linear_in;
+  law.parameters = [parameters](const flexcomp::model::Robot&, int) { return parameters; };
+  law.statement = [](int) { return "something acts"; };
+  return std::make_shared<const flexcomp::effects::Law>(std::move(law));
+}
+
 /// Something of some amplitude and shape, the shape known to 0.1.
 struct Shaped {
   Shaped(double amplitude, double deviation) {
-    hypothesis.statement = "something acts";
-    hypothesis.parameters = {{"amplitude", "N·m", -9999, 9999, 1}, {"shape", "rad", -4, 4, 0.1}};
-    hypothesis.linear = 1;
+    hypothesis.set_bounds({{-9999, 9999, 1}, {-4, 4, 0.1}});
     Fit& fit = diagnosis.choice.fit;
     fit.chosen = {{&hypothesis, {amplitude, 0.7}}};
     fit.covariance = Eigen::Vector2d(deviation * deviation, 0.01).asDiagonal();
@@ -95,7 +100,8 @@ struct Shaped {
 
   const SwingingRobot swinging{1};
   const Observations observations = swinging.observed(Eigen::MatrixXd::Zero(swinging.rows(), 3));
-  Hypothesis hypothesis;
+  Hypothesis hypothesis{made_up({{"amplitude", "N·m"}, {"shape", "rad"}}, 1), 0,
+                        observations.machine.robot};
   Diagnosis diagnosis;
 };
 
@@ -121,9 +127,8 @@ void a_finding_is_summed_up_by_its_surest_number_if_one_is_sure() {
 }
 
 Hypothesis of_two(double lower) {
-  Hypothesis hypothesis;
-  hypothesis.parameters = {{"a", "1", lower, 10, 1e-3}, {"b", "1", lower, 10, 1e-3}};
-  hypothesis.linear = 2;
+  Hypothesis hypothesis(made_up({{"a", "1"}, {"b", "1"}}, 2), 0, {});
+  hypothesis.set_bounds({{lower, 10, 1e-3}, {lower, 10, 1e-3}});
   return hypothesis;
 }
 

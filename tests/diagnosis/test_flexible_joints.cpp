@@ -4,7 +4,7 @@
 #include <random>
 
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/learned.hpp"
+#include "effects/learned.hpp"
 #include "model/robot.hpp"
 #include "simulation/flexible_joint_plant.hpp"
 #include "simulation/inverse_dynamics.hpp"
@@ -99,7 +99,7 @@ void the_vibration_of_a_flexible_joint_is_found_at_its_joint_with_its_frequency(
   const SoftFirstJoint soft;
   simulation::Preparation preparation;
   std::vector<simulation::Scene> scenes = {simulation::prepare(soft.record(), kRows, &preparation)};
-  simulation::Machine machine = diagnosis::machine_of(soft.robot, scenes);
+  simulation::Machine machine = effects::machine_of(soft.robot, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes), 0);
   const auto hypotheses = diagnosis::all_hypotheses(observations);
   diagnosis::Settings settings;

@@ -4,10 +4,9 @@
 #include <set>
 
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/effects/effects.hpp"
-#include "diagnosis/learned.hpp"
 #include "diagnosis/plausible.hpp"
 #include "diagnosis/swinging_robot.hpp"
+#include "effects/learned.hpp"
 #include "host/scratch_folder.hpp"
 #include "unity_main.hpp"
 
@@ -59,7 +58,7 @@ recording::Recording random_recording(const model::Robot& robot, unsigned seed) 
   }
   simulation::Preparation preparation;
   const simulation::Scene scene = simulation::prepare(recording, kRows, &preparation);
-  simulation::Machine truth = machine_of(robot, {scene});
+  simulation::Machine truth = effects::machine_of(robot, {scene});
   const double share =
       uniform(&random, 0.2, 1);  // of the masses: a payload would have to be less than none
   for (std::size_t i = 0; i < 6; ++i) {
@@ -114,16 +113,16 @@ void what_is_learnt_of_random_recordings_is_a_machine_that_can_be() {
     simulation::Preparation preparation;
     const std::vector<simulation::Scene> scenes = {
         simulation::prepare(recording, recording.size(), &preparation)};
-    Observations observations(machine_of(robot, scenes), scenes, 0);
+    Observations observations(effects::machine_of(robot, scenes), scenes, 0);
     const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
     const Diagnosis found = diagnose(&observations, hypotheses, quiet());
     TEST_ASSERT_FALSE(to_json(observations, found).dump().empty());
     const ScratchFolder folder;
     const std::filesystem::path file = folder / "updated_model.yaml";
-    model::write_robot(file, updated_robot(observations, found.updated()));
+    model::write_robot(file, effects::with_learned(robot, found.updated().placed()));
     const model::Robot learnt = model::load_robot(file);
     assert_can_be(learnt);
-    assert_can_be(machine_of(learnt, scenes).robot);
+    assert_can_be(effects::machine_of(learnt, scenes).robot);
   }
 }
 
@@ -138,14 +137,14 @@ Observations with_longer_tool(const SwingingRobot& swinging, double length) {
   }
   simulation::Preparation preparation;
   const simulation::Scene scene = simulation::prepare(shown, shown.size(), &preparation);
-  simulation::Machine truth = machine_of(swinging.robot, {scene});
+  simulation::Machine truth = effects::machine_of(swinging.robot, {scene});
   Pose<double>& tool = truth.robot.elastic.tool;
   tool.position += tool.rotation * Vector3<double>(0, 0, length);
   shown.position = simulate(truth, scene).prediction.channel[simulation::tcp_position];
   std::mt19937 random(3);
   add_noise(2e-5, &random, &*shown.position);
   std::vector<simulation::Scene> scenes = {simulation::prepare(shown, shown.size(), &preparation)};
-  simulation::Machine machine = machine_of(swinging.robot, scenes);
+  simulation::Machine machine = effects::machine_of(swinging.robot, scenes);
   return Observations(std::move(machine), std::move(scenes), 0);
 }
 
@@ -156,7 +155,7 @@ void a_tool_that_is_120_mm_longer_is_a_tool_and_no_zero_of_a_sensor() {
   const Diagnosis found = diagnose(&observations, hypotheses, quiet());
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.fit.chosen.size());
   const Chosen& tool = found.choice.fit.chosen.front();
-  TEST_ASSERT_EQUAL_STRING("tcp_offset", tool.hypothesis->effect.c_str());
+  TEST_ASSERT_EQUAL_STRING("tcp_offset", tool.hypothesis->effect().c_str());
   TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.12, tool.values[2]);
 }
 
@@ -169,7 +168,7 @@ void an_error_beyond_what_any_tool_can_be_is_no_finding() {
   const Diagnosis found = diagnose(&observations, hypotheses, quiet());
   for (std::size_t i = 0; i < found.updated().chosen.size(); ++i) {
     TEST_ASSERT_EQUAL_STRING("", why_impossible(observations, found.updated(), i).c_str());
-    TEST_ASSERT_TRUE(found.updated().chosen[i].hypothesis->effect != "tcp_offset");
+    TEST_ASSERT_TRUE(found.updated().chosen[i].hypothesis->effect() != "tcp_offset");
   }
 }
 
@@ -194,7 +193,7 @@ Observations showing_all(const model::Robot& robot, bool is_warmed, bool has_enc
   }
   simulation::Preparation preparation;
   std::vector<simulation::Scene> scenes = {simulation::prepare(recording, kRows, &preparation)};
-  simulation::Machine machine = machine_of(robot, scenes);
+  simulation::Machine machine = effects::machine_of(robot, scenes);
   return Observations(std::move(machine), std::move(scenes), 0);
 }
 
@@ -202,15 +201,15 @@ void every_parameter_of_every_effect_has_a_plausible_range_with_its_source() {
   std::set<std::string> seen;
   for (const char* const name : {"kr100", "kr270", "kr360", "kr500", ""}) {
     const model::Robot robot = model::load_robot(
-        *name != 0 ? fmt::format("{}/{}/robot.yaml", FLEXCOMP_ROBOTS, name) : kDesktopArm);
+        *name != 0 ? std::string(FLEXCOMP_ROBOTS "/") + name + "/robot.yaml" : kDesktopArm);
     for (const bool is_warmed : {true, false}) {
       const Observations observations = showing_all(robot, is_warmed, is_warmed);
       for (const Hypothesis& hypothesis : all_hypotheses(observations)) {
-        seen.insert(hypothesis.effect);
+        seen.insert(hypothesis.effect());
         for (const Parameter& parameter : hypothesis.parameters) {
           const Range range =
               plausible_range(robot, size_of(observations), hypothesis, parameter.name);
-          const std::string what = hypothesis.effect + " " + parameter.name;
+          const std::string what = hypothesis.effect() + " " + parameter.name;
           TEST_ASSERT_TRUE_MESSAGE(*range.source != 0, what.c_str());
           TEST_ASSERT_TRUE_MESSAGE(range.lower <= range.upper, what.c_str());
           TEST_ASSERT_TRUE_MESSAGE(parameter.lower <= parameter.upper, what.c_str());
@@ -218,14 +217,14 @@ void every_parameter_of_every_effect_has_a_plausible_range_with_its_source() {
       }
     }
   }
-  TEST_ASSERT_EQUAL_UINT64(registry().size(), seen.size());
+  TEST_ASSERT_EQUAL_UINT64(effects::catalogue().size(), seen.size());
 }
 
 /// One hypothesis of an effect, the first whose form is `form`.
 const Hypothesis& of_effect(const std::vector<Hypothesis>& all, const std::string& effect,
                             int joint, const std::string& form = "") {
   for (const Hypothesis& each : all) {
-    if (each.effect == effect && each.joint == joint && each.form == form) {
+    if (each.effect() == effect && each.joint == joint && each.law->form == form) {
       return each;
     }
   }

@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include "diagnosis/plausible.hpp"
+#include "diagnosis/search/search.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr int kWholeMachine = 0;
+constexpr int kLastJoint = 6;
+
+Search search_of(const std::string& effect) {
+  static const std::vector<std::pair<std::string, Search>> kSearches = {
+#define FLEXCOMP_EFFECT(name) {#name, search::name()},
+#include "effects/catalogue.inc"
+#undef FLEXCOMP_EFFECT
+  };
+  return std::find_if(kSearches.begin(), kSearches.end(),
+                      [&](const auto& each) { return each.first == effect; })
+      ->second;
+}
+
+bool acts_at(const effects::Law& law, const model::Robot& robot, int joint) {
+  return std::find(law.joints.begin(), law.joints.end(), joint) != law.joints.end() &&
+         (!law.impossible || law.impossible(robot, joint).empty());
+}
+
+}  // namespace
+
+std::vector<Hypothesis> all_hypotheses(const Observations& observations) {
+  const model::Robot& robot = observations.machine.robot;
+  const MachineSize size = size_of(observations);
+  std::vector<Hypothesis> all;
+  for (const effects::Effect& effect : effects::catalogue()) {
+    const Search search = search_of(effect.name);
+    for (int joint = kWholeMachine; joint <= kLastJoint; ++joint) {
+      for (const effects::LawPointer& law : effect.forms) {
+        if (!acts_at(*law, robot, joint)) {
+          continue;
+        }
+        Hypothesis hypothesis(law, joint, robot);
+        if (!search.prepare(observations, &hypothesis)) {
+          continue;
+        }
+        if (search.seek != nullptr) {
+          hypothesis.seek = search.seek;
+          hypothesis.starts = search.seek(observations, observations.residual, hypothesis);
+        }
+        keep_plausible(robot, size, &hypothesis);
+        all.push_back(std::move(hypothesis));
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace flexcomp::diagnosis

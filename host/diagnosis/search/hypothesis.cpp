@@ -1,0 +1,45 @@
+#include "diagnosis/search/hypothesis.hpp"
+
+#include <algorithm>
+
+namespace flexcomp::diagnosis {
+
+Hypothesis::Hypothesis(effects::LawPointer law_there, int at_joint, const model::Robot& robot)
+    : law(std::move(law_there)),
+      joint(at_joint),
+      linear(law->traits.linear_in),
+      is_sketched(law->sketch != nullptr) {
+  for (const effects::Parameter& each : law->parameters(robot, joint)) {
+    parameters.push_back({each.name, each.unit, 0, 0, 1});
+  }
+}
+
+void Hypothesis::set_bounds(const std::vector<Bounds>& bounds) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    parameters[i].lower = bounds.at(i).lower;
+    parameters[i].upper = bounds.at(i).upper;
+    parameters[i].step = bounds.at(i).step;
+  }
+}
+
+bool are_the_same(const Hypothesis& a, const Hypothesis& b) {
+  return a.effect() == b.effect() && a.joint == b.joint;
+}
+
+std::vector<Hypothesis> sought_anew(const Observations& observations,
+                                    const Eigen::VectorXd& unexplained,
+                                    const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Hypothesis> found;
+  for (const Hypothesis& each : hypotheses) {
+    if (each.seek != nullptr) {
+      Hypothesis anew = each;
+      anew.starts = each.seek(observations, unexplained, each);
+      if (!anew.starts.empty()) {
+        found.push_back(std::move(anew));
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/observations.hpp"
+#include "effects/law.hpp"
+
+namespace flexcomp::diagnosis {
+
+using effects::Values;
+
+struct Hypothesis;
+
+/// Starts for a hypothesis, sought in what is unexplained (all samples, over the noise); none where
+/// it shows nothing of it.
+using Seek = std::vector<Values> (*)(const Observations&, const Eigen::VectorXd& unexplained,
+                                     const Hypothesis&);
+
+/// Where a parameter is sought.
+struct Bounds {
+  double lower;
+  double upper;
+  double step;  ///< a size that matters: of finite differences, and of the fit's scale
+};
+
+/// One number of a hypothesis.
+struct Parameter {
+  std::string name;
+  std::string unit;
+  double lower;
+  double upper;
+  double step;  ///< as in Bounds
+};
+
+/// A law at one place, and where to begin with it in these observations.
+struct Hypothesis {
+  /// All parameters in proportion begin at zero; bounds are to be set.
+  Hypothesis(effects::LawPointer law_there, int at_joint, const model::Robot& robot);
+
+  effects::LawPointer law;
+  int joint = 0;  ///< 1 to 6, 0 where the law acts on the whole machine
+  std::vector<Parameter> parameters;
+  std::size_t linear = 0;  ///< of the parameters, the first so many act (nearly) in proportion
+  /// Where to begin with the other parameters; with `linear` zero each start is a whole guess.
+  std::vector<Values> starts = {{}};
+  Seek seek = nullptr;       ///< where the starts are sought in what is unexplained
+  bool is_sketched = false;  ///< the law's sketch is near enough for a first look
+
+  const std::string& effect() const { return law->effect; }
+  const effects::Traits& traits() const { return law->traits; }
+  void apply(const Values& values, Machine* machine) const { law->apply(values, joint, machine); }
+  /// One plain clause: what the machine has that the model lacks.
+  std::string statement() const { return law->statement(joint); }
+
+  /// Sets where the parameters are sought, in their order.
+  void set_bounds(const std::vector<Bounds>& bounds);
+};
+
+/// Are they the same effect at the same place, in whatever form?
+bool are_the_same(const Hypothesis& a, const Hypothesis& b);
+
+/// All hypotheses of all effects that could show in the observations, within what the machine can
+/// be (plausible.hpp); some may have no start.
+std::vector<Hypothesis> all_hypotheses(const Observations& observations);
+
+/// Those hypotheses whose starts are sought, begun anew in what is unexplained now; none without a
+/// start.
+std::vector<Hypothesis> sought_anew(const Observations& observations,
+                                    const Eigen::VectorXd& unexplained,
+                                    const std::vector<Hypothesis>& hypotheses);
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,24 @@
+#include "diagnosis/search/search.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// Needs the TCP, and load. Beyond joint 6 it is the tool that gives; a link that is short bends
+/// like its springs.
+bool prepare_link_flexibility(const Observations& observations, Hypothesis* hypothesis) {
+  constexpr double kShort = 0.2;  // m
+  if (!observations.has(simulation::tcp_position) || !is_loaded(observations) ||
+      hypothesis->joint == 6) {
+    return false;
+  }
+  const auto next = static_cast<std::size_t>(hypothesis->joint);
+  const double length = observations.machine.robot.elastic.joints[next].origin.position.norm();
+  hypothesis->set_bounds(std::vector<Bounds>(hypothesis->parameters.size(), {0, 1, 1e-7}));
+  return hypothesis->law->form != "beam" || length >= kShort;
+}
+
+}  // namespace
+
+Search search::link_flexibility() { return {prepare_link_flexibility}; }
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "diagnosis/search/hypothesis.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// How the laws of one effect are looked for in observations.
+struct Search {
+  /// Sets where the parameters of a law at a joint are sought, and the starts that are the same
+  /// whatever the residual; false where it could not show.
+  bool (*prepare)(const Observations&, Hypothesis*);
+  Seek seek = nullptr;  ///< starts by the residual
+};
+
+namespace search {
+
+#define FLEXCOMP_EFFECT(name) Search name();
+#include "effects/catalogue.inc"
+#undef FLEXCOMP_EFFECT
+
+}  // namespace search
+
+/// Can wind-up and position errors of the joints be seen, at the TCP or by link encoders?
+bool sees_angles(const Observations& observations);
+
+/// Are torques measured of a robot that moves?
+bool sees_moving_torques(const Observations& observations);
+
+/// Does a wrench or the robot's weight load its springs?
+bool is_loaded(const Observations& observations);
+
+/// A torque (N·m) of a joint that matters: a fiftieth of the largest, at least `least`.
+double torque_step(const Observations& observations, int joint, double least = 0.01);
+
+/// Each share of a size as a start of one parameter.
+std::vector<Values> starts_at(const std::vector<double>& shares, double size);
+
+/// Orders (periods a turn) whose sinusoids of a joint's angle explain most of a residual, the best
+/// first; none where fewer than two periods of any would be seen.
+std::vector<Values> ripple_orders(const Observations& observations, int joint,
+                                  const std::vector<JointResidual>& residual);
+
+}  // namespace flexcomp::diagnosis

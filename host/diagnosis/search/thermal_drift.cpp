@@ -1,0 +1,34 @@
+#include <algorithm>
+
+#include "diagnosis/search/search.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// Needs the TCP. Time stands in for the temperature where none was recorded.
+bool prepare_thermal_drift(const Observations& observations, Hypothesis* hypothesis) {
+  const Scene& first = observations.scenes.front();
+  const bool has_temperature = first.temperature.size() > 0;
+  if (!observations.has(simulation::tcp_position) ||
+      hypothesis->law->traits.needs_temperature != has_temperature) {
+    return false;
+  }
+  std::vector<Bounds> bounds(3, {-0.1, 0.1, has_temperature ? 1e-5 : 1e-4});
+  if (!has_temperature) {
+    constexpr double kQuickest = 60;  // s, in which anything of an arm warms
+    const double duration = first.time[first.rows() - 1] - first.time[0];
+    bounds.push_back({0.02 * duration, 20 * std::max(duration, kQuickest), 0.05 * duration});
+    hypothesis->starts.clear();
+    for (const double share : {0.2, 0.4, 0.8, 1.6, 5.0}) {
+      hypothesis->starts.push_back({std::max(share * duration, kQuickest)});
+    }
+  }
+  hypothesis->set_bounds(bounds);
+  return true;
+}
+
+}  // namespace
+
+Search search::thermal_drift() { return {prepare_thermal_drift}; }
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,43 @@
+#include "diagnosis/search/search.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// Are there angles enough for sines of them to show? Through the few postures of a usual load test
+/// some sine goes always.
+bool has_many_angles(const Observations& observations) {
+  constexpr int kEnough = 200;
+  constexpr double kMove = 0.01;  // rad
+  if (!observations.is_static) {
+    return true;
+  }
+  int postures = 0;
+  for (const Simulation& at : observations.simulations) {
+    for (Eigen::Index row = 1; row < at.q.rows(); ++row) {
+      postures += (at.q.row(row) - at.q.row(row - 1)).cwiseAbs().maxCoeff() > kMove ? 1 : 0;
+    }
+  }
+  return postures >= kEnough;
+}
+
+/// Needs the TCP or link encoders, and two periods of motion or, standing, many postures.
+bool prepare_transmission_ripple(const Observations& observations, Hypothesis* hypothesis) {
+  const Bounds amplitude{-0.01, 0.01, 1e-4};
+  hypothesis->set_bounds({amplitude, amplitude, {1, 1000, 0.5}});
+  return sees_angles(observations) && has_many_angles(observations);
+}
+
+std::vector<Values> seek_transmission_ripple(const Observations& observations,
+                                             const Eigen::VectorXd& unexplained,
+                                             const Hypothesis& hypothesis) {
+  return ripple_orders(observations, hypothesis.joint,
+                       observations.angle_residual(hypothesis.joint, unexplained));
+}
+
+}  // namespace
+
+Search search::transmission_ripple() {
+  return {prepare_transmission_ripple, seek_transmission_ripple};
+}
+
+}  // namespace flexcomp::diagnosis

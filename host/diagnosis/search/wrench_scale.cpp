@@ -1,0 +1,16 @@
+#include "diagnosis/search/search.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// Needs a wrench.
+bool prepare_wrench_scale(const Observations& observations, Hypothesis* hypothesis) {
+  hypothesis->set_bounds({{-0.9, 5, 0.05}});
+  return observations.has_wrench();
+}
+
+}  // namespace
+
+Search search::wrench_scale() { return {prepare_wrench_scale}; }
+
+}  // namespace flexcomp::diagnosis

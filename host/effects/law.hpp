@@ -1,0 +1,99 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulation/machine.hpp"
+
+/// Physics that a robot's model may lack. A law knows machines, and no recording's residual.
+namespace flexcomp::effects {
+
+using simulation::Machine;
+using simulation::Prediction;
+using simulation::Scene;
+using simulation::Simulation;
+using simulation::Term;
+
+/// Values of a law's parameters, SI, in their order.
+using Values = std::vector<double>;
+
+/// One number of a law.
+struct Parameter {
+  std::string name;
+  std::string unit;
+};
+
+/// A number that follows from one parameter, and is as uncertain: a spring's whole compliance.
+struct Derived {
+  std::string name;
+  std::string unit;
+  double value;
+  std::size_t parameter;  ///< index
+};
+
+/// The property of a joint that a law's first parameter measures.
+enum class Measures { none, stiffness, zero, friction };
+
+/// What a law is like, for those who fit, choose and report it.
+struct Traits {
+  std::size_t linear_in = 0;   ///< the first so many parameters act (nearly) in proportion; all of
+                               ///< these zero: no effect
+  bool alters_model = false;   ///< the scene must be simulated anew; else the law adds a term
+  bool is_curved = false;      ///< far from proportion: derivatives must be taken where it stands
+  bool is_curve_only = false;  ///< a curve for want of the law: a law that fits as well is meant
+  bool is_wave = false;   ///< its first two parameters are the amplitudes of a sine and a cosine
+  bool is_body = false;   ///< mass that a link or the flange carries, simplified in its own way
+  bool is_clock = false;  ///< a clock of the measurement is late, by its one parameter
+  bool is_model_number = false;  ///< a number that every model has: it may stand in for physics
+                                 ///< that no law has
+  bool can_be_undone =
+      true;  ///< it moves the robot, so that a command can undo it; false for what
+             ///< only the measurement shows, and for a vibration, which commands feed
+  bool needs_temperature = false;  ///< cannot be simulated for a recording without temperatures
+  Measures measures = Measures::none;
+};
+
+/// A law of physics in one form. Acts at a joint (1 to 6) or on the whole machine (joint 0).
+struct Law {
+  std::string effect;       ///< of the contract's vocabulary
+  std::string form;         ///< which of the effect's forms; may be empty
+  std::vector<int> joints;  ///< where it may act
+  Traits traits;
+  /// Its parameters; their names may depend on the direction of the joint's axis.
+  std::function<std::vector<Parameter>(const model::Robot&, int joint)> parameters;
+  /// Why this robot cannot have it at a joint; empty where it can. May be left out.
+  std::function<std::string(const model::Robot&, int joint)> impossible;
+  /// Gives the machine the effect, beside the effects it has.
+  std::function<void(const Values&, int joint, Machine*)> apply;
+  /// A term that does nearly the same, where `apply` alters the model; may be left out.
+  std::function<Term(const Values&, int joint)> sketch;
+  /// Numbers that follow from the parameters; may be left out.
+  std::function<std::vector<Derived>(const model::Robot&, int joint, const Values&)> derived;
+  /// Adds the effect to the keys of the robot's file; left out where only the list `effects` says
+  /// it.
+  std::function<void(const Values&, int joint, model::Robot*)> write_keys;
+  bool keys_say_all = false;  ///< the keys need no entry in the list `effects` beside them
+  /// One plain clause: what the machine has that the model lacks.
+  std::function<std::string(int joint)> statement;
+};
+
+using LawPointer = std::shared_ptr<const Law>;
+
+/// An effect of the contract's vocabulary, with a law for each form it takes.
+struct Effect {
+  std::string name;
+  std::vector<LawPointer> forms;
+  /// Adds what a key of the robot's file says of a joint and only terms can simulate; may be left
+  /// out. Not called for a joint of which the list `effects` says more.
+  std::function<void(const model::Robot&, int joint, Machine*)> apply_keys;
+};
+
+/// Every effect that is known (effects/catalogue.inc).
+const std::vector<Effect>& catalogue();
+
+/// A law by its effect and form; null where there is none.
+LawPointer find_law(const std::string& effect, const std::string& form);
+
+}  // namespace flexcomp::effects

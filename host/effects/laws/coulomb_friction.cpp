@@ -1,0 +1,21 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Dry friction: a torque of constant size against the motion (Armstrong-Helouvry, Dupont and
+// Canudas de Wit 1994).
+Forms laws::coulomb_friction() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 1;
+  law.traits.is_model_number = true;
+  law.traits.measures = Measures::friction;
+  law.parameters = constant({{"torque", "N·m"}});
+  law.statement = says("joint {} has another dry friction");
+  alter_keys([](const Values& values, int joint,
+                model::Robot* robot) { robot->dynamics[index_of(joint)].coulomb += values[0]; },
+             &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,51 @@
+#include <Eigen/Geometry>
+#include <array>
+
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+namespace {
+
+/// The two axes of the joint's frame that lie most across its axis, in their order.
+std::array<int, 2> tilted_axes(const Vector3<double>& axis) {
+  int along = 0;
+  axis.cwiseAbs().maxCoeff(&along);
+  return {along == 0 ? 1 : 0, along == 2 ? 1 : 2};
+}
+
+std::array<int, 2> tilts(const model::Robot& robot, int joint) {
+  return tilted_axes(robot.elastic.joints[index_of(joint)].axis);
+}
+
+}  // namespace
+
+// A joint's axis is tilted in the link before it: two small rotations of the joint's frame across
+// the axis. It is the parameter that Denavit and Hartenberg's lack for axes that are nearly
+// parallel (Hayati and Mirmirani 1985), and their twist elsewhere.
+Forms laws::joint_axis() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 2;
+  law.parameters = [](const model::Robot& robot, int joint) {
+    constexpr std::array<const char*, 3> kNames = {"tilt_x", "tilt_y", "tilt_z"};
+    std::vector<Parameter> parameters;
+    for (const int axis : tilts(robot, joint)) {
+      parameters.push_back({kNames[static_cast<std::size_t>(axis)], "rad"});
+    }
+    return parameters;
+  };
+  law.statement = says("the axis of joint {} is tilted");
+  alter_robot(
+      [](const Values& values, int joint, model::Robot* robot) {
+        const std::array<int, 2> axes = tilts(*robot, joint);
+        Matrix3<double>& rotation = robot->elastic.joints[index_of(joint)].origin.rotation;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+          rotation *=
+              Eigen::AngleAxisd(values[i], Vector3<double>::Unit(axes[i])).toRotationMatrix();
+        }
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

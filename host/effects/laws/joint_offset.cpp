@@ -1,0 +1,21 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Zero of a joint's encoder: the joint stands at its reading plus the offset (Denavit-Hartenberg
+// angle error; Mooring, Roth and Driels 1991).
+Forms laws::joint_offset() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 1;
+  law.traits.alters_model = true;
+  law.traits.measures = Measures::zero;
+  law.parameters = constant({{"offset", "rad"}});
+  law.statement = says("the encoder of joint {} has another zero");
+  law.apply = [](const Values& values, int joint, Machine* machine) {
+    machine->encoder_offset[joint - 1] += values[0];
+  };
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

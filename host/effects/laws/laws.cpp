@@ -1,0 +1,70 @@
+#include "effects/laws/laws.hpp"
+
+#include <numeric>
+
+namespace flexcomp::effects {
+namespace {
+
+/// To first order: the wrench on the tool changes by what the reading is off.
+Term sensor_term(const SensorModel& truth, const Values& values) {
+  return {Term::wrench, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+            Eigen::MatrixXd change(at.wrench.rows(), 6);
+            for (Eigen::Index row = 0; row < change.rows(); ++row) {
+              const Matrix3<double>& tool = at.bent[static_cast<std::size_t>(row)].tcp.rotation;
+              Wrench<double> read;
+              read << tool.transpose() * at.wrench.row(row).head<3>().transpose(),
+                  tool.transpose() * at.wrench.row(row).tail<3>().transpose();
+              const Wrench<double> gap = truth(values, read) - read;
+              change.row(row) << (tool * gap.head<3>()).transpose(),
+                  (tool * gap.tail<3>()).transpose();
+            }
+            add_wrench(at, change, prediction);
+          }};
+}
+
+}  // namespace
+
+std::function<std::vector<Parameter>(const model::Robot&, int)> constant(
+    std::vector<Parameter> parameters) {
+  return [parameters = std::move(parameters)](const model::Robot&, int) { return parameters; };
+}
+
+std::function<std::string(int)> says(const char* clause) {
+  return [clause](int joint) { return fmt::format(fmt::runtime(clause), joint); };
+}
+
+void alter_robot(Alteration alteration, Law* law) {
+  law->traits.alters_model = true;
+  law->apply = [alteration = std::move(alteration)](const Values& values, int joint,
+                                                    Machine* machine) {
+    alteration(values, joint, &machine->robot);
+  };
+}
+
+void alter_keys(Alteration alteration, Law* law) {
+  law->write_keys = alteration;
+  law->keys_say_all = true;
+  alter_robot(std::move(alteration), law);
+}
+
+void add_term(std::function<Term(const Values&, int)> term, Law* law) {
+  law->apply = [term = std::move(term)](const Values& values, int joint, Machine* machine) {
+    machine->terms.push_back(term(values, joint));
+  };
+}
+
+void alter_sensor(SensorModel truth, Law* law) {
+  law->traits.alters_model = true;
+  law->apply = [truth](const Values& values, int, Machine* machine) {
+    machine->sensor.emplace_back([=](const Wrench<double>& read) { return truth(values, read); });
+  };
+  law->sketch = [truth](const Values& values, int) { return sensor_term(truth, values); };
+}
+
+std::vector<int> joints(int first, int last) {
+  std::vector<int> all(static_cast<std::size_t>(last - first + 1));
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
+}  // namespace flexcomp::effects

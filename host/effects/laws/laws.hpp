@@ -1,0 +1,55 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include "effects/law.hpp"
+#include "effects/terms.hpp"
+
+namespace flexcomp::effects {
+
+/// The laws of one effect, a law for each form it takes.
+struct Forms {
+  std::vector<Law> laws;
+  std::function<void(const model::Robot&, int joint, Machine*)> apply_keys;
+};
+
+namespace laws {
+
+#define FLEXCOMP_EFFECT(name) Forms name();
+#include "effects/catalogue.inc"
+#undef FLEXCOMP_EFFECT
+
+}  // namespace laws
+
+/// Parameters that are the same for every robot and joint.
+std::function<std::vector<Parameter>(const model::Robot&, int joint)> constant(
+    std::vector<Parameter> parameters);
+
+/// A clause about a joint, its number in the place of {}.
+std::function<std::string(int joint)> says(const char* clause);
+
+/// A law that alters the robot.
+using Alteration = std::function<void(const Values&, int joint, model::Robot*)>;
+
+/// Completes a law by what it alters of the robot.
+void alter_robot(Alteration alteration, Law* law);
+
+/// The same where keys of the robot's file say all of it.
+void alter_keys(Alteration alteration, Law* law);
+
+/// Completes a law by the term that it adds.
+void add_term(std::function<Term(const Values&, int joint)> term, Law* law);
+
+/// What a force sensor's reading stands for, tool frame.
+using SensorModel = std::function<Wrench<double>(const Values&, const Wrench<double>& read)>;
+
+/// Completes a law about the force sensor.
+void alter_sensor(SensorModel truth, Law* law);
+
+/// The joints of a range, both ends included.
+std::vector<int> joints(int first, int last);
+
+/// Index of a joint (1 to 6) in a robot's arrays.
+inline std::size_t index_of(int joint) { return static_cast<std::size_t>(joint - 1); }
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,27 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Length of the link that a joint moves, along the line to the next joint (kinematic calibration;
+// Mooring, Roth and Driels 1991).
+Forms laws::link_length() {
+  Law law;
+  law.joints = joints(1, 5);
+  law.traits.linear_in = 1;
+  law.parameters = constant({{"length", "m"}});
+  law.impossible = [](const model::Robot& robot, int joint) {
+    constexpr double kNothing = 1e-6;  // m
+    const Vector3<double>& along = robot.elastic.joints[index_of(joint) + 1].origin.position;
+    return along.norm() < kNothing ? "its link has no length" : "";
+  };
+  law.statement = says("the link that joint {} moves has another length");
+  alter_robot(
+      [](const Values& values, int joint, model::Robot* robot) {
+        Vector3<double>& next = robot->elastic.joints[index_of(joint) + 1].origin.position;
+        next += values[0] * next.normalized();
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

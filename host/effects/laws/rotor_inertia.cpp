@@ -1,0 +1,21 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Inertia of motor and gear, reflected to the joint: torque in proportion to the joint's
+// acceleration (rigid-body dynamics).
+Forms laws::rotor_inertia() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 1;
+  law.parameters = constant({{"inertia", "kg·m^2"}});
+  law.statement = says("the rotor of joint {} has another inertia");
+  alter_keys(
+      [](const Values& values, int joint, model::Robot* robot) {
+        robot->dynamics[index_of(joint)].rotor_inertia += values[0];
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,52 @@
+#include "effects/laws/laws.hpp"
+#include "simulation/history.hpp"
+
+namespace flexcomp::effects {
+namespace {
+
+/// First and last of the joints that lag; joint 0: all of them.
+int first_of(int joint) { return joint == 0 ? 1 : joint; }
+int last_of(int joint) { return joint == 0 ? 6 : joint; }
+
+/// To begin with, a joint's torque comes so much later, and its angle by the lag itself.
+Term late_joints(const Values& values, int which) {
+  return {Term::output, [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
+            const double constant = values[0];
+            Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
+            for (int joint = first_of(which); joint <= last_of(which) && !scene.is_static;
+                 ++joint) {
+              const Eigen::VectorXd angle = at.q.col(joint - 1);
+              add_joint_angle(at, joint, simulation::lag(scene.time, angle, constant) - angle,
+                              prediction);
+              if (torque.cols() > 0) {
+                torque.col(joint - 1) =
+                    simulation::delayed(scene.time, torque.col(joint - 1), constant);
+              }
+            }
+          }};
+}
+
+}  // namespace
+
+// A joint, or every joint, follows its command late, as a first-order lag T x' + x = command
+// (Siciliano et al. 2009, section 8).
+Forms laws::servo_lag() {
+  Law law;
+  law.joints = joints(0, 6);
+  law.traits.linear_in = 1;
+  law.traits.alters_model = true;
+  law.traits.is_curved = true;
+  law.parameters = constant({{"time_constant", "s"}});
+  law.statement = [](int joint) -> std::string {
+    return joint == 0 ? "the joints follow their command late"
+                      : fmt::format("joint {} follows its command late", joint);
+  };
+  law.apply = [](const Values& values, int joint, Machine* machine) {
+    const int count = last_of(joint) - first_of(joint) + 1;
+    machine->lag.segment(first_of(joint) - 1, count).array() += values[0];
+  };
+  law.sketch = late_joints;
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

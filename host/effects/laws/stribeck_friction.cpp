@@ -1,0 +1,33 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+namespace {
+
+Term slow_friction(int joint, double excess, double stribeck_speed) {
+  return {Term::output, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+            const Eigen::ArrayXd speed = at.velocity.col(joint - 1).array();
+            const Eigen::ArrayXd direction = speed.unaryExpr([](double value) {
+              return static_cast<double>(simulation::direction_of_motion(value));
+            });
+            add_torque(joint, excess * (-(speed / stribeck_speed).square()).exp() * direction,
+                       prediction);
+          }};
+}
+
+}  // namespace
+
+// Friction that falls with speed at low speed, beyond dry friction: excess exp(-(speed/stribeck
+// speed)^2) against the motion (Armstrong-Helouvry, Dupont and Canudas de Wit 1994).
+Forms laws::stribeck_friction() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 1;
+  law.parameters = constant({{"excess", "N·m"}, {"speed", "rad/s"}});
+  law.statement = says("the friction of joint {} rises at low speed");
+  add_term(
+      [](const Values& values, int joint) { return slow_friction(joint, values[0], values[1]); },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

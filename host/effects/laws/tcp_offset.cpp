@@ -1,0 +1,22 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// The tool tip is not where the model has it, by a vector in the tool frame (kinematic calibration;
+// Mooring, Roth and Driels 1991).
+Forms laws::tcp_offset() {
+  Law law;
+  law.joints = {0};
+  law.traits.linear_in = 3;
+  law.parameters = constant({{"x", "m"}, {"y", "m"}, {"z", "m"}});
+  law.statement = says("the tool tip is elsewhere");
+  alter_robot(
+      [](const Values& values, int, model::Robot* robot) {
+        Pose<double>& tool = robot->elastic.tool;
+        tool.position += tool.rotation * Vector3<double>(values[0], values[1], values[2]);
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

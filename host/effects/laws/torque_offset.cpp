@@ -1,0 +1,23 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Constant torque, or the zero of a current sensor.
+Forms laws::torque_offset() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 1;
+  law.parameters = constant({{"torque", "N·m"}});
+  law.statement = says("the torque of joint {} has another zero");
+  add_term(
+      [](const Values& values, int joint) {
+        return Term{
+            Term::output, [=](const Scene& scene, const Simulation&, Prediction* prediction) {
+              add_torque(joint, Eigen::VectorXd::Constant(scene.rows(), values[0]), prediction);
+            }};
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

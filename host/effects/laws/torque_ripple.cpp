@@ -1,0 +1,24 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Torque of a drive that is a sinusoid of the joint's angle (cogging, torque ripple of the motor
+// seen through the gear; Holtz and Springob 1996).
+Forms laws::torque_ripple() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 2;
+  law.traits.is_wave = true;
+  law.parameters = constant({{"sine", "N·m"}, {"cosine", "N·m"}, {"order", "1"}});
+  law.statement = says("the torque of joint {} has a periodic part");
+  add_term(
+      [](const Values& values, int joint) {
+        return Term{Term::output, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+                      add_torque(joint, ripple(at, joint, values), prediction);
+                    }};
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,24 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Position error of a gear, a sinusoid of the joint's angle (eccentricity, tooth pitch; Sweet and
+// Good 1985 for robots' gears).
+Forms laws::transmission_ripple() {
+  Law law;
+  law.joints = joints(1, 6);
+  law.traits.linear_in = 2;
+  law.traits.is_wave = true;
+  law.parameters = constant({{"sine", "rad"}, {"cosine", "rad"}, {"order", "1"}});
+  law.statement = says("the gear of joint {} has a periodic error");
+  add_term(
+      [](const Values& values, int joint) {
+        return Term{Term::output, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+                      add_joint_angle(at, joint, ripple(at, joint, values), prediction);
+                    }};
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,37 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Friction in proportion to speed, the same both ways or with a coefficient for each (Armstrong-
+// Helouvry, Dupont and Canudas de Wit 1994).
+Forms laws::viscous_friction() {
+  Law both_ways;
+  both_ways.joints = joints(1, 6);
+  both_ways.traits.linear_in = 1;
+  both_ways.traits.is_model_number = true;
+  both_ways.parameters = constant({{"coefficient", "N·m·s/rad"}});
+  both_ways.statement = says("joint {} has another viscous friction");
+  alter_keys([](const Values& values, int joint,
+                model::Robot* robot) { robot->dynamics[index_of(joint)].viscous += values[0]; },
+             &both_ways);
+  Law by_direction;
+  by_direction.form = "by_direction";
+  by_direction.joints = joints(1, 6);
+  by_direction.traits.linear_in = 2;
+  by_direction.parameters = constant({{"forward", "N·m·s/rad"}, {"backward", "N·m·s/rad"}});
+  by_direction.statement =
+      says("joint {} has another viscous friction, unlike in its two directions");
+  add_term(
+      [](const Values& values, int joint) {
+        return Term{Term::output, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+                      const Eigen::VectorXd speed = at.velocity.col(joint - 1);
+                      add_torque(joint,
+                                 values[0] * speed.cwiseMax(0) + values[1] * speed.cwiseMin(0),
+                                 prediction);
+                    }};
+      },
+      &by_direction);
+  return {{both_ways, by_direction}, {}};
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,22 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// Gain of the force sensor: it reads gain times the wrench.
+Forms laws::wrench_scale() {
+  Law law;
+  law.joints = {0};
+  law.traits.linear_in = 1;
+  law.traits.is_curved = true;
+  law.parameters = constant({{"gain_error", "1"}});
+  law.statement = says("the force sensor has another gain");
+  law.derived = [](const model::Robot&, int, const Values& values) {
+    return std::vector<Derived>{{"gain", "1", 1 + values[0], 0}};
+  };
+  alter_sensor([](const Values& values,
+                  const Wrench<double>& read) { return Wrench<double>(read / (1 + values[0])); },
+               &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

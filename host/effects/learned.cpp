@@ -1,0 +1,159 @@
+#include "effects/learned.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "error.hpp"
+
+namespace flexcomp::effects {
+namespace {
+
+[[noreturn]] void refuse(const model::Robot& robot, const std::string& why) {
+  throw InputError(fmt::format("{}: effects: {}", robot.yaml.string(), why));
+}
+
+const Effect& effect_of(const model::Robot& robot, const model::LearnedEffect& learned) {
+  std::vector<std::string> known;
+  for (const Effect& effect : catalogue()) {
+    if (effect.name == learned.effect) {
+      return effect;
+    }
+    known.push_back(effect.name);
+  }
+  refuse(robot, fmt::format("'{}' is unknown; expected one of: {}", learned.effect,
+                            fmt::join(known, ", ")));
+}
+
+LawPointer law_of(const model::Robot& robot, const model::LearnedEffect& learned) {
+  std::vector<std::string> forms;
+  for (const LawPointer& law : effect_of(robot, learned).forms) {
+    if (law->form == learned.form) {
+      return law;
+    }
+    forms.push_back(law->form);
+  }
+  const bool has_one = forms.size() == 1 && forms.front().empty();
+  refuse(robot, fmt::format("{} has no form '{}'; expected {}", learned.effect, learned.form,
+                            has_one ? "none" : fmt::format("one of: {}", fmt::join(forms, ", "))));
+}
+
+void refuse_wrong_joint(const model::Robot& robot, const model::LearnedEffect& learned,
+                        const Law& law) {
+  const std::vector<int>& known = law.joints;
+  if (std::find(known.begin(), known.end(), learned.joint) == known.end()) {
+    const std::string found =
+        learned.joint == 0 ? "has no joint" : fmt::format("has joint {}", learned.joint);
+    refuse(robot,
+           fmt::format(
+               "{} {}; expected {}", learned.effect, found,
+               known.back() == 0 ? "none" : fmt::format("one of: {}", fmt::join(known, ", "))));
+  }
+  const std::string why = law.impossible ? law.impossible(robot, learned.joint) : "";
+  if (!why.empty()) {
+    refuse(robot, fmt::format("{} cannot be at joint {}: {}", learned.effect, learned.joint, why));
+  }
+}
+
+Values values_of(const model::Robot& robot, const model::LearnedEffect& learned,
+                 const std::vector<Parameter>& parameters) {
+  Values values;
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) {
+    const auto at = learned.parameters.find(parameter.name);
+    if (at == learned.parameters.end()) {
+      refuse(robot, fmt::format("{} needs the parameter '{}' ({})", learned.effect, parameter.name,
+                                parameter.unit));
+    }
+    values.push_back(at->second);
+    names.push_back(parameter.name);
+  }
+  for (const auto& [name, value] : learned.parameters) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      refuse(robot, fmt::format("{} has no parameter '{}'; expected {}", learned.effect, name,
+                                fmt::join(names, ", ")));
+    }
+  }
+  return values;
+}
+
+/// Play by a key, and whatever else a key says that only terms can simulate.
+void apply_keys(const model::Robot& robot, Machine* machine) {
+  for (const Effect& effect : catalogue()) {
+    for (int joint = 1; effect.apply_keys && joint <= 6; ++joint) {
+      const bool is_listed = std::any_of(
+          robot.effects.begin(), robot.effects.end(),
+          [&](const auto& each) { return each.effect == effect.name && each.joint == joint; });
+      if (!is_listed) {
+        effect.apply_keys(robot, joint, machine);
+      }
+    }
+  }
+}
+
+model::LearnedEffect entry_of(const model::Robot& robot, const Placed& placed) {
+  model::LearnedEffect entry{placed.law->effect, placed.joint, placed.law->form, {}};
+  const std::vector<Parameter> parameters = placed.law->parameters(robot, placed.joint);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    entry.parameters[parameters[i].name] = placed.values[i];
+  }
+  return entry;
+}
+
+}  // namespace
+
+void add_effects(const std::vector<Placed>& effects, Machine* machine) {
+  for (const bool alters : {true, false}) {
+    for (const Placed& each : effects) {
+      if (each.law->traits.alters_model == alters) {
+        each.law->apply(each.values, each.joint, machine);
+      }
+    }
+  }
+}
+
+std::vector<Placed> listed_effects(const model::Robot& robot) {
+  std::vector<Placed> all;
+  for (const model::LearnedEffect& learned : robot.effects) {
+    const LawPointer law = law_of(robot, learned);
+    refuse_wrong_joint(robot, learned, *law);
+    all.push_back(
+        {law, learned.joint, values_of(robot, learned, law->parameters(robot, learned.joint))});
+  }
+  return all;
+}
+
+Machine machine_of(const model::Robot& robot) {
+  Machine machine;
+  machine.robot = robot;
+  add_effects(listed_effects(robot), &machine);
+  apply_keys(robot, &machine);
+  return machine;
+}
+
+Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes) {
+  for (const Placed& each : listed_effects(robot)) {
+    for (const Scene& scene : scenes) {
+      if (each.law->traits.needs_temperature && scene.temperature.size() == 0) {
+        refuse(robot, fmt::format("a {} by {} cannot be simulated for {}, which has no temp_c",
+                                  each.law->effect, each.law->form, scene.file));
+      }
+    }
+  }
+  return machine_of(robot);
+}
+
+model::Robot with_learned(model::Robot robot, const std::vector<Placed>& found) {
+  for (const Placed& each : found) {
+    if (!each.law->keys_say_all) {
+      robot.effects.push_back(entry_of(robot, each));
+    }
+    if (each.law->write_keys) {
+      each.law->write_keys(each.values, each.joint, &robot);
+    }
+  }
+  return robot;
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "effects/law.hpp"
+
+namespace flexcomp::effects {
+
+/// A law at a place with its values: what is learnt of a machine.
+struct Placed {
+  LawPointer law;
+  int joint = 0;  ///< 1 to 6, 0 for the whole machine
+  Values values;
+};
+
+/// Gives a machine effects: first those that alter the model, since terms may hold a copy of it.
+void add_effects(const std::vector<Placed>& effects, Machine* machine);
+
+/// The effects that a robot's file lists. Throws InputError for an effect, form, joint or parameter
+/// that is unknown, missing, or cannot be of this robot.
+std::vector<Placed> listed_effects(const model::Robot& robot);
+
+/// The machine that a robot's file describes, with the effects that it lists, and with play by its
+/// key `backlash` where the list has none. Throws InputError as `listed_effects` does.
+Machine machine_of(const model::Robot& robot);
+
+/// The same, for these recordings: throws InputError besides if they lack what an effect follows (a
+/// drift by temperature without temperatures).
+Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes);
+
+/// The robot with effects that were found: by the keys of its file where there are any, else as
+/// entries of its list.
+model::Robot with_learned(model::Robot robot, const std::vector<Placed>& found);
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+
+#include "simulation/machine.hpp"
+
+/// What terms of laws are made of.
+namespace flexcomp::effects {
+
+using simulation::Prediction;
+using simulation::Simulation;
+
+/// Adds an angle (n, rad) to a joint, the same for the TCP and for the link encoder.
+void add_joint_angle(const Simulation& simulation, int joint, const Eigen::VectorXd& angle,
+                     Prediction* prediction);
+
+/// Adds an angle driven by the load on a joint: by the load at rest for the TCP, by the load with
+/// inertia for the link encoder.
+void add_load_driven(const Simulation& simulation, int joint,
+                     const std::function<Eigen::VectorXd(const Eigen::VectorXd& load)>& angle,
+                     Prediction* prediction);
+
+/// Adds a torque (n, N·m) to a joint's drive.
+void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction);
+
+/// a sin(order·q) + b cos(order·q) along a joint's angle; values: a, b, order.
+Eigen::VectorXd ripple(const Simulation& simulation, int joint, const std::vector<double>& values);
+
+}  // namespace flexcomp::effects

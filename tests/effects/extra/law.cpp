@@ -1,0 +1,25 @@
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// An effect of this test alone: the TCP stands higher by a part of joint 1's angle.
+Forms laws::test_lift() {
+  Law law;
+  law.joints = {0};
+  law.traits.linear_in = 1;
+  law.parameters = constant({{"lift", "m/rad"}});
+  law.statement = says("the floor slopes");
+  add_term(
+      [](const Values& values, int) {
+        return Term{Term::output, [=](const Scene&, const Simulation& at, Prediction* prediction) {
+                      if (prediction->channel[simulation::tcp_position].cols() > 0) {
+                        prediction->channel[simulation::tcp_position].col(2) +=
+                            values[0] * at.q.col(0);
+                      }
+                    }};
+      },
+      &law);
+  return {{law}, {}};
+}
+
+}  // namespace flexcomp::effects

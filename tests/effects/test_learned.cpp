@@ -1,0 +1,180 @@
+// Effects that a robot's file lists: checked and simulated without any recording to search in.
+#include <algorithm>
+
+#include "effects/learned.hpp"
+#include "effects/moving_robot.hpp"
+#include "error.hpp"
+#include "unity_main.hpp"
+
+using namespace flexcomp;
+using effects::Law;
+using effects::LawPointer;
+using effects::Placed;
+using effects::Values;
+using test::difference;
+using test::MovingRobot;
+
+namespace {
+
+/// Sizes that any machine could have, by unit.
+double size_of(const std::string& unit) {
+  const std::map<std::string, double> sizes = {{"rad", 1e-3},
+                                               {"m", 1e-3},
+                                               {"s", 0.02},
+                                               {"N", 20},
+                                               {"N·m", 30},
+                                               {"kg", 5},
+                                               {"kg·m", 1},
+                                               {"1", 0.05},
+                                               {"m/N", 1e-8},
+                                               {"rad/(N·m)", 1e-7},
+                                               {"rad/(N·m)^3", 1e-15},
+                                               {"Hz", 8},
+                                               {"N·m/rad", 1e6},
+                                               {"kg·m^2", 10},
+                                               {"N·m·s/rad", 20},
+                                               {"rad/s", 0.3},
+                                               {"m/K", 1e-5}};
+  return sizes.at(unit);
+}
+
+/// Parameters that act in proportion are `share` of a size, the others the whole of it.
+Values values_of(const Law& law, const model::Robot& robot, int joint, double share) {
+  Values values;
+  for (const effects::Parameter& each : law.parameters(robot, joint)) {
+    const bool is_linear = values.size() < law.traits.linear_in;
+    values.push_back((is_linear ? share : 1) * size_of(each.unit));
+  }
+  return values;
+}
+
+/// Calls `check(law, joint)` for every law at every place where this robot can have it.
+template <typename Check>
+void at_every_place(const model::Robot& robot, const Check& check) {
+  for (const effects::Effect& effect : effects::catalogue()) {
+    for (const LawPointer& law : effect.forms) {
+      for (const int joint : law->joints) {
+        if (!law->impossible || law->impossible(robot, joint).empty()) {
+          check(law, joint);
+        }
+      }
+    }
+  }
+}
+
+std::string place_of(const LawPointer& law, int joint) {
+  return law->effect + " " + law->form + " at " + std::to_string(joint);
+}
+
+void an_effect_of_no_size_changes_nothing() {
+  const MovingRobot moving;
+  const simulation::Scene scene = moving.scene();
+  const simulation::Machine plain = effects::machine_of(moving.robot);
+  at_every_place(moving.robot, [&](const LawPointer& law, int joint) {
+    if (law->traits.linear_in > 0) {
+      simulation::Machine machine = plain;
+      law->apply(values_of(*law, moving.robot, joint, 0), joint, &machine);
+      TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-9, 0, difference(machine, plain, scene),
+                                        place_of(law, joint).c_str());
+    }
+  });
+}
+
+void an_effect_that_was_learnt_is_simulated_from_the_file_it_is_written_to() {
+  const MovingRobot moving;
+  const simulation::Machine plain = effects::machine_of(moving.robot);
+  at_every_place(moving.robot, [&](const LawPointer& law, int joint) {
+    const bool is_of_command = law->effect == "servo_lag";
+    const simulation::Scene scene = is_of_command ? moving.commanded() : moving.scene();
+    const Placed found{law, joint, values_of(*law, moving.robot, joint, 1)};
+    simulation::Machine machine = plain;
+    effects::add_effects({found}, &machine);
+    const model::Robot updated = effects::with_learned(moving.robot, {found});
+    const std::string place = place_of(law, joint);
+    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(
+        1e-12, 0, difference(machine, effects::machine_of(updated, {scene}), scene), place.c_str());
+    TEST_ASSERT_EQUAL_MESSAGE(law->keys_say_all ? 0 : 1, updated.effects.size(), place.c_str());
+  });
+}
+
+/// Of a robot that lists an effect, what is said of it; empty where nothing is wrong. There is no
+/// length between its last two axes.
+std::string said_of(const model::LearnedEffect& listed) {
+  MovingRobot moving;
+  moving.robot.effects = {listed};
+  moving.robot.elastic.joints[5].origin.position.setZero();
+  try {
+    effects::machine_of(moving.robot);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void assert_said(const char* what, const model::LearnedEffect& listed) {
+  const std::string said = said_of(listed);
+  TEST_ASSERT_TRUE_MESSAGE(said.find(what) != std::string::npos, said.c_str());
+}
+
+void every_mistake_in_the_list_is_refused_without_a_recording() {
+  TEST_ASSERT_EQUAL_STRING("", said_of({"backlash", 2, "motion", {{"gap", 1e-4}}}).c_str());
+  assert_said("'backslash' is unknown", {"backslash", 2, "motion", {{"gap", 1e-4}}});
+  assert_said("has no form 'slack'", {"backlash", 2, "slack", {{"gap", 1e-4}}});
+  assert_said("needs the parameter 'gap' (rad)", {"backlash", 2, "motion", {}});
+  assert_said("has no parameter 'hold'; expected gap",
+              {"backlash", 2, "motion", {{"gap", 1e-4}, {"hold", 3}}});
+  assert_said("backlash has no joint; expected one of: 1, 2",
+              {"backlash", 0, "motion", {{"gap", 1e-4}}});
+  assert_said("payload has joint 6; expected none",
+              {"payload", 6, "", {{"mass", 1}, {"mx", 0}, {"my", 0}, {"mz", 0}}});
+  assert_said("link_length cannot be at joint 5: its link has no length",
+              {"link_length", 5, "", {{"length", 1e-3}}});
+}
+
+void a_drift_by_temperature_needs_temperatures() {
+  MovingRobot moving;
+  moving.robot.effects = {{"thermal_drift", 0, "temperature", {{"x", 1e-5}, {"y", 0}, {"z", 0}}}};
+  TEST_ASSERT_EQUAL_UINT64(1, effects::machine_of(moving.robot, {moving.scene()}).terms.size());
+  moving.recording.temperature.reset();
+  try {
+    effects::machine_of(moving.robot, {moving.scene()});
+    TEST_FAIL_MESSAGE("not refused");
+  } catch (const InputError& error) {
+    TEST_ASSERT_TRUE(std::string(error.what()).find("moving.csv") != std::string::npos);
+  }
+}
+
+void play_by_the_key_follows_the_load_where_there_is_any_and_else_the_motion() {
+  constexpr double kGap = 3e-4;
+  MovingRobot moving;
+  moving.robot.dynamics[1].backlash = kGap;
+  const simulation::Scene loaded = moving.scene();
+  const simulation::Machine keyed = effects::machine_of(moving.robot);
+  moving.robot.dynamics[1].backlash = 0;
+  simulation::Machine by_load = effects::machine_of(moving.robot);
+  effects::find_law("backlash", "load")->apply({kGap, 30}, 2, &by_load);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0, difference(keyed, by_load, loaded));
+
+  moving.robot.elastic.gravity.setZero();
+  moving.recording.wrench.reset();
+  moving.recording.q_link.reset();
+  moving.recording.tau.reset();
+  const simulation::Scene free = moving.scene();
+  simulation::Machine by_motion = effects::machine_of(moving.robot);
+  effects::find_law("backlash", "motion")->apply({kGap}, 2, &by_motion);
+  moving.robot.dynamics[1].backlash = kGap;
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0,
+                            difference(effects::machine_of(moving.robot), by_motion, free));
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(an_effect_of_no_size_changes_nothing);
+  RUN_TEST(an_effect_that_was_learnt_is_simulated_from_the_file_it_is_written_to);
+  RUN_TEST(every_mistake_in_the_list_is_refused_without_a_recording);
+  RUN_TEST(a_drift_by_temperature_needs_temperatures);
+  RUN_TEST(play_by_the_key_follows_the_load_where_there_is_any_and_else_the_motion);
+  return UNITY_END();
+}
