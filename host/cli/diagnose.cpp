@@ -8,7 +8,9 @@
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/report.hpp"
+#include "diagnosis/output/json.hpp"
+#include "diagnosis/output/report.hpp"
+#include "diagnosis/output/sentences.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 

@@ -1,13 +1,9 @@
 #include "diagnosis/diagnosis.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-
-#include "diagnosis/parameters.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -61,7 +57,7 @@ bool lower_noise(Observations* observations, const Fit& chosen) {
 
 void find_groups(Diagnosis* diagnosis) {
   for (std::size_t i = 0; i < diagnosis->choice.findings.size(); ++i) {
-    const Hypothesis& chosen = *diagnosis->choice.fit.chosen[i].hypothesis;
+    const Hypothesis& chosen = diagnosis->choice.findings[i].chosen.hypothesis;
     std::vector<Place> group = {{chosen.effect(), chosen.joint}};
     for (const Alternative& other : diagnosis->choice.findings[i].alternatives) {
       const bool is_in = std::any_of(group.begin(), group.end(), [&](const Place& place) {
@@ -79,7 +75,7 @@ void find_groups(Diagnosis* diagnosis) {
 
 void add_nearest(const std::vector<Chosen>& chosen, Diagnosis* diagnosis) {
   for (const Chosen& each : chosen) {
-    diagnosis->nearest.push_back({each.hypothesis->effect(), each.hypothesis->joint});
+    diagnosis->nearest.push_back({each.hypothesis.effect(), each.hypothesis.joint});
   }
 }
 
@@ -141,29 +137,6 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   }
 }
 
-/// The estimate with the most deviations from zero: in which direction a base gives, for one.
-Estimate surest_of(const std::vector<Estimate>& all) {
-  const auto deviations = [](const Estimate& each) {
-    return each.deviation > 0 ? std::abs(each.value) / each.deviation : 0;
-  };
-  return *std::max_element(all.begin(), all.end(), [&](const Estimate& a, const Estimate& b) {
-    return deviations(a) < deviations(b);
-  });
-}
-
-/// "held-out error of … falls from … to …, noise …", in the channel where it falls most.
-std::string fall(const Observations& observations, const Fit& before, const Fit& after) {
-  const Channel channel = main_channel(observations, before, after);
-  const auto written = [&](const Eigen::VectorXd& values, bool held_out) {
-    return readable(observations.rms(values, channel, held_out),
-                    simulation::kChannelUnits[channel]);
-  };
-  return fmt::format("held-out error of {} falls from {} to {}, noise {}",
-                     simulation::kChannels[channel], written(before.remainder, true),
-                     written(after.remainder, true),
-                     written(Eigen::VectorXd::Ones(observations.size()), false));
-}
-
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -184,13 +157,14 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary);
   diagnosis.excitation = excitation(*observations, hypotheses, dictionary);
   diagnosis.location = locate(*observations, observations->residual);
-  diagnosis.choice =
-      choose(observations, hypotheses, dictionary, settings.false_discovery, settings.choosing);
+  const auto chosen = [&] {
+    return choose({*observations, dictionary, settings.false_discovery}, settings.choosing);
+  };
+  diagnosis.choice = chosen();
   for (int round = 0; round < kNoiseRounds && lower_noise(observations, diagnosis.choice.fit);
        ++round) {
     dictionary = Dictionary(*observations, hypotheses, settings.simulating);
-    diagnosis.choice =
-        choose(observations, hypotheses, dictionary, settings.false_discovery, settings.choosing);
+    diagnosis.choice = chosen();
   }
   find_groups(&diagnosis);
   judge(*observations, &diagnosis);
@@ -209,53 +183,6 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     }
   }
   return diagnosis;
-}
-
-std::string statement(const Observations& observations, const Diagnosis& diagnosis,
-                      std::size_t finding) {
-  const Finding& found = diagnosis.choice.findings[finding];
-  const Fit& fit = diagnosis.choice.fit;
-  const Estimate surest = surest_of(estimates(observations, fit, finding));
-  std::string clause = fit.chosen[finding].hypothesis->statement();
-  clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
-  // Parameters that only fit together, as a balancer's, say nothing one by one.
-  const bool is_told = surest.deviation > 0 && std::abs(surest.value) >= kTold * surest.deviation;
-  const std::string number =
-      is_told ? fmt::format(" ({} {})", surest.name, readable(surest.value, surest.unit)) : "";
-  return fmt::format("{}{}, which the model lacks: {}.", clause, number,
-                     fall(observations, found.without, fit));
-}
-
-std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis) {
-  const Fit& fit = diagnosis.retuned;
-  if (fit.chosen.empty()) {
-    return "";
-  }
-  const std::size_t found = diagnosis.choice.fit.chosen.size();
-  std::vector<std::string> numbers;
-  for (std::size_t i = found; i < fit.chosen.size(); ++i) {
-    const Hypothesis& number = *fit.chosen[i].hypothesis;
-    numbers.push_back(place_name(number.effect(), number.joint));
-  }
-  return fmt::format(
-      "No finding, but a stand-in until one is made{}: with other numbers in updated_model.yaml "
-      "({}) {}.",
-      found == 0 ? "" : " of what is left", fmt::join(numbers, "; "),
-      fall(observations, diagnosis.choice.fit, fit));
-}
-
-std::string headline(const Observations& observations, const Diagnosis& diagnosis) {
-  if (!diagnosis.choice.findings.empty()) {
-    return statement(observations, diagnosis, 0);
-  }
-  if (diagnosis.verdict == "no_mismatch") {
-    return "Model and recording agree within the noise.";
-  }
-  const std::string form =
-      diagnosis.proposal.empty()
-          ? ""
-          : fmt::format(" A form proposed for it: {}.", diagnosis.proposal.front().text);
-  return "Model and recording differ: " + diagnosis.reason + "." + form;
 }
 
 }  // namespace flexcomp::diagnosis

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "diagnosis/choose.hpp"
 #include "diagnosis/clock_check.hpp"
 #include "diagnosis/excitation.hpp"
 #include "diagnosis/locate.hpp"
 #include "diagnosis/proposal.hpp"
 #include "diagnosis/retune.hpp"
+#include "diagnosis/select/choose.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -47,8 +46,8 @@ struct Settings {
   Tell choosing;    ///< told while they are chosen
 };
 
-/// Diagnoses what was observed. The hypotheses (of `all_hypotheses`) must live as long as the
-/// diagnosis, whose choice points to them; the noise of a load test is learnt on the way.
+/// Diagnoses what was observed by the hypotheses of `all_hypotheses`. The noise of a load test is
+/// learnt on the way.
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
                    const Settings& settings);
 
@@ -56,18 +55,5 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
 /// most as fitted so far; empty where none tells them apart.
 std::string suggest_experiment(const Observations& observations, const Diagnosis& diagnosis,
                                std::size_t finding);
-
-/// diagnosis.json as the README describes it.
-nlohmann::ordered_json to_json(const Observations& observations, const Diagnosis& diagnosis);
-
-/// One plain sentence about a finding.
-std::string statement(const Observations& observations, const Diagnosis& diagnosis,
-                      std::size_t finding);
-
-/// One plain sentence about the numbers that stand in for what is unexplained; empty without any.
-std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis);
-
-/// One plain sentence about the whole.
-std::string headline(const Observations& observations, const Diagnosis& diagnosis);
 
 }  // namespace flexcomp::diagnosis

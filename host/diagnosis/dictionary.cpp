@@ -111,9 +111,9 @@ Eigen::MatrixXd Changes::columns(const Hypothesis& hypothesis, const Values& sta
   return columns;
 }
 
-Dictionary::Dictionary(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis> all,
                        const std::function<void(std::size_t, std::size_t)>& progress)
-    : hypotheses_(&hypotheses) {
+    : hypotheses(std::move(all)) {
   const Changes changes(observations);
   std::vector<std::vector<Eigen::MatrixXd>> blocks(hypotheses.size());
   in_parallel(hypotheses.size(), progress, [&](std::size_t i) {
@@ -152,7 +152,8 @@ Dictionary::Dictionary(const Observations& observations, const std::vector<Hypot
 
 const Entry* Dictionary::find(const Hypothesis& hypothesis) const {
   for (const Entry& entry : entries) {
-    if (&(*hypotheses_)[entry.hypothesis] == &hypothesis) {
+    const Hypothesis& own = hypotheses[entry.hypothesis];
+    if (own.law == hypothesis.law && own.joint == hypothesis.joint) {
       return &entry;
     }
   }

@@ -38,18 +38,16 @@ struct Entry {
 class Dictionary {
  public:
   /// Progress is told after each hypothesis: done, of how many.
-  Dictionary(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+  Dictionary(const Observations& observations, std::vector<Hypothesis> all,
              const std::function<void(std::size_t, std::size_t)>& progress);
 
   /// The first entry of a hypothesis; null where it does not show.
   const Entry* find(const Hypothesis& hypothesis) const;
 
+  std::vector<Hypothesis> hypotheses;
   std::vector<Entry> entries;
   Eigen::MatrixXd columns;  ///< samples × columns, over the noise
   Eigen::MatrixXd gram;     ///< columns × columns, over the samples to fit to
-
- private:
-  const std::vector<Hypothesis>* hypotheses_;
 };
 
 /// Amplitudes of columns, and by how much they lower the sum of squares.

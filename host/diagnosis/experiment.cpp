@@ -153,7 +153,7 @@ std::string suggest_experiment(const Observations& observations, const Diagnosis
         text = fmt::format(
             "Record {}: as fitted so far, {} and {} differ there by up to {}, {:.0f} times the "
             "noise.",
-            experiment.description, diagnosis.choice.fit.chosen[finding].hypothesis->effect(),
+            experiment.description, found.chosen.hypothesis.effect(),
             found.alternatives.front().effect, where, apart);
       }
     } catch (const InputError&) {

@@ -23,13 +23,13 @@ class Evaluator {
             const Dictionary* dictionary)
       : observations_(observations), chosen_(std::move(chosen)), dictionary_(dictionary) {
     for (const Chosen& each : chosen_) {
-      const bool alters = each.hypothesis->traits().alters_model;
-      const bool is_linear = each.hypothesis->linear == each.hypothesis->parameters.size() &&
-                             !each.hypothesis->traits().is_curved;
+      const bool alters = each.hypothesis.traits().alters_model;
+      const bool is_linear = each.hypothesis.linear == each.hypothesis.parameters.size() &&
+                             !each.hypothesis.traits().is_curved;
       const Entry* entry = alters && is_linear && dictionary != nullptr
-                               ? dictionary->find(*each.hypothesis)
+                               ? dictionary->find(each.hypothesis)
                                : nullptr;
-      for (std::size_t i = 0; i < each.hypothesis->parameters.size(); ++i) {
+      for (std::size_t i = 0; i < each.hypothesis.parameters.size(); ++i) {
         alters_.push_back(alters);
         known_.push_back(entry != nullptr ? entry->first + static_cast<Eigen::Index>(i) : -1);
       }
@@ -40,12 +40,12 @@ class Evaluator {
 
   const Parameter& parameter(std::size_t index) const {
     for (const Chosen& each : chosen_) {
-      if (index < each.hypothesis->parameters.size()) {
-        return each.hypothesis->parameters[index];
+      if (index < each.hypothesis.parameters.size()) {
+        return each.hypothesis.parameters[index];
       }
-      index -= each.hypothesis->parameters.size();
+      index -= each.hypothesis.parameters.size();
     }
-    return chosen_.front().hypothesis->parameters.front();
+    return chosen_.front().hypothesis.parameters.front();
   }
 
   Values values() const {
@@ -84,7 +84,7 @@ class Evaluator {
 
   bool alters_any() const {
     return std::any_of(chosen_.begin(), chosen_.end(),
-                       [](const Chosen& each) { return each.hypothesis->traits().alters_model; });
+                       [](const Chosen& each) { return each.hypothesis.traits().alters_model; });
   }
 
   /// Of a machine near which derivatives are wanted; most parameters leave them as they are.
@@ -329,7 +329,7 @@ std::vector<effects::Placed> placed_of(const std::vector<Chosen>& chosen) {
   std::vector<effects::Placed> placed;
   placed.reserve(chosen.size());
   for (const Chosen& each : chosen) {
-    placed.push_back({each.hypothesis->law, each.hypothesis->joint, each.values});
+    placed.push_back({each.hypothesis.law, each.hypothesis.joint, each.values});
   }
   return placed;
 }
@@ -346,6 +346,12 @@ Eigen::Index Fit::first_parameter(std::size_t index) const {
     count += chosen[i].values.size();
   }
   return static_cast<Eigen::Index>(count);
+}
+
+Eigen::MatrixXd Fit::covariance_of(std::size_t index) const {
+  const Eigen::Index first = first_parameter(index);
+  const auto count = static_cast<Eigen::Index>(chosen[index].values.size());
+  return covariance.block(first, first, count, count);
 }
 
 std::vector<effects::Placed> Fit::placed() const { return placed_of(chosen); }

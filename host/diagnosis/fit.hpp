@@ -10,7 +10,7 @@ namespace flexcomp::diagnosis {
 
 /// A hypothesis with values for its parameters.
 struct Chosen {
-  const Hypothesis* hypothesis = nullptr;
+  Hypothesis hypothesis;
   Values values;
 };
 
@@ -28,6 +28,8 @@ struct Fit {
   std::size_t parameters() const;
   /// Column of `derivative` and of `covariance` where those of one that was chosen begin.
   Eigen::Index first_parameter(std::size_t index) const;
+  /// Covariance of the values of one that was chosen.
+  Eigen::MatrixXd covariance_of(std::size_t index) const;
   /// What was chosen, as laws of the machine.
   std::vector<effects::Placed> placed() const;
 };

@@ -46,13 +46,11 @@ void add_wave(const Values& values, const std::string& unit, const Eigen::Matrix
 
 }  // namespace
 
-std::vector<Estimate> estimates(const Observations& observations, const Fit& fit,
-                                std::size_t index) {
-  const Eigen::Index first = fit.first_parameter(index);
-  const Hypothesis& hypothesis = *fit.chosen[index].hypothesis;
-  const Values& values = fit.chosen[index].values;
+std::vector<Estimate> estimates(const Observations& observations, const Chosen& chosen,
+                                const Eigen::MatrixXd& covariance) {
+  const Hypothesis& hypothesis = chosen.hypothesis;
+  const Values& values = chosen.values;
   const auto count = static_cast<Eigen::Index>(values.size());
-  const Eigen::MatrixXd covariance = fit.covariance.block(first, first, count, count);
   const bool is_wave = hypothesis.traits().is_wave;
   const bool is_shape_told = tells_the_shape(hypothesis, values, covariance);
   std::vector<Estimate> all;

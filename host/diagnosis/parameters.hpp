@@ -15,10 +15,10 @@ struct Estimate {
   double deviation = 0;  ///< standard; NaN where the fit does not tell
 };
 
-/// Parameters of one of a fit's hypotheses, and those that follow from them: amplitude and phase of
-/// a ripple, a spring's whole compliance, a sensor's gain.
-std::vector<Estimate> estimates(const Observations& observations, const Fit& fit,
-                                std::size_t index);
+/// Parameters of a hypothesis with their covariance, and those that follow from them: amplitude and
+/// phase of a ripple, a spring's whole compliance, a sensor's gain.
+std::vector<Estimate> estimates(const Observations& observations, const Chosen& chosen,
+                                const Eigen::MatrixXd& covariance);
 
 /// The channel in which a finding lowers the held-out error most, over the noise.
 Channel main_channel(const Observations& observations, const Fit& without, const Fit& with);

@@ -458,7 +458,7 @@ void keep_plausible(const model::Robot& robot, const MachineSize& size, Hypothes
 
 std::string why_impossible(const Observations& observations, const Fit& fit, std::size_t index) {
   const Chosen& chosen = fit.chosen[index];
-  const Hypothesis& hypothesis = *chosen.hypothesis;
+  const Hypothesis& hypothesis = chosen.hypothesis;
   const MachineSize size = size_of(observations);
   for (std::size_t i = 0; i < chosen.values.size(); ++i) {
     const Parameter& parameter = hypothesis.parameters[i];

@@ -231,7 +231,7 @@ class Proposer {
  public:
   Proposer(const Observations& observations, const Fit& known)
       : observations_(observations),
-        library_(std::make_shared<const std::vector<Hypothesis>>(library_of(observations))),
+        library_(library_of(observations)),
         known_(known.chosen.size()),
         fit_(known) {}
 
@@ -239,7 +239,7 @@ class Proposer {
     const Changes changes(observations_);
     const Hypothesis* best = nullptr;
     do {
-      best = terms() < kMostTerms ? best_beside(observations_, fit_, changes, *library_) : nullptr;
+      best = terms() < kMostTerms ? best_beside(observations_, fit_, changes, library_) : nullptr;
     } while (best != nullptr && add(*best));
     for (std::size_t i = 0; i < terms();) {
       i = drop_if_superfluous(i) ? 0 : i + 1;
@@ -255,7 +255,7 @@ class Proposer {
   }
 
   Evidence weighed(const Fit& before, const Fit& after) const {
-    return weigh(observations_, before, after, static_cast<double>(library_->size()));
+    return weigh(observations_, before, after, static_cast<double>(library_.size()));
   }
 
   static bool holds(const Evidence& evidence) {
@@ -266,7 +266,7 @@ class Proposer {
 
   bool add(const Hypothesis& term) {
     std::vector<Chosen> chosen = fit_.chosen;
-    chosen.push_back({&term, Values(term.parameters.size(), 0.0)});
+    chosen.push_back({term, Values(term.parameters.size(), 0.0)});
     Fit grown = with(std::move(chosen));
     const auto coefficient = static_cast<Eigen::Index>(grown.parameters() - term.parameters.size());
     const double deviation = std::sqrt(std::max(grown.covariance(coefficient, coefficient), 0.0));
@@ -295,14 +295,14 @@ class Proposer {
   }
 
   Proposal result() const {
-    Proposal proposal{library_, fit_, {}};
+    Proposal proposal{fit_, {}};
     Eigen::Index index = 0;
     for (std::size_t i = 0; i < fit_.chosen.size(); ++i) {
       const Chosen& chosen = fit_.chosen[i];
       if (i >= known_) {
         const Evidence evidence = weighed(with(others(i - known_)), fit_);
-        proposal.terms.push_back({chosen.hypothesis->effect(),
-                                  chosen.hypothesis->parameters.front().unit, chosen.values.front(),
+        proposal.terms.push_back({chosen.hypothesis.effect(),
+                                  chosen.hypothesis.parameters.front().unit, chosen.values.front(),
                                   std::sqrt(std::max(fit_.covariance(index, index), 0.0)),
                                   std::min(evidence.share, 1.0)});
       }
@@ -312,7 +312,7 @@ class Proposer {
   }
 
   const Observations& observations_;
-  std::shared_ptr<const std::vector<Hypothesis>> library_;
+  std::vector<Hypothesis> library_;
   std::size_t known_;
   Fit fit_;
 };

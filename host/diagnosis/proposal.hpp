@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,6 @@ struct ProposedTerm {
 
 /// A sparse sum of terms beside what is known.
 struct Proposal {
-  std::shared_ptr<const std::vector<Hypothesis>> library;  ///< that `fit.chosen` points into
   Fit fit;  ///< of what is known and the terms behind it
   std::vector<ProposedTerm> terms;
 };

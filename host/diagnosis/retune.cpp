@@ -10,7 +10,7 @@ namespace flexcomp::diagnosis {
 namespace {
 
 constexpr double kKnown = 2;  // deviations from what the model has
-constexpr int kSteps = 8;
+constexpr int kTuningSteps = 8;
 constexpr double kTiny = 1e-300;
 
 /// Findings, and behind them the numbers that they do not alter, as they are.
@@ -20,9 +20,9 @@ std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothes
   for (const Hypothesis& each : hypotheses) {
     const bool is_found =
         std::any_of(findings.chosen.begin(), findings.chosen.end(),
-                    [&](const Chosen& found) { return are_the_same(*found.hypothesis, each); });
+                    [&](const Chosen& found) { return are_the_same(found.hypothesis, each); });
     if (each.traits().is_model_number && !is_found && dictionary.find(each) != nullptr) {
-      all.push_back({&each, Values(each.parameters.size(), 0.0)});
+      all.push_back({each, Values(each.parameters.size(), 0.0)});
     }
   }
   return all;
@@ -110,13 +110,13 @@ Fit retune(const Observations& observations, const Fit& findings,
            const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
   const std::size_t found = findings.chosen.size();
   Fit tuned =
-      fit(observations, with_numbers(findings, hypotheses, dictionary), kSteps, &dictionary);
+      fit(observations, with_numbers(findings, hypotheses, dictionary), kTuningSteps, &dictionary);
   const auto kept = [&] {
     std::vector<Chosen> possible = possible_of(observations, tuned, found);
     return possible.size() < tuned.chosen.size() ? possible : known_of(tuned, found);
   };
   for (std::vector<Chosen> next = kept(); next.size() < tuned.chosen.size(); next = kept()) {
-    tuned = fit(observations, std::move(next), kSteps, &dictionary);
+    tuned = fit(observations, std::move(next), kTuningSteps, &dictionary);
   }
   const bool stands = tuned.chosen.size() > found && can_be(observations, tuned) &&
                       bic_gain(observations, findings, tuned) > kStrongEvidence &&

@@ -1,8 +1,8 @@
 // Stated deviations against errors that are known, and amplitudes within bounds.
 #include <cmath>
 
-#include "diagnosis/diagnosis.hpp"
 #include "diagnosis/fit.hpp"
+#include "diagnosis/output/sentences.hpp"
 #include "diagnosis/parameters.hpp"
 #include "diagnosis/search/search.hpp"
 #include "diagnosis/swinging_robot.hpp"
@@ -39,7 +39,7 @@ Estimated offset_of(const Observations& observations) {
   Hypothesis hypothesis(flexcomp::effects::find_law("joint_offset", ""), kJoint,
                         observations.machine.robot);
   TEST_ASSERT_TRUE(search::joint_offset().prepare(observations, &hypothesis));
-  const Fit found = fit(observations, {{&hypothesis, {0.0}}}, 12);
+  const Fit found = fit(observations, {{hypothesis, {0.0}}}, 12);
   return {found.chosen[0].values[0], std::sqrt(found.covariance(0, 0))};
 }
 
@@ -91,11 +91,12 @@ struct Shaped {
   Shaped(double amplitude, double deviation) {
     hypothesis.set_bounds({{-9999, 9999, 1}, {-4, 4, 0.1}});
     Fit& fit = diagnosis.choice.fit;
-    fit.chosen = {{&hypothesis, {amplitude, 0.7}}};
+    fit.chosen = {{hypothesis, {amplitude, 0.7}}};
     fit.covariance = Eigen::Vector2d(deviation * deviation, 0.01).asDiagonal();
     fit.remainder = Eigen::VectorXd::Ones(observations.size());
-    diagnosis.choice.findings.emplace_back();
-    diagnosis.choice.findings[0].without.remainder = 2 * fit.remainder;
+    Fit without;
+    without.remainder = 2 * fit.remainder;
+    diagnosis.choice.findings.push_back({fit.chosen[0], fit.covariance, {}, without, {}});
   }
 
   const SwingingRobot swinging{1};
@@ -109,7 +110,8 @@ void the_shape_of_what_cannot_be_told_from_nothing_is_unknown() {
   const Shaped sure(-3000, 1000);
   const Shaped unsure(-1500, 1000);
   const auto of = [](const Shaped& shaped) {
-    return estimates(shaped.observations, shaped.diagnosis.choice.fit, 0);
+    return estimates(shaped.observations, shaped.diagnosis.choice.findings[0].chosen,
+                     shaped.diagnosis.choice.findings[0].covariance);
   };
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.1, of(sure)[1].deviation);
   TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1000, of(unsure)[0].deviation);

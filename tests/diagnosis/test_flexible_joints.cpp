@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/output/json.hpp"
 #include "effects/learned.hpp"
 #include "model/robot.hpp"
 #include "simulation/flexible_joint_plant.hpp"

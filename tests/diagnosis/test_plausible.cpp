@@ -3,7 +3,7 @@
 #include <random>
 #include <set>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/output/json.hpp"
 #include "diagnosis/plausible.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "effects/learned.hpp"
@@ -155,7 +155,7 @@ void a_tool_that_is_120_mm_longer_is_a_tool_and_no_zero_of_a_sensor() {
   const Diagnosis found = diagnose(&observations, hypotheses, quiet());
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.fit.chosen.size());
   const Chosen& tool = found.choice.fit.chosen.front();
-  TEST_ASSERT_EQUAL_STRING("tcp_offset", tool.hypothesis->effect().c_str());
+  TEST_ASSERT_EQUAL_STRING("tcp_offset", tool.hypothesis.effect().c_str());
   TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.12, tool.values[2]);
 }
 
@@ -168,7 +168,7 @@ void an_error_beyond_what_any_tool_can_be_is_no_finding() {
   const Diagnosis found = diagnose(&observations, hypotheses, quiet());
   for (std::size_t i = 0; i < found.updated().chosen.size(); ++i) {
     TEST_ASSERT_EQUAL_STRING("", why_impossible(observations, found.updated(), i).c_str());
-    TEST_ASSERT_TRUE(found.updated().chosen[i].hypothesis->effect() != "tcp_offset");
+    TEST_ASSERT_TRUE(found.updated().chosen[i].hypothesis.effect() != "tcp_offset");
   }
 }
 
@@ -246,7 +246,7 @@ void what_no_machine_can_be_is_said_to_be_so() {
   const auto possible = [&](const Case& of) {
     const Hypothesis& hypothesis = of_effect(hypotheses, of.effect, of.joint, of.form);
     Fit fit;
-    fit.chosen = {{&hypothesis, of.values}};
+    fit.chosen = {{hypothesis, of.values}};
     fit.machine = machine_with(timed, fit.chosen);
     return why_impossible(timed, fit, 0).empty();
   };
@@ -286,7 +286,7 @@ void a_fit_that_rests_on_a_bound_is_no_finding_unless_the_bound_is_nothing() {
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   const auto why = [&](const Hypothesis& hypothesis, const Values& values) {
     Fit fit;
-    fit.chosen = {{&hypothesis, values}};
+    fit.chosen = {{hypothesis, values}};
     fit.machine = machine_with(observations, fit.chosen);
     return why_impossible(observations, fit, 0);
   };

@@ -71,8 +71,8 @@ void friction_that_varies_is_stood_in_for_by_its_mean() {
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   const Fit fit = retuned(observations, hypotheses);
   TEST_ASSERT_EQUAL_UINT64(1, fit.chosen.size());
-  TEST_ASSERT_EQUAL_STRING("coulomb_friction", fit.chosen.front().hypothesis->effect().c_str());
-  TEST_ASSERT_EQUAL_INT(2, fit.chosen.front().hypothesis->joint);
+  TEST_ASSERT_EQUAL_STRING("coulomb_friction", fit.chosen.front().hypothesis.effect().c_str());
+  TEST_ASSERT_EQUAL_INT(2, fit.chosen.front().hypothesis.joint);
   TEST_ASSERT_DOUBLE_WITHIN(0.1 * kFriction, kFriction, fit.chosen.front().values.front());
   // What varies about the mean is left, and the noise of six joints.
   const double noise = 6 * kTorqueNoise * kTorqueNoise;
@@ -93,11 +93,11 @@ void numbers_stand_in_for_what_findings_leave() {
   const auto offset = std::find_if(
       hypotheses.begin(), hypotheses.end(),
       [](const Hypothesis& each) { return each.effect() == "torque_offset" && each.joint == 5; });
-  const Fit fit = retuned(observations, hypotheses, {{&*offset, {0}}});
+  const Fit fit = retuned(observations, hypotheses, {{*offset, {0}}});
   TEST_ASSERT_EQUAL_UINT64(2, fit.chosen.size());
-  TEST_ASSERT_EQUAL_PTR(&*offset, fit.chosen.front().hypothesis);
+  TEST_ASSERT_EQUAL_STRING("torque_offset", fit.chosen.front().hypothesis.effect().c_str());
   TEST_ASSERT_DOUBLE_WITHIN(1, kOffset, fit.chosen.front().values.front());
-  TEST_ASSERT_EQUAL_STRING("coulomb_friction", fit.chosen.back().hypothesis->effect().c_str());
+  TEST_ASSERT_EQUAL_STRING("coulomb_friction", fit.chosen.back().hypothesis.effect().c_str());
   TEST_ASSERT_DOUBLE_WITHIN(0.1 * kFriction, kFriction, fit.chosen.back().values.front());
 }
 

@@ -1,6 +1,6 @@
 // A new effect is its law, its search (both in tests/effects/extra) and a line in the catalogue: it
 // is found, named and learnt then, nothing else having been touched.
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/output/json.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
 

@@ -1,11 +1,12 @@
-#include "diagnosis/report.hpp"
+#include "diagnosis/output/report.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "diagnosis/output/pictures.hpp"
+#include "diagnosis/output/sentences.hpp"
 #include "diagnosis/parameters.hpp"
-#include "diagnosis/report_pictures.hpp"
 #include "report/html.hpp"
 
 namespace flexcomp::diagnosis {
@@ -47,9 +48,10 @@ std::string channel_rows(const Observations& observations, const Eigen::VectorXd
          rows + "</table>\n";
 }
 
-std::string parameters(const Observations& observations, const Fit& fit, std::size_t index) {
+std::string parameters(const Observations& observations, const Chosen& chosen,
+                       const Eigen::MatrixXd& covariance) {
   std::string values;
-  for (const Estimate& each : estimates(observations, fit, index)) {
+  for (const Estimate& each : estimates(observations, chosen, covariance)) {
     const bool is_told = std::isfinite(each.deviation);
     const std::string unit = each.unit == "1" ? "" : " " + each.unit;
     values += fmt::format("{} = {:.4g}{}{}{}<br>", each.name, each.value,
@@ -63,17 +65,17 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
   std::string rows;
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const Finding& finding = diagnosis.choice.findings[i];
-    const Hypothesis& hypothesis = *diagnosis.choice.fit.chosen[i].hypothesis;
+    const Hypothesis& hypothesis = finding.chosen.hypothesis;
     std::string others;
     for (const Alternative& other : finding.alternatives) {
       others += fmt::format("{}: {:.0f} worse<br>", place_name(other.effect, other.joint),
                             other.delta_bic);
     }
-    rows +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
-                    place_name(hypothesis.effect(), hypothesis.joint),
-                    parameters(observations, diagnosis.choice.fit, i), finding.evidence.delta_bic,
-                    chance(finding.evidence.p_value), others.empty() ? "none comes near" : others);
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
+                        place_name(hypothesis.effect(), hypothesis.joint),
+                        parameters(observations, finding.chosen, finding.covariance),
+                        finding.evidence.delta_bic, chance(finding.evidence.p_value),
+                        others.empty() ? "none comes near" : others);
   }
   if (rows.empty()) {
     return "<p>No effect is proved.</p>\n";
@@ -177,11 +179,11 @@ std::string retuned(const Observations& observations, const Diagnosis& diagnosis
     return "";
   }
   std::string rows;
-  for (std::size_t i = diagnosis.choice.fit.chosen.size(); i < fit.chosen.size(); ++i) {
-    const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
+  for (std::size_t i = diagnosis.choice.findings.size(); i < fit.chosen.size(); ++i) {
+    const Hypothesis& hypothesis = fit.chosen[i].hypothesis;
     rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n",
                         place_name(hypothesis.effect(), hypothesis.joint),
-                        parameters(observations, fit, i));
+                        parameters(observations, fit.chosen[i], fit.covariance_of(i)));
   }
   return "<p>" + escaped(statement_of_retuned(observations, diagnosis)) +
          "</p>\n<table><tr><th>number of the model</th><th>± 95 %</th></tr>\n" + rows +

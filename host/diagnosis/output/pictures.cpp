@@ -1,4 +1,4 @@
-#include "diagnosis/report_pictures.hpp"
+#include "diagnosis/output/pictures.hpp"
 
 #include <fmt/format.h>
 

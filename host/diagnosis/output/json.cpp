@@ -1,6 +1,8 @@
+#include "diagnosis/output/json.hpp"
+
 #include <cmath>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/output/sentences.hpp"
 #include "diagnosis/parameters.hpp"
 
 namespace flexcomp::diagnosis {
@@ -42,9 +44,10 @@ Json location(const Location& location) {
           {"correlates_with", correlates}, {"places_looked_at", location.places}};
 }
 
-Json parameters_of(const Observations& observations, const Fit& fit, std::size_t index) {
+Json parameters_of(const Observations& observations, const Chosen& chosen,
+                   const Eigen::MatrixXd& covariance) {
   Json parameters = Json::object();
-  for (const Estimate& estimate : estimates(observations, fit, index)) {
+  for (const Estimate& estimate : estimates(observations, chosen, covariance)) {
     parameters[estimate.name] = {{"value", estimate.value},
                                  {"std", finite_or_null(estimate.deviation)},
                                  {"unit", estimate.unit}};
@@ -55,7 +58,7 @@ Json parameters_of(const Observations& observations, const Fit& fit, std::size_t
 Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
   const Choice& choice = diagnosis.choice;
   const Finding& finding = choice.findings[index];
-  const Hypothesis& hypothesis = *choice.fit.chosen[index].hypothesis;
+  const Hypothesis& hypothesis = finding.chosen.hypothesis;
   Json alternatives = Json::array();
   for (const Alternative& other : finding.alternatives) {
     alternatives.push_back({{"effect", other.effect},
@@ -65,7 +68,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
   const Channel channel = main_channel(observations, finding.without, choice.fit);
   return {{"effect", hypothesis.effect()},
           {"joint", joint_or_null(hypothesis.joint)},
-          {"parameters", parameters_of(observations, choice.fit, index)},
+          {"parameters", parameters_of(observations, finding.chosen, finding.covariance)},
           {"evidence",
            {{"delta_bic", finding.evidence.delta_bic},
             {"p_value", finding.evidence.p_value},
@@ -117,11 +120,12 @@ Json retuned(const Observations& observations, const Diagnosis& diagnosis) {
     return nullptr;
   }
   Json numbers = Json::array();
-  for (std::size_t i = diagnosis.choice.fit.chosen.size(); i < fit.chosen.size(); ++i) {
-    const Hypothesis& hypothesis = *fit.chosen[i].hypothesis;
-    numbers.push_back({{"number", hypothesis.effect()},
-                       {"joint", hypothesis.joint},
-                       {"parameters", parameters_of(observations, fit, i)}});
+  for (std::size_t i = diagnosis.choice.findings.size(); i < fit.chosen.size(); ++i) {
+    const Hypothesis& hypothesis = fit.chosen[i].hypothesis;
+    numbers.push_back(
+        {{"number", hypothesis.effect()},
+         {"joint", hypothesis.joint},
+         {"parameters", parameters_of(observations, fit.chosen[i], fit.covariance_of(i))}});
   }
   return {{"numbers", numbers}, {"updated_model", rms_of(observations, fit.remainder)}};
 }

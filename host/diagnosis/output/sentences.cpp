@@ -1,0 +1,86 @@
+#include "diagnosis/output/sentences.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "diagnosis/parameters.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// The estimate with the most deviations from zero: in which direction a base gives, for one.
+Estimate surest_of(const std::vector<Estimate>& all) {
+  const auto deviations = [](const Estimate& each) {
+    return each.deviation > 0 ? std::abs(each.value) / each.deviation : 0;
+  };
+  return *std::max_element(all.begin(), all.end(), [&](const Estimate& a, const Estimate& b) {
+    return deviations(a) < deviations(b);
+  });
+}
+
+/// "held-out error of … falls from … to …, noise …", in the channel where it falls most.
+std::string fall(const Observations& observations, const Fit& before, const Fit& after) {
+  const Channel channel = main_channel(observations, before, after);
+  const auto written = [&](const Eigen::VectorXd& values, bool held_out) {
+    return readable(observations.rms(values, channel, held_out),
+                    simulation::kChannelUnits[channel]);
+  };
+  return fmt::format("held-out error of {} falls from {} to {}, noise {}",
+                     simulation::kChannels[channel], written(before.remainder, true),
+                     written(after.remainder, true),
+                     written(Eigen::VectorXd::Ones(observations.size()), false));
+}
+
+}  // namespace
+
+std::string statement(const Observations& observations, const Diagnosis& diagnosis,
+                      std::size_t finding) {
+  const Finding& found = diagnosis.choice.findings[finding];
+  const Estimate surest = surest_of(estimates(observations, found.chosen, found.covariance));
+  std::string clause = found.chosen.hypothesis.statement();
+  clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
+  // Parameters that only fit together, as a balancer's, say nothing one by one.
+  const bool is_told = surest.deviation > 0 && std::abs(surest.value) >= kTold * surest.deviation;
+  const std::string number =
+      is_told ? fmt::format(" ({} {})", surest.name, readable(surest.value, surest.unit)) : "";
+  return fmt::format("{}{}, which the model lacks: {}.", clause, number,
+                     fall(observations, found.without, diagnosis.choice.fit));
+}
+
+std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis) {
+  const Fit& fit = diagnosis.retuned;
+  if (fit.chosen.empty()) {
+    return "";
+  }
+  const std::size_t found = diagnosis.choice.findings.size();
+  std::vector<std::string> numbers;
+  for (std::size_t i = found; i < fit.chosen.size(); ++i) {
+    const Hypothesis& number = fit.chosen[i].hypothesis;
+    numbers.push_back(place_name(number.effect(), number.joint));
+  }
+  return fmt::format(
+      "No finding, but a stand-in until one is made{}: with other numbers in updated_model.yaml "
+      "({}) {}.",
+      found == 0 ? "" : " of what is left", fmt::join(numbers, "; "),
+      fall(observations, diagnosis.choice.fit, fit));
+}
+
+std::string headline(const Observations& observations, const Diagnosis& diagnosis) {
+  if (!diagnosis.choice.findings.empty()) {
+    return statement(observations, diagnosis, 0);
+  }
+  if (diagnosis.verdict == "no_mismatch") {
+    return "Model and recording agree within the noise.";
+  }
+  const std::string form =
+      diagnosis.proposal.empty()
+          ? ""
+          : fmt::format(" A form proposed for it: {}.", diagnosis.proposal.front().text);
+  return "Model and recording differ: " + diagnosis.reason + "." + form;
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// One plain sentence about a finding.
+std::string statement(const Observations& observations, const Diagnosis& diagnosis,
+                      std::size_t finding);
+
+/// One plain sentence about the numbers that stand in for what is unexplained; empty without any.
+std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis);
+
+/// One plain sentence about the whole.
+std::string headline(const Observations& observations, const Diagnosis& diagnosis);
+
+}  // namespace flexcomp::diagnosis

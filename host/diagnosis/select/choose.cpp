@@ -1,0 +1,75 @@
+#include "diagnosis/select/choose.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/select/merge.hpp"
+#include "diagnosis/select/prune.hpp"
+#include "diagnosis/select/standards.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// Is so little left, by so little, that two effects could not share it better?
+bool is_settled(const Observations& observations, const Fit& fit) {
+  return fit.parameters() <= 2 && largest_ratio(observations, fit.remainder) < kSettled;
+}
+
+/// What grows from a pair of hypotheses may be better in the end than what grows from one. In a
+/// load test, whose fits are quick, the best pair grows even if it is not better yet.
+Attempt best_of_pairs(const Inquiry& inquiry, Attempt best, const Tell& tell) {
+  const std::vector<Fit> pairs = propose_pairs(inquiry);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (is_better(inquiry, pairs[i], best.fit) || (inquiry.observations.is_static && i == 0)) {
+      const Sought sought = seek(inquiry, pairs[i]);
+      Attempt rival = grow(inquiry, {pairs[i], sought ? sought : best.sought}, tell);
+      best.sought = rival.sought;
+      if (is_better(inquiry, rival.fit, best.fit)) {
+        best.fit = std::move(rival.fit);
+      }
+    }
+  }
+  return best;
+}
+
+void strongest_first(std::vector<Finding>* findings) {
+  std::sort(findings->begin(), findings->end(), [](const Finding& a, const Finding& b) {
+    return a.evidence.delta_bic > b.evidence.delta_bic;
+  });
+}
+
+/// The findings' own fit, in their order; every finding has its part of the covariance then.
+Fit fit_of(const Observations& observations, std::vector<Finding>* findings) {
+  std::vector<Chosen> chosen;
+  for (const Finding& finding : *findings) {
+    chosen.push_back(finding.chosen);
+  }
+  Fit whole = fit(observations, std::move(chosen), 0);
+  for (std::size_t i = 0; i < findings->size(); ++i) {
+    (*findings)[i].chosen = whole.chosen[i];
+    (*findings)[i].covariance = whole.covariance_of(i);
+  }
+  return whole;
+}
+
+}  // namespace
+
+Choice choose(const Inquiry& inquiry, const Tell& tell) {
+  const Observations& observations = inquiry.observations;
+  Attempt best{fit(observations, {}, 0), nullptr};
+  Choice choice;
+  choice.ranking = rank(propose(inquiry, best));
+  best = grow(inquiry, std::move(best), tell);
+  if (!is_settled(observations, best.fit)) {
+    best = best_of_pairs(inquiry, std::move(best), tell);
+  }
+  Proved proved = prove(inquiry, prune(inquiry, fit(observations, best.fit.chosen, kLastSteps)));
+  choice.findings = simplify(inquiry, best.sought, std::move(proved.selection)).findings;
+  strongest_first(&choice.findings);
+  choice.fit = fit_of(observations, &choice.findings);
+  choice.withdrawn = std::move(proved.withdrawn);
+  choice.explained = proved.explained;
+  choice.mispredicts = proved.mispredicts;
+  return choice;
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "diagnosis/select/grow.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// What was chosen, and what stood beside it.
+struct Choice {
+  std::vector<Ranked> ranking;    ///< of all effects at all places before any is chosen, best first
+  std::vector<Finding> findings;  ///< the strongest first
+  Fit fit;                        ///< of all findings
+  /// What held beside the others, but with all of them left most of the mismatch there standing.
+  std::vector<Chosen> withdrawn;
+  double explained = 0;      ///< most of the power there that was accounted for
+  bool mispredicts = false;  ///< some came near the noise there, but not of what was held out
+};
+
+/// Chooses what explains the residual.
+///
+/// 1. Grow: the hypothesis with the largest gain in BIC is added, after a fit of all that are
+/// chosen;
+///    where it fails on what was held out, the next best. Then each choice is tried against all
+///    others anew. Starts that are sought in the residual are sought anew after every step.
+/// 2. Pairs: what grows from two hypotheses is taken if it is better, since a third may look better
+///    than either of the two alone.
+/// 3. Prune: what no longer stands beside the others is dropped, and findings that account for too
+///    little of the mismatch where they show, or fail together on what was held out, are withdrawn.
+/// 4. Simplify: a plainer finding takes the place of what the evidence does not prefer to it.
+///
+/// A hypothesis holds if its gain is strong, its chance (times the hypotheses looked at) is below
+/// `false_discovery`, what was held out confirms it, it can be (plausible.hpp), and it is large
+/// enough; select/standards.hpp says by how much.
+Choice choose(const Inquiry& inquiry, const Tell& tell);
+
+}  // namespace flexcomp::diagnosis

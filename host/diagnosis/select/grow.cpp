@@ -1,0 +1,104 @@
+#include "diagnosis/select/grow.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "diagnosis/select/standards.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// How many findings show in a place.
+using Places = std::map<Group, int>;
+
+/// Those of a shortlist beside a fit that can be, quickly fitted, the best first.
+std::vector<Fit> tried_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
+  std::vector<Fit> all;
+  std::size_t looked_at = 0;
+  for (const Candidate& candidate : propose(inquiry, before)) {
+    if (looked_at++ == kLongShortlist * most || all.size() == most) {
+      break;
+    }
+    Fit tried = fit_with(inquiry, before.fit, candidate.chosen, kQuickSteps);
+    if (can_be(inquiry, tried)) {
+      all.push_back(std::move(tried));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [&](const Fit& a, const Fit& b) {
+    return criterion(inquiry.observations, a) < criterion(inquiry.observations, b);
+  });
+  return all;
+}
+
+int most_in_place(const Observations& observations) {
+  return observations.is_static ? kMostInLoadTest : kMostInGroup;
+}
+
+/// Adds the best hypothesis that holds; false where none does. Where the best one fails on what was
+/// held out, or cannot be, the next best is tried.
+bool add_one(const Inquiry& inquiry, Places* found_in, Attempt* current) {
+  const std::size_t most = current->fit.chosen.size() < kMany ? kShortlist : kShortShortlist;
+  for (const Fit& tried : tried_beside(inquiry, *current, most)) {
+    Fit grown = fit(inquiry.observations, tried.chosen, kSteps, &inquiry.dictionary);
+    const Evidence evidence = weigh_last(inquiry, current->fit, grown);
+    if (holds(inquiry, evidence)) {
+      if (++(*found_in)[evidence.group] > most_in_place(inquiry.observations)) {
+        return false;
+      }
+      current->fit = std::move(grown);
+      return true;
+    }
+    const bool is_possible = evidence.impossible.empty();
+    if (is_possible &&
+        (evidence.confirmation > kConfirmed || evidence.delta_bic < kStrongEvidence)) {
+      return false;
+    }
+  }
+  return false;
+}
+
+/// Replaces the earliest choice that can be bettered, of those that show where the last one does.
+Fit revised(const Inquiry& inquiry, const Attempt& current) {
+  const Observations& observations = inquiry.observations;
+  const Fit& fit = current.fit;
+  for (std::size_t i = 0; i + 1 < fit.chosen.size(); ++i) {
+    if (!meet(directions(observations, fit, i),
+              directions(observations, fit, fit.chosen.size() - 1))) {
+      continue;
+    }
+    const Attempt others{fit_without(inquiry, fit, i), current.sought};
+    Fit replaced = best_beside(inquiry, others, kShortlist / 2);
+    if (replaced.chosen.empty()) {
+      continue;
+    }
+    const double fall = criterion(observations, fit) - criterion(observations, replaced);
+    const bool is_better = replaced.train_sum < fit.train_sum && fall > kStrongEvidence;
+    const bool is_simpler = replaced.parameters() < fit.parameters() && fall > 0;
+    if ((is_better || is_simpler) && holds(inquiry, weigh_last(inquiry, others.fit, replaced))) {
+      return replaced;
+    }
+  }
+  return fit;
+}
+
+}  // namespace
+
+Fit best_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
+  const std::vector<Fit> tried = tried_beside(inquiry, before, most);
+  return tried.empty()
+             ? Fit{}
+             : fit(inquiry.observations, tried.front().chosen, kSteps, &inquiry.dictionary);
+}
+
+Attempt grow(const Inquiry& inquiry, Attempt attempt, const Tell& tell) {
+  Places found_in;
+  while (attempt.fit.chosen.size() < kMostFindings && add_one(inquiry, &found_in, &attempt)) {
+    tell(attempt.fit.chosen.size(), kMostFindings);
+    attempt.fit = revised(inquiry, attempt);
+    const Sought sought = seek(inquiry, attempt.fit);
+    attempt.sought = sought ? sought : attempt.sought;
+  }
+  return attempt;
+}
+
+}  // namespace flexcomp::diagnosis

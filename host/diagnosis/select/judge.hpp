@@ -1,0 +1,63 @@
+#pragma once
+
+#include "diagnosis/select/propose.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// An effect that would do nearly as well in the place of a finding.
+struct Alternative {
+  std::string effect;
+  int joint = 0;
+  double delta_bic = 0;  ///< how much worse than the finding
+  Chosen chosen;
+};
+
+/// What is found: a law at a place with its values, why, and what else would have done.
+struct Finding {
+  Chosen chosen;
+  Eigen::MatrixXd covariance;  ///< of its values
+  Evidence evidence;
+  Fit without;  ///< all other findings, fitted
+  std::vector<Alternative> alternatives;
+};
+
+/// A fit, and each of its choices weighed against all others.
+struct Selection {
+  Fit fit;
+  std::vector<Finding> findings;
+};
+
+/// What speaks for the last choice of a fit.
+Evidence weigh_last(const Inquiry& inquiry, const Fit& before, const Fit& after);
+
+/// Weighs one choice of a fit, all others being there.
+Finding judge(const Inquiry& inquiry, const Fit& whole, std::size_t index);
+
+/// Is the evidence enough to go on from?
+bool holds(const Inquiry& inquiry, const Evidence& evidence);
+
+/// Is it enough for a finding in the end? Then it must lower the held-out error itself.
+bool stands(const Inquiry& inquiry, const Evidence& evidence);
+
+/// Can the last hypothesis of a fit be, as fitted?
+bool can_be(const Inquiry& inquiry, const Fit& fit);
+
+/// BIC but for a constant: the smaller the better, for fits of any hypotheses. A parameter that
+/// rests at a bound, like the directions in which a base does not give, is not fitted.
+double criterion(const Observations& observations, const Fit& fit);
+
+/// Does strong evidence, or any with fewer findings, speak for one fit against another, and do all
+/// of its findings hold?
+bool is_better(const Inquiry& inquiry, const Fit& one, const Fit& other);
+
+/// Is there no strong evidence for the richer fit?
+bool is_as_good(const Inquiry& inquiry, const Fit& plain, const Fit& rich);
+
+/// Does what was held out speak for the richer fit?
+bool is_confirmed(const Inquiry& inquiry, const Fit& plain, const Fit& rich);
+
+/// A fit with one choice more, and without one of them.
+Fit fit_with(const Inquiry& inquiry, const Fit& before, const Chosen& chosen, int steps);
+Fit fit_without(const Inquiry& inquiry, const Fit& whole, std::size_t index);
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,156 @@
+#include "diagnosis/select/merge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "diagnosis/select/grow.hpp"
+#include "diagnosis/select/prune.hpp"
+#include "diagnosis/select/standards.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// One hypothesis in the place of two that are not far better than it; nothing where there is none.
+std::optional<Selection> merged(const Inquiry& inquiry, const Sought& sought,
+                                const Selection& selection) {
+  const std::size_t count = selection.findings.size();
+  for (std::size_t i = 0; count <= kMany && i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      const Attempt others{fit_without(inquiry, selection.findings[j].without, i), sought};
+      const Fit one = best_beside(inquiry, others, kShortlist);
+      if (!one.chosen.empty() && is_as_good(inquiry, one, selection.fit) &&
+          !is_confirmed(inquiry, one, selection.fit) &&
+          holds(inquiry, weigh_last(inquiry, others.fit, one))) {
+        return prune(inquiry, fit(inquiry.observations, one.chosen, kLastSteps));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// The largest of its parameters, in sizes that matter.
+double change(const Chosen& chosen) {
+  double most = 0;
+  for (std::size_t i = 0; i < chosen.values.size(); ++i) {
+    most = std::max(most, std::abs(chosen.values[i]) / chosen.hypothesis.parameters[i].step);
+  }
+  return most;
+}
+
+/// Evidence (in BIC) that two hypotheses must differ by to be told apart. Payload and link mass are
+/// bodies that are simplified in different ways: between them more evidence is needed.
+double same_evidence(const Chosen& one, const Finding& finding) {
+  const bool are_bodies =
+      one.hypothesis.traits().is_body && finding.chosen.hypothesis.traits().is_body;
+  const double negligible = are_bodies ? kNegligible * finding.evidence.delta_bic : 0;
+  return std::max(kSameEvidence, negligible);
+}
+
+/// Is an alternative plainer than the finding? Three cases:
+/// - it has fewer parameters, and no evidence speaks for the finding;
+/// - it has as many, acts on the whole machine instead of one joint (the payload, not the last
+///   link's mass), and no strong evidence speaks for the finding;
+/// - it has as many at the same joint, does the same in numbers, and changes less (the rotor half
+/// as
+///   heavy again, not the link ten times as heavy).
+bool is_plainer(const Alternative& one, const Finding& finding) {
+  const Chosen& other = finding.chosen;
+  if (one.chosen.hypothesis.traits().is_curve_only) {
+    return false;
+  }
+  const bool has_fewer = one.chosen.values.size() < other.values.size();
+  const bool has_as_many = one.chosen.values.size() == other.values.size();
+  const bool is_of_whole = has_as_many && one.delta_bic < same_evidence(one.chosen, finding) &&
+                           one.joint == 0 && other.hypothesis.joint != 0;
+  const bool changes_less = has_as_many && one.delta_bic < kIdentical &&
+                            one.joint == other.hypothesis.joint &&
+                            change(one.chosen) < change(other);
+  return (has_fewer && one.delta_bic <= 0) || is_of_whole || changes_less;
+}
+
+/// Is an alternative the law of which the finding is a mere curve? At the same joint it must fit as
+/// well; that it has more parameters, some of which do not show, says nothing against it.
+bool is_the_law(const Alternative& one, const Finding& finding) {
+  const Chosen& other = finding.chosen;
+  const double more =
+      static_cast<double>(one.chosen.values.size()) - static_cast<double>(other.values.size());
+  return other.hypothesis.traits().is_curve_only && one.joint == other.hypothesis.joint &&
+         one.delta_bic - more * std::log(finding.evidence.effective_samples) < kIndifferent;
+}
+
+/// Others that would do nearly as well in the place of a finding, the best first.
+std::vector<Alternative> alternatives_of(const Inquiry& inquiry, const Sought& sought,
+                                         const Fit& whole, std::size_t index,
+                                         const Finding& finding) {
+  const Observations& observations = inquiry.observations;
+  const Attempt others{finding.without, sought};
+  const Eigen::MatrixXd shown = directions(observations, whole, index);
+  const std::size_t most = whole.chosen.size() < kMany ? kShortlist : kShortShortlist;
+  std::vector<Alternative> all;
+  std::size_t looked_at = 0;
+  for (const Candidate& candidate : propose(inquiry, others)) {
+    const Hypothesis& other = candidate.chosen.hypothesis;
+    if (looked_at == most) {
+      break;
+    }
+    if (!meet(shown, directions(inquiry, others, candidate))) {
+      continue;
+    }
+    ++looked_at;
+    if (are_the_same(other, finding.chosen.hypothesis)) {
+      continue;
+    }
+    const Fit tried = fit_with(inquiry, others.fit, candidate.chosen, kQuickSteps);
+    const double gain = bic_gain(finding.evidence.effective_samples, others.fit.train_sum,
+                                 tried.train_sum, candidate.chosen.values.size());
+    if (gain > kStrongEvidence && can_be(inquiry, tried) &&
+        meet(shown, directions(observations, tried, tried.chosen.size() - 1))) {
+      all.push_back({other.effect(), other.joint, std::max(finding.evidence.delta_bic - gain, 0.0),
+                     tried.chosen.back()});
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Alternative& a, const Alternative& b) { return a.delta_bic < b.delta_bic; });
+  return all;
+}
+
+/// A plainer hypothesis or the law itself in the place of a finding, which was taken for what
+/// others account for by now; nothing where there is none.
+std::optional<Selection> plainer(const Inquiry& inquiry, const Selection& selection) {
+  for (std::size_t i = 0; i < selection.findings.size(); ++i) {
+    const Finding& finding = selection.findings[i];
+    for (const Alternative& other : finding.alternatives) {
+      if (is_plainer(other, finding) || is_the_law(other, finding)) {
+        std::vector<Chosen> chosen = selection.fit.chosen;
+        chosen[i] = other.chosen;
+        Fit plain = fit(inquiry.observations, std::move(chosen), kLastSteps);
+        if (!is_confirmed(inquiry, plain, selection.fit)) {
+          return prune(inquiry, std::move(plain));
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Selection simplify(const Inquiry& inquiry, const Sought& sought, Selection selection) {
+  while (true) {
+    std::optional<Selection> next = merged(inquiry, sought, selection);
+    if (!next) {
+      for (std::size_t i = 0; i < selection.findings.size(); ++i) {
+        selection.findings[i].alternatives =
+            alternatives_of(inquiry, sought, selection.fit, i, selection.findings[i]);
+      }
+      next = plainer(inquiry, selection);
+    }
+    if (!next) {
+      return selection;
+    }
+    selection = std::move(*next);
+  }
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+
+/// What is asked of a finding. Each line says what a threshold trades; where it was measured is the
+/// commit that brought it, whose scores are in tools/score-diagnosis' figures of that time.
+namespace flexcomp::diagnosis {
+
+/// Deviations by which what was held out must confirm a finding: false alarms against weak effects
+/// (024da06).
+constexpr double kConfirmed = 2;
+/// Confirmation that outweighs the estimate of the noise: of a mismatch as fast as noise, that
+/// estimate is too large (1175996).
+constexpr double kOverwhelming = 20;
+/// Of the noise of the component that shows it most: what is weaker nobody could use (024da06).
+constexpr double kLeastStrength = 1.0 / 3;
+/// Of the whole fit: what is weaker is within the exactness of a motion's simulation (6d8c9c3).
+constexpr double kExactness = 0.02;
+/// What was beyond the noise over what is taken away: encoder noise that is in a prediction is
+/// explained by a filter, but is no mismatch (fe36598: 1 of 44 clean recordings).
+constexpr double kLeastBeyondNoise = 0.75;
+/// Of what is left beyond the noise: many small steps are a wrong way (024da06).
+constexpr double kLeastShare = 0.1;
+/// Of a mismatch's power, by all findings together: physics outside the catalogue against effects
+/// whose laws are only nearly ours (024da06).
+constexpr double kLeastExplained = 0.9;
+/// The same where no more than `kFarFromNoise` is left: of engines whose laws are their own, more
+/// cannot be had (4675fca).
+constexpr double kExplainedNearNoise = 0.8;
+/// Times the noise: what leaves more has not been understood (0f27f02).
+constexpr double kFarFromNoise = 2;
+/// A recording of a real robot needs a dozen (842a13d).
+constexpr std::size_t kMostFindings = 20;
+/// At one place: more would be a sum that fits anything, and takes minutes (a51463b).
+constexpr int kMostInGroup = 5;
+/// The same in a load test, whose poses lie all over: many small errors of geometry tell themselves
+/// apart there (31c28d3).
+constexpr int kMostInLoadTest = 16;
+/// Hypotheses fitted beside a fit before the best is taken: time against a screening that is only
+/// linear (024da06).
+constexpr std::size_t kShortlist = 5;
+/// Times as many are looked at where some cannot be (022993e).
+constexpr std::size_t kLongShortlist = 2;
+/// From so many findings on fits are slow and little is ambiguous: a shorter list does (842a13d).
+constexpr std::size_t kMany = 4;
+constexpr std::size_t kShortShortlist = 2;
+/// Steps of fits that are compared, of fits that are kept, and of the last one: time against
+/// exactness (024da06).
+constexpr int kQuickSteps = 4;
+constexpr int kSteps = 12;
+constexpr int kLastSteps = 60;
+/// Times the noise: below it nothing is left that two effects could share (67f0a6b).
+constexpr double kSettled = 1.1;
+/// Pairs that are fitted: a third effect may look better than either of two (67f0a6b).
+constexpr std::size_t kPairs = 3;
+/// Cosine between what two effects change: below it neither can stand in for the other, like the
+/// frictions of two joints (842a13d).
+constexpr double kMeeting = 0.03;
+/// Of BIC: two that differ by less do the same in numbers, and the smaller change is meant
+/// (3c9165b).
+constexpr double kIdentical = 0.1;
+/// Of what a finding gains in BIC: no simplified body is told from another by less (0f27f02).
+constexpr double kNegligible = 1e-3;
+/// Of BIC: "not worth more than a bare mention" (Kass and Raftery 1995).
+constexpr double kIndifferent = 2;
+
+}  // namespace flexcomp::diagnosis
