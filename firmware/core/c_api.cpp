@@ -160,6 +160,14 @@ flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_ta
   return to_c(result);
 }
 
+flexcomp_result_t flexcomp_table_check_model(const flexcomp_table_t* table,
+                                             const flexcomp_model_t* model) {
+  if (table == nullptr || model == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  return to_c(flexcomp::check_against_model<float, kJoints>(convert(*model), view(*table)));
+}
+
 flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
                                           flexcomp_table_info_t* info) {
   if (table == nullptr || info == nullptr) {

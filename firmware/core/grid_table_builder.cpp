@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "grid_chart.hpp"
+#include "grid_certificate.hpp"
 #include "instantiate.hpp"
 #include "table_writer.hpp"
 
@@ -14,68 +14,6 @@ constexpr double kCurvatureShare = 0.2;
 
 /// Most nodes along an axis; past it the tolerance is out of reach of a grid.
 constexpr std::uint32_t kMostNodes = 4096;
-
-/// Visits the points of a box-shaped lattice, the last axis fastest.
-class LatticeCounter {
- public:
-  LatticeCounter(const std::array<std::uint32_t, kMaxGridAxes>& points, std::size_t axes)
-      : points_(points), axes_(axes) {}
-
-  std::uint32_t operator[](std::size_t axis) const { return index_[axis]; }
-
-  bool advance() {
-    for (std::size_t axis = axes_; axis-- > 0;) {
-      if (++index_[axis] < points_[axis]) {
-        return true;
-      }
-      index_[axis] = 0;
-    }
-    return false;
-  }
-
- private:
-  std::array<std::uint32_t, kMaxGridAxes> points_;
-  std::array<std::uint32_t, kMaxGridAxes> index_{};
-  std::size_t axes_;
-};
-
-/// Does turning joints 1 and 6 leave the compliance as it is, but for the rotation about axis 1?
-///
-/// Tried at postures that have nothing in common; what varies with the angle would show at these.
-template <typename Scalar, int Joints>
-bool is_invariant(const RobotModel<Scalar, Joints>& model) {
-  if (has_structure_springs(model)) {
-    return false;
-  }
-  JointVector<Scalar, Joints> q;
-  for (Eigen::Index i = 0; i < Joints; ++i) {
-    q[i] = Scalar(0.3) + Scalar(0.4) * static_cast<Scalar>(i);
-  }
-  q[0] = 0;
-  q[Joints - 1] = 0;
-  const TableEntry<Scalar, Joints> still = exact_entry(model, q);
-  const Vector3<Scalar> axis = model.joints[0].origin.rotation * model.joints[0].axis;
-  const Scalar torque_scale = Scalar(1) + still.weight_torque.cwiseAbs().maxCoeff();
-  for (const Scalar angle : {Scalar(0.9), Scalar(-2.1)}) {
-    q[0] = angle;
-    q[Joints - 1] = Scalar(1.3) * angle;
-    const TableEntry<Scalar, Joints> turned = exact_entry(model, q);
-    const Matrix3<Scalar> rotation = axis_rotation<Scalar>(axis, angle);
-    Scalar error = 0;
-    for (Eigen::Index i = 0; i < Joints; ++i) {
-      const Vector3<Scalar> linear = turned.jacobian.col(i).template head<3>() -
-                                     rotation * still.jacobian.col(i).template head<3>();
-      const Vector3<Scalar> angular = turned.jacobian.col(i).template tail<3>() -
-                                      rotation * still.jacobian.col(i).template tail<3>();
-      error = std::max({error, linear.cwiseAbs().maxCoeff(), angular.cwiseAbs().maxCoeff(),
-                        std::abs(turned.weight_torque[i] - still.weight_torque[i]) / torque_scale});
-    }
-    if (error > Scalar(1e-5)) {
-      return false;
-    }
-  }
-  return true;
-}
 
 /// Fills a grid of equal steps and checks it, finer until the tolerance is met.
 template <typename Scalar, int Joints>
@@ -129,7 +67,7 @@ class GridTableBuilder {
       fill();
       writer_.finish(static_cast<std::uint32_t>(nodes), TableError<Scalar>{});
       TableError<Scalar> error;
-      if (check(curvature, &error)) {
+      if (check(&error)) {
         writer_.finish(static_cast<std::uint32_t>(nodes), error);
         return Result::ok;
       }
@@ -152,20 +90,6 @@ class GridTableBuilder {
     return true;
   }
 
-  JointVector<Scalar, Joints> angles(const std::array<Scalar, kMaxGridAxes>& place) const {
-    JointVector<Scalar, Joints> q = JointVector<Scalar, Joints>::Zero();
-    for (std::size_t joint = 1; joint + 1 < Joints; ++joint) {
-      q[static_cast<Eigen::Index>(joint)] =
-          static_cast<Scalar>(writer_.header().fixed_angle[joint]);
-    }
-    for (std::size_t axis = 0; axis < axes_; ++axis) {
-      q[static_cast<Eigen::Index>(writer_.header().grid_joint[axis])] =
-          static_cast<Scalar>(writer_.header().grid_lower[axis]) +
-          place[axis] * static_cast<Scalar>(writer_.header().grid_step[axis]);
-    }
-    return q;
-  }
-
   void fill() const {
     LatticeCounter counter(nodes_, axes_);
     std::uint32_t node = 0;
@@ -174,49 +98,15 @@ class GridTableBuilder {
       for (std::size_t axis = 0; axis < axes_; ++axis) {
         place[axis] = static_cast<Scalar>(counter[axis]);
       }
-      pack(exact_entry(model_, angles(place)), writer_.layout(), writer_.record(node++));
+      pack(exact_entry(model_, grid_angles<Scalar, Joints>(writer_.header(), place)),
+           writer_.layout(), writer_.record(node++));
     } while (counter.advance());
   }
 
-  /// Checks a lattice finer than the grid, so fine that the curvature between its points matters
-  /// little.
-  bool check(const TableError<Scalar>& curvature, TableError<Scalar>* worst) const {
+  bool check(TableError<Scalar>* worst) const {
     Table table;
-    if (Table::open(&writer_.header(), writer_.header().size, &table) != Result::ok) {
-      return false;
-    }
-    Scalar squares = 0;
-    for (std::size_t axis = 0; axis < axes_; ++axis) {
-      const auto step = static_cast<Scalar>(writer_.header().grid_step[axis]);
-      squares += step * step / Scalar(8);
-    }
-    const Scalar excess = std::max(squares * curvature.position / tolerance_.position,
-                                   squares * curvature.orientation / tolerance_.orientation);
-    const auto divisions = static_cast<std::uint32_t>(
-        std::max(Scalar(2), std::ceil(std::sqrt(excess / Scalar(kCurvatureShare)))));
-    const Scalar between = squares / static_cast<Scalar>(divisions * divisions);
-
-    std::array<std::uint32_t, kMaxGridAxes> points{};
-    for (std::size_t axis = 0; axis < axes_; ++axis) {
-      points[axis] = (nodes_[axis] - 1) * divisions + 1;
-    }
-    LatticeCounter counter(points, axes_);
-    do {
-      std::array<Scalar, kMaxGridAxes> place{};
-      for (std::size_t axis = 0; axis < axes_; ++axis) {
-        place[axis] = static_cast<Scalar>(counter[axis]) / static_cast<Scalar>(divisions);
-      }
-      const JointVector<Scalar, Joints> q = angles(place);
-      TableError<Scalar> error = entry_error(model_, exact_entry(model_, q),
-                                             look_up_grid<Scalar, Joints>(table, q), bound_);
-      error.position += between * curvature.position + bounds_.rounding.position;
-      error.orientation += between * curvature.orientation + bounds_.rounding.orientation;
-      if (!(error.position <= tolerance_.position && error.orientation <= tolerance_.orientation)) {
-        return false;
-      }
-      *worst = larger(*worst, error);
-    } while (counter.advance());
-    return true;
+    return Table::open(&writer_.header(), writer_.header().size, &table) == Result::ok &&
+           check_grid(model_, table, tolerance_, Scalar(kCurvatureShare), worst);
   }
 
   const RobotModel<Scalar, Joints>& model_;

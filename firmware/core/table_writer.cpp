@@ -1,6 +1,5 @@
 #include "table_writer.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,13 +21,6 @@ float rounded_up(Scalar value) {
   return static_cast<Scalar>(nearest) < value
              ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
              : nearest;
-}
-
-/// A limit that no float can hold is none, and a table holds finite numbers only.
-template <typename Scalar>
-float nearest_finite(Scalar value) {
-  constexpr auto kMost = static_cast<Scalar>(std::numeric_limits<float>::max());
-  return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
 
 }  // namespace

@@ -1,8 +1,17 @@
 #pragma once
 
+#include <limits>
+
 #include "table_certificate.hpp"
 
 namespace flexcomp {
+
+/// A limit that no float can hold is none, and a table holds finite numbers only.
+template <typename Scalar>
+float nearest_finite(Scalar value) {
+  constexpr auto kMost = static_cast<Scalar>(std::numeric_limits<float>::max());
+  return static_cast<float>(value < -kMost ? -kMost : value > kMost ? kMost : value);
+}
 
 /// A table under construction in the caller's buffer.
 class TableWriter {

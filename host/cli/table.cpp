@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -39,6 +40,9 @@ struct VerifyOptions {
   std::string model;
   std::string table;
   std::string path;
+  double depth_of_cut = 0;
+  simulation::MaterialSide material = simulation::MaterialSide::outside;
+  control::CorrectionLoop loop;
   std::size_t samples = 100000;
   bool json = false;
 };
@@ -183,6 +187,20 @@ TableError<double> largest_error(const model::Robot& robot, const Table& table, 
   return worst;
 }
 
+void refuse_what_the_table_does_not_cover(const Table& table, const recording::Recording& path,
+                                          const recording::Samples& q_cmd) {
+  TableCursor cursor;
+  for (Eigen::Index row = 0; row < q_cmd.rows(); ++row) {
+    const JointVector<double, 6> q = q_cmd.row(row).transpose();
+    locate<double, 6>(table, q, &cursor);
+    const double outside = look_up<double, 6>(table, q, &cursor).outside;
+    if (outside > 0) {
+      throw InputError(fmt::format("{}: lies {:.3g} rad outside the table: it is not for this path",
+                                   path.place(row), outside));
+    }
+  }
+}
+
 TableError<double> largest_error(const VerifyOptions& options, const model::Robot& robot,
                                  const Table& table) {
   TableError<double> worst = largest_error(robot, table, options.samples, chart_places(table));
@@ -192,6 +210,7 @@ TableError<double> largest_error(const VerifyOptions& options, const model::Robo
     if (q_cmd.rows() < 2) {
       throw InputError(fmt::format("{}: expected two rows or more", options.path));
     }
+    refuse_what_the_table_does_not_cover(table, path, q_cmd);
     const TableError<double> on_path =
         largest_error(robot, table, options.samples, program_places(q_cmd));
     worst.position = std::max(worst.position, on_path.position);
@@ -200,32 +219,73 @@ TableError<double> largest_error(const VerifyOptions& options, const model::Robo
   return worst;
 }
 
+/// What can be said of the largest gain, which no table can prove alone: the process decides it.
+struct GainCheck {
+  bool checked = false;
+  bool holds = true;
+  std::string text;
+};
+
+GainCheck check_gain(const VerifyOptions& options, const model::Robot& robot, const Table& table) {
+  const auto stated = static_cast<double>(table.header().largest_gain);
+  const std::string name = stated > 0 ? fmt::format("{:.4g}", stated) : "not analysed";
+  GainCheck gain;
+  if (!(options.depth_of_cut > 0)) {
+    gain.text = fmt::format(
+        "largest safe gain:                {}: NOT CHECKED, which takes --path and "
+        "--depth-of-cut\n",
+        name);
+    return gain;
+  }
+  if (options.path.empty()) {
+    throw InputError("--depth-of-cut: the path decides the largest gain too; expected --path");
+  }
+  const auto found = static_cast<float>(control::largest_safe_gain_along(
+      robot.elastic, recording::read_program_of(robot.elastic, options.path),
+      {options.depth_of_cut, options.material}, options.loop));
+  gain.checked = true;
+  gain.holds = std::abs(stated - static_cast<double>(found)) <= 1e-6 * static_cast<double>(found);
+  gain.text = fmt::format("largest safe gain:                {}; this process allows {:.4g}{}\n",
+                          name, found, gain.holds ? "" : ": NOT THE SAME");
+  return gain;
+}
+
 int run_verify(const VerifyOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
-  const TableFile file = read_table(options.table, robot);
+  const TableFile file = read_unproven_table(options.table, robot);
+  const Certificate certificate = derive_certificate(options.table, robot, file.table);
   const TableError<double> worst = largest_error(options, robot, file.table);
+  const GainCheck gain = check_gain(options, robot, file.table);
   const TableHeader& header = file.table.header();
-  const bool holds =
-      worst.position <= header.position_error && worst.orientation <= header.orientation_error;
+  const bool holds = certificate.holds && worst.position <= header.position_error &&
+                     worst.orientation <= header.orientation_error;
   if (options.json) {
     nlohmann::ordered_json json = summary(file.table);
     json["samples"] = options.samples;
     json["largest_position_error"] = worst.position;
     json["largest_orientation_error"] = worst.orientation;
-    json["holds"] = holds;
+    json["derived_position_error"] = certificate.error.position;
+    json["derived_orientation_error"] = certificate.error.orientation;
+    json["gain_checked"] = gain.checked;
+    json["holds"] = holds && gain.holds;
     fmt::print("{}\n", json.dump(2));
   } else {
     fmt::print(
         "largest error found at {} places: {:.4g} µm, {:.4g} µrad\n"
+        "bound derived from its nodes:     {:.4g} µm, {:.4g} µrad\n"
+        "{}"
         "certified bound:                  {:.4g} µm, {:.4g} µrad: {}\n",
-        options.samples, 1e6 * worst.position, 1e6 * worst.orientation, 1e6 * header.position_error,
-        1e6 * header.orientation_error, holds ? "holds" : "DOES NOT HOLD");
+        options.samples, 1e6 * worst.position, 1e6 * worst.orientation,
+        1e6 * certificate.error.position, 1e6 * certificate.error.orientation, gain.text,
+        1e6 * header.position_error, 1e6 * header.orientation_error,
+        holds && gain.holds ? "holds" : "DOES NOT HOLD");
   }
-  return holds ? kDone : kDoesNotHold;
+  return holds && gain.holds ? kDone : kDoesNotHold;
 }
 
 /// What decides how much correction the process allows.
-void add_process(CLI::App* command, BuildOptions* build) {
+template <typename Options>
+void add_process(CLI::App* command, Options* build) {
   command->add_option(
       "--depth-of-cut", build->depth_of_cut,
       "m, nominal; computes the largest safe correction gain, past which moving into\n"
@@ -271,14 +331,19 @@ void add_table(CLI::App* app, Action* action) {
   add_process(command, build.get());
   command->add_flag("--json", build->json, "print the certificate as JSON");
 
-  CLI::App* check = command->add_subcommand(
-      "verify",
-      "Compare a table with the model at many places. Exit code 1 if the certified bound does not\n"
-      "hold, 2 if the file is damaged or belongs to another robot.");
+  CLI::App* check = command->add_subcommand("verify",
+                                            "Compare a table with the model: its header, the "
+                                            "certificate derived again from its nodes, and\n"
+                                            "the error at many places; with the path and the "
+                                            "process also the largest gain. Exit code 1 if\n"
+                                            "the certified bound or the gain does not hold, 2 if "
+                                            "the file is damaged or belongs to another\n"
+                                            "robot.");
   check->add_option("table", verify->table, "table to check")->required();
   check->add_option("--model", verify->model, "robot.yaml")->required();
   check->add_option("--path", verify->path,
                     "look along this program too, besides the chords between the table's nodes");
+  add_process(check, verify.get());
   check->add_option("--samples", verify->samples, "places to look at")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}));
   check->add_flag("--json", verify->json, "print the result as JSON");

@@ -3,23 +3,62 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <string>
 
 #include "error.hpp"
 #include "files/text_file.hpp"
 
 namespace flexcomp::cli {
 
-TableFile read_table(const std::filesystem::path& path, const model::Robot& robot) {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
+  throw InputError(fmt::format("{}: {}", path.string(), why));
+}
+
+}  // namespace
+
+TableFile read_unproven_table(const std::filesystem::path& path, const model::Robot& robot) {
   const std::string bytes = files::read_file(path, std::size_t{1} << 30);
   TableFile file;
   file.words.resize((bytes.size() + 3) / 4);
   std::memcpy(file.words.data(), bytes.data(), bytes.size());
   const Result opened = Table::open(file.words.data(), bytes.size(), &file.table);
   if (opened != Result::ok) {
-    throw InputError(fmt::format("{}: {}", path.string(), describe(opened)));
+    refuse(path, describe(opened));
   }
   if (file.table.model_hash() != model_hash(robot.elastic)) {
-    throw InputError(fmt::format("{}: {}", path.string(), describe(Result::table_other_model)));
+    refuse(path, describe(Result::table_other_model));
+  }
+  switch (check_against_model<double, 6>(robot.elastic, file.table)) {
+    case Result::ok:
+      return file;
+    case Result::table_other_model:
+      refuse(path,
+             "bears the model's fingerprint, but its springs, joint limits, contents or first axis "
+             "are not the model's");
+    default:
+      refuse(path, "no table: its header holds what flexcomp never writes");
+  }
+}
+
+Certificate derive_certificate(const std::filesystem::path& path, const model::Robot& robot,
+                               const Table& table) {
+  Certificate certificate;
+  const Result derived =
+      flexcomp::derive_certificate<double, 6>(robot.elastic, table, &certificate.error);
+  if (derived != Result::ok) {
+    refuse(path, fmt::format("no table of this model: {}", describe(derived)));
+  }
+  certificate.holds = certificate.error.position <= table.header().position_error &&
+                      certificate.error.orientation <= table.header().orientation_error;
+  return certificate;
+}
+
+TableFile read_table(const std::filesystem::path& path, const model::Robot& robot) {
+  TableFile file = read_unproven_table(path, robot);
+  if (!derive_certificate(path, robot, file.table).holds) {
+    refuse(path, "its certificate does not hold for this model (flexcomp table verify)");
   }
   return file;
 }

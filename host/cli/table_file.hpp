@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "flexcomp/table.hpp"
+#include "flexcomp/table_builder.hpp"
 #include "model/robot.hpp"
 
 namespace flexcomp::cli {
@@ -14,8 +14,22 @@ struct TableFile {
   Table table;
 };
 
-/// Reads and checks a table; throws InputError saying what is wrong with the file, or that it was
-/// made for another robot.
+/// A certificate, derived again from a table's own content.
+struct Certificate {
+  TableError<double> error;
+  bool holds = false;  ///< Does the header state no less?
+};
+
+/// Reads a table and checks its header against the model; throws InputError saying what is wrong
+/// with the file, or that it was made for another robot.
+TableFile read_unproven_table(const std::filesystem::path& path, const model::Robot& robot);
+
+/// Throws InputError, naming `path`, for records that no builder writes.
+Certificate derive_certificate(const std::filesystem::path& path, const model::Robot& robot,
+                               const Table& table);
+
+/// Same as the first, and refuses a table whose certificate does not hold: what every command that
+/// corrects with a table reads it by.
 TableFile read_table(const std::filesystem::path& path, const model::Robot& robot);
 
 }  // namespace flexcomp::cli

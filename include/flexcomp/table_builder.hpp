@@ -57,6 +57,31 @@ Result build_grid_table(const RobotModel<Scalar, Joints>& model,
                         const TableRequirements<Scalar>& requirements, void* buffer,
                         std::size_t capacity, std::size_t* size);
 
+/// Does a table's header say of the robot what the model says? All that a tick reads of it is
+/// looked at: fingerprint, springs, joint limits, contents, first axis, whether the program is
+/// closed, and that bounds and unused fields are as a builder writes them. `Table::open` cannot
+/// know this, and the fingerprint alone is a claim that anyone can copy into a table.
+///
+/// Exact: a table of another robot is refused, however little it differs. Cost: some thousand
+/// operations. Returns ok, bad_argument (no table), bad_model, table_other_model (the header says
+/// something else of the robot) or table_corrupt (no builder writes such a header).
+template <typename Scalar, int Joints>
+Result check_against_model(const RobotModel<Scalar, Joints>& model, const Table& table);
+
+/// Derives a table's certificate again, from its own nodes and the model alone, as its builder did:
+/// the errors at the nodes and on the chords between them, what lies between the points looked at,
+/// and rounding. The certificate holds if `error` is not above what the header states; the
+/// derivation ends where it is.
+///
+/// Not seen are the program's deviations from the chords, which the builder looks at too: a path
+/// table does not hold its program. Returns ok, or what `check_against_model` returns, or
+/// table_corrupt: planes or widths that no builder writes, or an error stated a hundred times above
+/// what is found. Cost: as for building the table, without the attempts. For tables that were built
+/// in `float` and in `double`; to be run in `double`.
+template <typename Scalar, int Joints>
+Result derive_certificate(const RobotModel<Scalar, Joints>& model, const Table& table,
+                          TableError<Scalar>* error);
+
 /// Largest error of the table against the model at joint angles `q`, for the worst wrench within
 /// the table's bounds: the second look at a certificate.
 template <typename Scalar, int Joints>

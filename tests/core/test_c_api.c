@@ -96,6 +96,27 @@ static void a_table_says_what_it_is(void) {
   TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_CORRUPT, flexcomp_table_open(memory, size, &table));
 }
 
+/* Whoever makes the checksum anew can copy the fingerprint too. */
+static void a_table_whose_springs_are_not_the_models_is_found_out(void) {
+  const flexcomp_model_t model = two_arms();
+  const size_t size = build_table(&model);
+  flexcomp_table_t table;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_open(memory, size, &table));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_check_model(&table, &model));
+  flexcomp_model_t other = two_arms();
+  other.joints[1].compliance *= 2;
+  TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_OTHER_MODEL, flexcomp_table_check_model(&table, &other));
+  other.joints[1].compliance = -1;
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_MODEL, flexcomp_table_check_model(&table, &other));
+  const size_t first_spring = 50; /* word of the header (flexcomp/table.hpp) */
+  float* spring = (float*)memory + first_spring + 1;
+  TEST_ASSERT_EQUAL_FLOAT(model.joints[1].compliance, *spring);
+  *spring *= -5; /* in place: the CRC was looked at when it was opened */
+  TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_OTHER_MODEL, flexcomp_table_check_model(&table, &model));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_check_model(NULL, &model));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_check_model(&table, NULL));
+}
+
 static void a_grid_table_can_be_built_too(void) {
   const flexcomp_model_t model = two_arms();
   const float lower[4] = {0, 0.5f, 0, 0.4f};
@@ -222,6 +243,7 @@ int main(void) {
   UNITY_BEGIN();
   RUN_TEST(deflection_follows_from_the_levers);
   RUN_TEST(a_table_says_what_it_is);
+  RUN_TEST(a_table_whose_springs_are_not_the_models_is_found_out);
   RUN_TEST(a_grid_table_can_be_built_too);
   RUN_TEST(a_loop_corrects_fades_and_resets);
   RUN_TEST(null_pointers_are_refused);

@@ -1,0 +1,112 @@
+#include "path_certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "instantiate.hpp"
+#include "path_chart.hpp"
+
+namespace flexcomp {
+namespace {
+
+/// Most points looked at on one move; past it a table is none that a builder would make.
+constexpr double kMostSteps = 1e6;
+
+template <typename Scalar, int Joints>
+JointVector<Scalar, Joints> read(const float* numbers) {
+  return Eigen::Map<const JointVector<float, Joints>>(numbers).template cast<Scalar>();
+}
+
+}  // namespace
+
+bool is_plausible_width(const float* from, const float* to, const RecordLayout& layout) {
+  const float width = from[layout.width];
+  if (to == nullptr) {
+    return width == 0.0F;
+  }
+  const double chord =
+      (read<double, 6>(to + layout.angles) - read<double, 6>(from + layout.angles)).norm();
+  return width > 0.99e-6F && static_cast<double>(width) <= 0.5 * chord + 1e-5;
+}
+
+template <typename Scalar, int Joints>
+void PathCertificate<Scalar, Joints>::check_move(const float* from, const float* to,
+                                                 const Angles& start, const Angles& motion,
+                                                 SegmentCheck<Scalar>* check) const {
+  const Scalar span = smallest_span(from, to, start, start + motion);
+  if (!(span > Scalar(0))) {
+    check->holds = false;
+    return;
+  }
+  const TableError<Scalar> curvature = curvature_of(from, to, motion, span);
+  const Scalar most = std::min(tolerance_.position / curvature.position,
+                               tolerance_.orientation / curvature.orientation);
+  const Scalar longest = std::sqrt(Scalar(8) * share_ * most);
+  const Scalar wanted = std::ceil(Scalar(1) / std::min(longest, Scalar(1)));
+  if (!(wanted <= Scalar(kMostSteps))) {
+    check->holds = false;
+    return;
+  }
+  const auto steps = static_cast<std::uint32_t>(wanted);
+  const Scalar step = Scalar(1) / static_cast<Scalar>(steps);
+  const Scalar between = step * step / Scalar(8);
+  for (std::uint32_t i = 0; i <= steps && check->holds; ++i) {
+    const Angles q = start + (static_cast<Scalar>(i) * step) * motion;
+    const Scalar t = place_on_segment<Scalar, Joints>(from, to, q).blend();
+    const TableEntry<Scalar, Joints> entry = blend_segment<Scalar, Joints>(from, to, layout_, t, q);
+    TableError<Scalar> error = entry_error(model_, exact_entry(model_, q), entry, bound_);
+    error.position += between * curvature.position + bounds_.rounding.position;
+    error.orientation += between * curvature.orientation + bounds_.rounding.orientation;
+    check->error = larger(check->error, error);
+    check->width = std::max(check->width, entry.outside);
+    check->holds =
+        error.position <= tolerance_.position && error.orientation <= tolerance_.orientation;
+  }
+}
+
+template <typename Scalar, int Joints>
+void PathCertificate<Scalar, Joints>::check_chord(const float* from, const float* to,
+                                                  SegmentCheck<Scalar>* check) const {
+  const Angles start = read<Scalar, Joints>(from + layout_.angles);
+  check_move(from, to, start, read<Scalar, Joints>(to + layout_.angles) - start, check);
+}
+
+/// Smallest distance between the segment's two planes along a move; zero if the move leaves the
+/// room between them or the planes lean too far towards each other for the blend to be smooth.
+template <typename Scalar, int Joints>
+Scalar PathCertificate<Scalar, Joints>::smallest_span(const float* from, const float* to,
+                                                      const Angles& start,
+                                                      const Angles& end) const {
+  const auto first = place_on_segment<Scalar, Joints>(from, to, start);
+  const auto second = place_on_segment<Scalar, Joints>(from, to, end);
+  const Scalar span = std::min(first.gone + first.left, second.gone + second.left);
+  const Scalar chord =
+      (read<Scalar, Joints>(to + layout_.angles) - read<Scalar, Joints>(from + layout_.angles))
+          .norm();
+  // Nodes are rounded to float, so the ends of a program piece may lie outside by that much.
+  const Scalar slack = Scalar(1e-6) + Scalar(1e-3) * chord;
+  const Scalar lowest =
+      std::min(std::min(first.gone, first.left), std::min(second.gone, second.left));
+  return lowest >= -slack && span >= Scalar(0.7) * chord ? span : Scalar(0);
+}
+
+template <typename Scalar, int Joints>
+TableError<Scalar> PathCertificate<Scalar, Joints>::curvature_of(const float* from, const float* to,
+                                                                 const Angles& motion,
+                                                                 Scalar span) const {
+  const Angles zero = Angles::Zero();
+  const Scalar speed = motion.norm();
+  const Scalar lean = (read<Scalar, Joints>(to + layout_.normal_in) -
+                       read<Scalar, Joints>(from + layout_.normal_out))
+                          .norm();
+  const SegmentMotion<Scalar> segment{motion.cwiseAbs().sum(), speed / span,
+                                      Scalar(2) * speed * speed * lean / (span * span)};
+  return segment_curvature(
+      bounds_, blend_segment<Scalar, Joints>(from, to, layout_, Scalar(0), zero),
+      blend_segment<Scalar, Joints>(from, to, layout_, Scalar(1), zero), bound_, segment);
+}
+
+#define FLEXCOMP_PATH_CERTIFICATE(Scalar, Joints) template class PathCertificate<Scalar, Joints>;
+FLEXCOMP_INSTANTIATE(FLEXCOMP_PATH_CERTIFICATE)
+
+}  // namespace flexcomp

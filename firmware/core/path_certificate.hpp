@@ -1,0 +1,61 @@
+#pragma once
+
+#include "table_certificate.hpp"
+
+namespace flexcomp {
+
+/// What the check of a path segment came to.
+template <typename Scalar>
+struct SegmentCheck {
+  bool holds = true;
+  TableError<Scalar> error;
+  Scalar width = 0;  ///< rad, how far what was checked strays from the chord
+};
+
+/// May a builder have written the width in a record? A program strays from the chord to the next
+/// node (none behind the last) by half of the chord at most; the builder sets nodes accordingly, and
+/// allows for 1 µrad of rounding.
+bool is_plausible_width(const float* from, const float* to, const RecordLayout& layout);
+
+/// Bounds a path table's error on moves between two of its nodes, from their records and the model
+/// alone: the builder's certificate, and what anyone can derive again from a table.
+template <typename Scalar, int Joints>
+class PathCertificate {
+ public:
+  using Angles = JointVector<Scalar, Joints>;
+
+  /// `share`: of the tolerance that may go to what happens between the points looked at.
+  PathCertificate(const RobotModel<Scalar, Joints>& model, const WrenchBound<Scalar>& bound,
+                  const TableError<Scalar>& tolerance, const RecordLayout& layout, Scalar share)
+      : model_(model),
+        bound_(bound),
+        tolerance_(tolerance),
+        bounds_(model_bounds(model, bound)),
+        layout_(layout),
+        share_(share) {}
+
+  /// What float arithmetic in a lookup can add; no certificate can be below it.
+  const TableError<Scalar>& rounding() const { return bounds_.rounding; }
+
+  /// Checks a straight move in joint space that lies between the planes of the two nodes.
+  void check_move(const float* from, const float* to, const Angles& start, const Angles& motion,
+                  SegmentCheck<Scalar>* check) const;
+
+  /// Checks the chord between two nodes: what can be looked at without the program.
+  void check_chord(const float* from, const float* to, SegmentCheck<Scalar>* check) const;
+
+ private:
+  Scalar smallest_span(const float* from, const float* to, const Angles& start,
+                       const Angles& end) const;
+  TableError<Scalar> curvature_of(const float* from, const float* to, const Angles& motion,
+                                  Scalar span) const;
+
+  const RobotModel<Scalar, Joints>& model_;
+  WrenchBound<Scalar> bound_;
+  TableError<Scalar> tolerance_;
+  ModelBounds<Scalar, Joints> bounds_;
+  RecordLayout layout_;
+  Scalar share_;
+};
+
+}  // namespace flexcomp
