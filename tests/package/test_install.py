@@ -18,19 +18,43 @@ def run(*command):
     ).stdout
 
 
+@unittest.skipIf(os.environ["FLEXCOMP_SANITIZED"] == "ON", "a sanitized library is not installed")
 class InstalledPackage(unittest.TestCase):
-    @unittest.skipIf(os.environ["FLEXCOMP_SANITIZED"] == "ON", "a sanitized library is not installed")
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        installed = self.folder / "first"
+        run("cmake", "--install", BUILD, "--prefix", installed)
+        self.prefix = self.folder / "moved"
+        installed.rename(self.prefix)
+
+    def build(self, project, *options):
+        build = self.folder / "build"
+        run("cmake", "-G", "Ninja", "-S", project, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
+            "-DCMAKE_C_COMPILER=" + os.environ["FLEXCOMP_C"], *options)
+        run("cmake", "--build", build)
+        return build
+
     def test_a_c_and_a_cpp_program_build_against_it_and_run(self):
-        with tempfile.TemporaryDirectory() as folder:
-            prefix = pathlib.Path(folder) / "prefix"
-            build = pathlib.Path(folder) / "build"
-            run("cmake", "--install", BUILD, "--prefix", prefix)
-            run("cmake", "-G", "Ninja", "-S", PROJECT, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
-                "-DCMAKE_C_COMPILER=" + os.environ["FLEXCOMP_C"],
-                "-DCMAKE_CXX_COMPILER=" + os.environ["FLEXCOMP_CXX"])
-            run("cmake", "--build", build)
-            self.assertRegex(run(build / "controller_loop"), r"^active: TCP would be off by ")
-            self.assertEqual(run(build / "deflection_at_a_posture"), "1.000 mm\n")
+        build = self.build(PROJECT, "-DCMAKE_CXX_COMPILER=" + os.environ["FLEXCOMP_CXX"])
+        self.assertRegex(run(build / "controller_loop"), r"^active: TCP would be off by ")
+        self.assertEqual(run(build / "deflection_at_a_posture"), "1.000 mm\n")
+
+    def test_a_project_of_c_alone_needs_no_eigen_and_no_cpp_compiler(self):
+        build = self.build(PROJECT / "c_alone", "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON",
+                           "-DCMAKE_CXX_COMPILER=no-such-compiler")
+        self.assertRegex(run(build / "controller_loop"), r"^active: TCP would be off by ")
+
+    def test_pkg_config_serves_a_c_compiler(self):
+        (package,) = self.prefix.rglob("flexcomp.pc")
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(package.parent)}
+        flags = subprocess.run(["pkg-config", "--cflags", "--libs", "flexcomp"], check=True, text=True,
+                               capture_output=True, env=environment).stdout.split()
+        self.assertNotIn(str(self.folder / "first"), " ".join(flags))
+        program = self.folder / "controller_loop"
+        run(os.environ["FLEXCOMP_C"], "-std=c11", PROJECT / "controller_loop.c", *flags, "-o", program)
+        self.assertRegex(run(program), r"^active: TCP would be off by ")
 
     def test_the_readme_shows_the_program_that_is_tested(self):
         shown = re.search(r"```c\n(.*?)```", (SOURCE / "README.md").read_text(), re.DOTALL)
