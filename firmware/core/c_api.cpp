@@ -165,7 +165,11 @@ flexcomp_result_t flexcomp_table_check_model(const flexcomp_table_t* table,
   if (table == nullptr || model == nullptr) {
     return FLEXCOMP_BAD_ARGUMENT;
   }
-  return to_c(flexcomp::check_against_model<float, kJoints>(convert(*model), view(*table)));
+  flexcomp::Table opened;
+  const flexcomp::Result result = view(*table, &opened);
+  return to_c(result == flexcomp::Result::ok
+                  ? flexcomp::check_against_model<float, kJoints>(convert(*model), opened)
+                  : result);
 }
 
 flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,

@@ -13,8 +13,8 @@ struct SegmentCheck {
 };
 
 /// May a builder have written the width in a record? A program strays from the chord to the next
-/// node (none behind the last) by half of the chord at most; the builder sets nodes accordingly, and
-/// allows for 1 µrad of rounding.
+/// node (none behind the last) by half of the chord at most; the builder sets nodes accordingly,
+/// and allows for 1 µrad of rounding.
 bool is_plausible_width(const float* from, const float* to, const RecordLayout& layout);
 
 /// Bounds a path table's error on moves between two of its nodes, from their records and the model

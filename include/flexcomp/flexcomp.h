@@ -184,10 +184,10 @@ flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_ta
 /// Does an open table say of the robot what the model says? Whoever has the model should ask before
 /// using a table from elsewhere: the fingerprint that a compensator compares is a claim of the
 /// table, while this compares the springs, joint limits and all else that a tick reads of its
-/// header. FLEXCOMP_OK, or BAD_ARGUMENT, BAD_MODEL, TABLE_OTHER_MODEL (its header says something
-/// else of the robot), TABLE_CORRUPT (a header that no builder writes). Cost: about 5,000
-/// operations. The records are looked at by `flexcomp table verify`, which derives the certificate
-/// again.
+/// header. FLEXCOMP_OK, or BAD_ARGUMENT, NO_TABLE (not opened), BAD_MODEL, TABLE_OTHER_MODEL (its
+/// header says something else of the robot), TABLE_CORRUPT (a header that no builder writes). Cost:
+/// about 5,000 operations. The records are looked at by `flexcomp table verify`, which derives the
+/// certificate again.
 flexcomp_result_t flexcomp_table_check_model(const flexcomp_table_t* table,
                                              const flexcomp_model_t* model);
 

@@ -113,6 +113,8 @@ static void a_table_whose_springs_are_not_the_models_is_found_out(void) {
   TEST_ASSERT_EQUAL_FLOAT(model.joints[1].compliance, *spring);
   *spring *= -5; /* in place: the CRC was looked at when it was opened */
   TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_OTHER_MODEL, flexcomp_table_check_model(&table, &model));
+  const flexcomp_table_t none = {0};
+  TEST_ASSERT_EQUAL(FLEXCOMP_NO_TABLE, flexcomp_table_check_model(&none, &model));
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_check_model(NULL, &model));
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_check_model(&table, NULL));
 }
