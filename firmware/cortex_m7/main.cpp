@@ -5,6 +5,7 @@
 #include "cortex_m7/board.hpp"
 #include "cortex_m7/fault_report.hpp"
 #include "cortex_m7/stack.hpp"
+#include "messages/table_trailer.hpp"
 
 namespace {
 
@@ -118,7 +119,7 @@ void check_table() {
   std::size_t size = 0;
   if (node->table_to_check(&data, &size)) {
     Table table;
-    const Result opened = Table::open(data, size, &table);
+    const Result opened = Table::open(data, flexcomp::bytes_of_table(data, size), &table);
     node->table_checked(opened, table);
   }
 }

@@ -20,6 +20,7 @@ struct LcmSample {
 /// What came of checking a table that was received.
 struct Verdict {
   std::uint32_t transfer = 0;  ///< TableReceived::transfer
+  Reply refused = Reply::ok;   ///< by whom it comes from; else:
   Result opened = Result::no_table;
   Table table;
 };
@@ -45,13 +46,18 @@ struct TableInUse {
   std::uint32_t transfer = 0;
 };
 
+/// The node has run with the table of this transfer (TableTrial); 0 for the table at start.
+struct TableHasRun {
+  std::uint32_t transfer = 0;
+};
+
 struct ConfigResult {
   Result result = Result::ok;
 };
 
 using ToRealTime = std::variant<std::monostate, SnapshotRequest, NodeConfig, Verdict>;
 using FromRealTime =
-    std::variant<std::monostate, TableReceived, TableInUse, ConfigResult, Snapshot>;
+    std::variant<std::monostate, TableReceived, TableInUse, TableHasRun, ConfigResult, Snapshot>;
 
 /// One direction between two threads: a queue, and a descriptor that wakes the receiver.
 template <typename Item>

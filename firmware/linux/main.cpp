@@ -17,6 +17,7 @@
 #include "linux/service.hpp"
 #include "linux/unprivileged_user.hpp"
 #include "linux/whole_file.hpp"
+#include "node/reply.hpp"
 
 namespace flexcomp {
 namespace {
@@ -32,11 +33,36 @@ struct Slots {
   std::vector<std::uint32_t> second;
 };
 
-std::optional<std::vector<char>> initial_table(const Options& options) {
+struct InitialTable {
+  std::string file;  ///< or directory
+  std::vector<char> bytes;
+  std::uint32_t counter = 0;  ///< with a key
+};
+
+/// The table that was last in use before; with a key only one that has run and may run still.
+std::optional<InitialTable> kept_table(const Options& options, const TableAdmission* admission) {
+  const SlotFiles slots(options.state_directory);
+  std::optional<std::vector<char>> bytes = admission == nullptr
+                                               ? slots.newest(options.table_capacity)
+                                               : slots.confirmed(options.table_capacity);
+  if (!bytes) {
+    return std::nullopt;
+  }
+  InitialTable table{options.state_directory, std::move(*bytes)};
+  if (admission != nullptr) {
+    const Reply reply = admission->judge(table.bytes.data(), table.bytes.size(), &table.counter);
+    if (reply != Reply::ok) {
+      complain(options.state_directory +
+               ": not used: " + describe_reply(static_cast<std::uint8_t>(reply)));
+      return std::nullopt;
+    }
+  }
+  return table;
+}
+
+std::optional<InitialTable> initial_table(const Options& options, const TableAdmission* admission) {
   if (!options.state_directory.empty()) {
-    std::optional<std::vector<char>> kept =
-        SlotFiles(options.state_directory).newest(options.table_capacity);
-    if (kept) {
+    if (std::optional<InitialTable> kept = kept_table(options, admission)) {
       return kept;
     }
   }
@@ -47,17 +73,39 @@ std::optional<std::vector<char>> initial_table(const Options& options) {
   if (!bytes) {
     throw std::runtime_error(options.table + ": there is no such file");
   }
-  return bytes;
+  InitialTable table{options.table, std::move(*bytes)};
+  if (admission != nullptr) {
+    const Reply reply = admission->judge(table.bytes.data(), table.bytes.size(), &table.counter);
+    if (reply != Reply::ok) {
+      throw std::runtime_error(options.table + ": " +
+                               describe_reply(static_cast<std::uint8_t>(reply)));
+    }
+  }
+  return table;
+}
+
+/// With a key: which tables are taken, after those that have run.
+std::optional<TableAdmission> admission_of_tables(const Options& options) {
+  if (options.key.empty()) {
+    return std::nullopt;
+  }
+  const std::uint32_t highest =
+      options.state_directory.empty() ? 0 : SlotFiles(options.state_directory).counter();
+  return TableAdmission(read_key(options.key), highest);
 }
 
 /// Puts the first table into slot 0. A damaged one ends the program; one that is refused for
 /// another reason is reported over the bus when somebody wants to arm.
-void load_table(const Options& options, const std::vector<char>& bytes, Slots* slots, Node* node) {
-  std::memcpy(slots->first.data(), bytes.data(), bytes.size());
+void load_table(const Options& options, const InitialTable& initial, Slots* slots, Node* node) {
+  std::memcpy(slots->first.data(), initial.bytes.data(), initial.bytes.size());
   Table table;
-  const Result opened = Table::open(slots->first.data(), bytes.size(), &table);
+  const Result opened = Table::open(
+      slots->first.data(), bytes_of_table(slots->first.data(), initial.bytes.size()), &table);
   if (opened != Result::ok) {
-    throw std::runtime_error(options.table + ": " + describe(opened));
+    throw std::runtime_error(initial.file + ": " + describe(opened));
+  }
+  if (!options.key.empty()) {
+    complain(fmt::format("starts with table version {} of {}", initial.counter, initial.file));
   }
   const Result used = node->start_with(0, table);
   if (used == Result::gain_too_high) {
@@ -116,8 +164,11 @@ int serve(const Options& options, Service::Reread reread) {
   if (!options.key.empty()) {
     authentication = std::make_unique<MessageAuthentication>(read_key(options.key), freshness_now);
   }
+  std::optional<TableAdmission> admission = admission_of_tables(options);
+  const std::optional<InitialTable> table =
+      initial_table(options, admission ? &*admission : nullptr);
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
-  if (const std::optional<std::vector<char>> table = initial_table(options)) {
+  if (table) {
     load_table(options, *table, &slots, node.get());
   } else {
     complain("no table yet; waiting for one over the bus");
@@ -126,7 +177,8 @@ int serve(const Options& options, Service::Reread reread) {
   Service::block_signals();
   Background background;
   auto exchange = std::make_unique<Exchange>();
-  Service service(options, std::move(reread), exchange.get(), &background);
+  Service service(options, std::move(reread), std::move(admission), table ? table->counter : 0,
+                  exchange.get(), &background);
   RealTimeLoop loop(options, node.get(), &can, authentication.get(), exchange.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
   const StopAtEnd stop_at_end(exchange.get());

@@ -57,9 +57,10 @@ void add_links(OptionList* app, Options* options) {
   app->add_fixed("--can", &options->can, "CAN interface, such as can0");
   app->add_fixed("--fd", &options->fd, "answer with CAN FD frames");
   app->add_fixed("--lcm", &options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
-  app->add_fixed("--key", &options->key,
-                 "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
-                 "authenticated with it (CAN only; SECURITY.md)");
+  app->add_fixed(
+      "--key", &options->key,
+      "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
+      "authenticated with it, and take only tables signed with it (CAN only; SECURITY.md)");
   const std::map<std::string, Trigger> triggers = {
       {"setpoint", Trigger::setpoint}, {"clock", Trigger::clock}, {"lockstep", Trigger::lockstep}};
   app->add_fixed("--trigger", &options->settings.trigger,

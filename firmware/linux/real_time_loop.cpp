@@ -143,8 +143,13 @@ void RealTimeLoop::take(const Verdict& verdict) {
     return;  // it comes too late: the transfer was given up
   }
   awaits_verdict_ = false;
-  if (node_->conclude_transfer(verdict.opened, verdict.table) == Result::ok) {
-    exchange_->from_real_time.send(TableInUse{transfer_});
+  if (verdict.refused != Reply::ok) {
+    node_->refuse_transfer(verdict.refused);
+  } else if (node_->conclude_transfer(verdict.opened, verdict.table) == Result::ok) {
+    in_use_ = transfer_;
+    trial_.begin();
+    trial_told_ = false;
+    exchange_->from_real_time.send(TableInUse{in_use_});
   }
 }
 
@@ -261,7 +266,12 @@ void RealTimeLoop::tick(std::int64_t now) {
   node_->set_link(state);
   sender_.tick();
 
-  send(node_->tick(now));
+  const CorrectedMessage corrected = node_->tick(now);
+  send(corrected);
+  trial_.observe(corrected);
+  if (trial_.has_run() && !trial_told_) {
+    trial_told_ = exchange_->from_real_time.send(TableHasRun{in_use_});
+  }
   if (answers_setpoint_) {
     answers_setpoint_ = false;
     node_->record_latency(monotonic_now() - setpoint_at_);

@@ -7,6 +7,7 @@
 #include "messages/message_authentication.hpp"
 #include "node/can_link.hpp"
 #include "node/lcm_receiver.hpp"
+#include "node/table_trial.hpp"
 
 namespace flexcomp {
 
@@ -74,6 +75,9 @@ class RealTimeLoop {
   std::int64_t steps_ = 0;      ///< ticks of Trigger::lockstep
   std::uint32_t transfer_ = 0;  ///< the one that waits for a verdict, or did so last
   bool awaits_verdict_ = false;
+  std::uint32_t in_use_ = 0;  ///< the transfer that the table in use came with; 0 at start
+  TableTrial trial_;
+  bool trial_told_ = false;
   std::int64_t verdict_due_ = 0;
   std::uint32_t lcm_dropped_ = 0;
   bool stopping_ = false;

@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <exception>
 #include <initializer_list>
+#include <utility>
 
 #include "linux/complaint.hpp"
 #include "linux/statistics_file.hpp"
 #include "linux/whole_file.hpp"
+#include "node/reply.hpp"
 
 namespace flexcomp {
 namespace {
@@ -33,12 +35,18 @@ std::shared_ptr<const std::vector<char>> copy_of(const TableReceived& received) 
 
 }  // namespace
 
-Service::Service(const Options& options, Reread reread, Exchange* exchange, Background* background)
+Service::Service(const Options& options, Reread reread, std::optional<TableAdmission> signed_tables,
+                 std::uint32_t counter, Exchange* exchange, Background* background)
     : options_(options),
       reread_(std::move(reread)),
       exchange_(exchange),
       background_(background),
-      configurations_(std::make_shared<Channel<std::optional<NodeConfig>>>()) {
+      configurations_(std::make_shared<Channel<std::optional<NodeConfig>>>()),
+      signed_tables_(std::move(signed_tables)),
+      counter_in_use_(counter) {
+  if (!options.state_directory.empty()) {
+    slots_ = std::make_shared<SlotFiles>(options.state_directory);
+  }
   const sigset_t set = served_signals();
   signals_ = FileDescriptor(signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!options.lcm.empty()) {
@@ -134,6 +142,8 @@ void Service::on_real_time() {
       check(*received);
     } else if (const auto* in_use = std::get_if<TableInUse>(&item)) {
       keep(*in_use);
+    } else if (const auto* has_run = std::get_if<TableHasRun>(&item)) {
+      confirm(*has_run);
     } else if (const auto* config = std::get_if<ConfigResult>(&item)) {
       reads_configuration_ = false;
       background_->say(std::string("new configuration: ") + describe(config->result));
@@ -175,35 +185,80 @@ void Service::on_configuration() {
 }
 
 void Service::check(const TableReceived& received) {
+  received_ = nullptr;
+  received_transfer_ = received.transfer;
   Verdict verdict;
-  verdict.transfer = received.transfer;
-  verdict.opened = Table::open(received.data, received.size, &verdict.table);
-  if (verdict.opened == Result::ok && !options_.state_directory.empty()) {
-    received_ = copy_of(received);
-    received_transfer_ = received.transfer;
+  try {
+    verdict = judge(received);
+    if (verdict.refused == Reply::ok && verdict.opened == Result::ok && slots_ != nullptr) {
+      received_ = copy_of(received);
+    }
+  } catch (const std::exception&) {  // no memory: the table in use stays
+    verdict.refused = Reply::transfer_not_checked;
   }
+  verdict.transfer = received.transfer;
   exchange_->to_real_time.send(verdict);
-  background_->say("table of " + std::to_string(received.size) +
-                   " bytes received: " + describe(verdict.opened));
+  background_->say("table of " + std::to_string(received.size) + " bytes received: " +
+                   (verdict.refused != Reply::ok
+                        ? describe_reply(static_cast<std::uint8_t>(verdict.refused))
+                        : describe(verdict.opened)));
 }
 
+Verdict Service::judge(const TableReceived& received) {
+  Verdict verdict;
+  if (signed_tables_) {
+    verdict.refused = signed_tables_->judge(received.data, received.size, &received_counter_);
+  }
+  if (verdict.refused == Reply::ok) {
+    verdict.opened =
+        Table::open(received.data, bytes_of_table(received.data, received.size), &verdict.table);
+  }
+  return verdict;
+}
+
+/// With a key a table is on trial until it has run.
 void Service::keep(const TableInUse& in_use) {
-  if (options_.state_directory.empty() || received_ == nullptr ||
-      in_use.transfer != received_transfer_) {
+  if (in_use.transfer != received_transfer_) {
     return;
   }
-  const bool started =
-      background_->start([directory = options_.state_directory, table = received_] {
-        try {
-          SlotFiles(directory).keep(table->data(), table->size());
-        } catch (const std::exception& error) {
-          complain(std::string("the table is in use but not kept: ") + error.what());
-        }
-      });
-  received_ = nullptr;
+  counter_in_use_ = received_counter_;
+  const auto table = std::exchange(received_, nullptr);
+  if (slots_ == nullptr || table == nullptr) {
+    return;
+  }
+  const bool on_trial = signed_tables_.has_value();
+  const bool started = background_->start([slots = slots_, table, on_trial] {
+    try {
+      slots->stage(table->data(), table->size());
+      if (!on_trial) {
+        slots->confirm();
+      }
+    } catch (const std::exception& error) {
+      complain(std::string("the table is in use but not kept: ") + error.what());
+    }
+  });
   if (!started) {
     background_->say("the table is in use but not kept: the disk is too slow");
   }
+}
+
+/// The counter is raised last: should the power go before, the same table starts again. It is not
+/// raised where the table could not be kept: there would be none left to start with.
+void Service::confirm(const TableHasRun& has_run) {
+  if (!signed_tables_) {
+    return;
+  }
+  signed_tables_->has_run(counter_in_use_);
+  if (slots_ == nullptr) {
+    return;
+  }
+  const bool was_there = has_run.transfer == 0;
+  background_->start([slots = slots_, counter = counter_in_use_, was_there] {
+    if (slots->confirm() || was_there) {
+      slots->raise_counter(counter);
+      complain("has run with table version " + std::to_string(counter));
+    }
+  });
 }
 
 void Service::report(const Snapshot& snapshot) {

@@ -9,6 +9,7 @@
 #include "linux/lcm_link.hpp"
 #include "linux/options.hpp"
 #include "linux/slot_files.hpp"
+#include "linux/table_admission.hpp"
 
 namespace flexcomp {
 
@@ -20,7 +21,10 @@ class Service {
 
   /// `reread`: the options again, from the same command line; nothing if they are unusable now. It
   /// may take long.
-  Service(const Options& options, Reread reread, Exchange* exchange, Background* background);
+  /// With a key: `signed_tables` says which tables are taken, and `counter` is that of the table at
+  /// start.
+  Service(const Options& options, Reread reread, std::optional<TableAdmission> signed_tables,
+          std::uint32_t counter, Exchange* exchange, Background* background);
 
   /// Signals that ask for something wait from now on until it runs. Those that end still end the
   /// process at once.
@@ -40,7 +44,9 @@ class Service {
   void read_configuration();
   void on_configuration();
   void check(const TableReceived& received);
+  Verdict judge(const TableReceived& received);
   void keep(const TableInUse& in_use);
+  void confirm(const TableHasRun& has_run);
   void report(const Snapshot& snapshot);
   void wait_for_end();
 
@@ -54,7 +60,11 @@ class Service {
   std::shared_ptr<Channel<std::optional<NodeConfig>>> configurations_;
   bool reads_configuration_ = false;
   bool awaits_snapshot_ = false;
+  std::optional<TableAdmission> signed_tables_;
+  std::uint32_t counter_in_use_;
+  std::shared_ptr<SlotFiles> slots_;  ///< null without a directory; used in the background alone
   std::uint32_t received_transfer_ = 0;
+  std::uint32_t received_counter_ = 0;
   std::shared_ptr<const std::vector<char>> received_;  ///< a copy, which no transfer writes over
 };
 

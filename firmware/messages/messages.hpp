@@ -108,6 +108,9 @@ enum class Reply : std::uint8_t {
   transfer_out_of_order = 37,
   transfer_crc = 38,
   transfer_not_checked = 39,  ///< it could not be checked in time
+  table_not_signed = 40,      ///< this and the next two only where a key is configured
+  table_forged = 41,          ///< the signature is of another key, or of other content
+  table_older = 42,           ///< than one that has run
 };
 
 struct TransferReplyMessage {

@@ -109,16 +109,16 @@ Result Node::start_with(std::size_t place, const Table& table, Result opened) {
 
 Result Node::conclude_transfer(Result opened, const Table& table) {
   const Result result = opened == Result::ok ? put_to_use(table) : opened;
-  end_transfer(number(result));
+  end_transfer(number(result), result == Result::ok ? table.size() : 0);
   return result;
 }
 
-void Node::refuse_transfer(Reply reason) { end_transfer(number(reason)); }
+void Node::refuse_transfer(Reply reason) { end_transfer(number(reason), 0); }
 
-void Node::end_transfer(std::uint8_t result) {
+void Node::end_transfer(std::uint8_t result, std::size_t size) {
   table_result_ = result;
   const bool in_use = result == number(Result::ok);
-  store_.conclude(in_use);
+  store_.conclude(size);
   post(TransferReplyMessage{TransferStage::end, result, store_.words_received()});
   if (in_use) {
     announce(kTableInUseCode, static_cast<std::uint32_t>(store_.active() + 1));

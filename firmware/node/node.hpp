@@ -119,7 +119,7 @@ class Node {
   std::int64_t made_at(std::int64_t timestamp, TransportDelay* delay, std::int64_t now) const;
   std::uint8_t arm();
   Result put_to_use(const Table& table);
-  void end_transfer(std::uint8_t result);
+  void end_transfer(std::uint8_t result, std::size_t size);
   void reply(TransferStage stage, Reply result);
   void post(const Message& message);
   bool has_room(const Message& message) const;

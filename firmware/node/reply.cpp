@@ -25,6 +25,12 @@ const char* describe_reply(std::uint8_t reply) {
       return "the table was damaged on its way";
     case Reply::transfer_not_checked:
       return "the table was not checked in time";
+    case Reply::table_not_signed:
+      return "the table is not signed (flexcomp table sign)";
+    case Reply::table_forged:
+      return "the table's signature is of another key or of other content";
+    case Reply::table_older:
+      return "the table is older than one that has run";
   }
   return describe(static_cast<Result>(reply));
 }

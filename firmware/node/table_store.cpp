@@ -61,10 +61,10 @@ const void* TableStore::received(std::size_t* size) const {
   return slots_[receiving_slot()].words;
 }
 
-void TableStore::conclude(bool use_it) {
-  if (phase_ == Phase::complete && use_it) {
+void TableStore::conclude(std::size_t size) {
+  if (phase_ == Phase::complete && size > 0) {
     const std::size_t slot = receiving_slot();
-    use(slot, slots_[slot].words, words_ * sizeof(std::uint32_t));
+    use(slot, slots_[slot].words, size);
   }
   phase_ = Phase::idle;
 }

@@ -33,8 +33,9 @@ class TableStore {
   /// The bytes of the slot that receives, once a transfer is complete; null before.
   const void* received(std::size_t* size) const;
 
-  /// Ends the check of what was received. If it is to be used, its slot becomes the one in use.
-  void conclude(bool use);
+  /// Ends the check of what was received. If it is to be used its slot becomes the one in use, with
+  /// a table of `size` bytes in it; with 0 it is not.
+  void conclude(std::size_t size);
 
   /// Puts a table to use that stands in a slot (0 or 1) or in fixed memory, at start.
   void use(std::size_t place, const void* table, std::size_t size);

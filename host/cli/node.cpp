@@ -12,6 +12,7 @@
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "linux/clock.hpp"
+#include "messages/table_trailer.hpp"
 #include "node/reply.hpp"
 #include "simulation/plant_bus.hpp"
 
@@ -57,26 +58,28 @@ int command(const NodeOptions& options, Command wanted) {
   return reply.reply == 0 ? kDone : kDoesNotHold;
 }
 
-/// The words of a table file, checked.
-std::vector<std::uint32_t> read_words(const std::string& file, TableHeader* header) {
+/// The words of a table file, with its signature if it has one; checked.
+std::vector<std::uint32_t> read_words(const std::string& file) {
   const std::string bytes = files::read_file(file, std::size_t{1} << 20);
   std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
   std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
   Table table;
-  const Result opened = Table::open(words.data(), bytes.size(), &table);
+  const Result opened =
+      bytes.size() % sizeof(std::uint32_t) == 0
+          ? Table::open(words.data(), bytes_of_table(words.data(), bytes.size()), &table)
+          : Result::table_corrupt;
   if (opened != Result::ok) {
     throw InputError(fmt::format("{}: {}", file, describe(opened)));
   }
-  *header = table.header();
   return words;
 }
 
 int send_table(const NodeOptions& options) {
-  TableHeader header{};
-  const std::vector<std::uint32_t> words = read_words(options.table, &header);
+  const std::vector<std::uint32_t> words = read_words(options.table);
+  const auto size = static_cast<std::uint32_t>(words.size() * sizeof(std::uint32_t));
   const auto bus = simulation::open_plant_bus(options.bus, options.key);
-  const std::uint32_t crc = crc32(words.data(), header.size);
-  bus->send(TransferBeginMessage{header.size, crc});
+  const std::uint32_t crc = crc32(words.data(), size);
+  bus->send(TransferBeginMessage{size, crc});
   TransferReplyMessage reply = wait_for<TransferReplyMessage>(bus.get(), options.bus);
   if (reply.result != 0) {
     fmt::print("{}\n", describe_reply(reply.result));

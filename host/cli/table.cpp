@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
+#include "cli/table_signing.hpp"
 #include "control/path_gain.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
@@ -33,11 +34,13 @@ struct BuildOptions {
   double depth_of_cut = 0;
   simulation::MaterialSide material = simulation::MaterialSide::outside;
   control::CorrectionLoop loop;
+  SigningOptions signing;
   bool json = false;
 };
 
 struct VerifyOptions {
   std::string model;
+  std::string key;
   std::string table;
   std::string path;
   double depth_of_cut = 0;
@@ -119,10 +122,9 @@ int run_build(const BuildOptions& options) {
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", options.path, error.what()));
   }
-  files::write_file(options.out, [&](std::ostream& stream) {
-    stream.write(reinterpret_cast<const char*>(words.data()),
-                 static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));
-  });
+  const std::string bytes(reinterpret_cast<const char*>(words.data()),
+                          words.size() * sizeof(std::uint32_t));
+  files::write_text(options.out, bytes + trailer_for(bytes, options.signing));
   Table table;
   Table::open(words.data(), 4 * words.size(), &table);
   if (options.json) {
@@ -251,6 +253,8 @@ GainCheck check_gain(const VerifyOptions& options, const model::Robot& robot, co
 }
 
 int run_verify(const VerifyOptions& options) {
+  const bool is_signed = !options.key.empty();
+  const std::uint32_t version = is_signed ? signed_version(options.table, options.key) : 0;
   const model::Robot robot = model::load_robot(options.model);
   const TableFile file = read_unproven_table(options.table, robot);
   const Certificate certificate = derive_certificate(options.table, robot, file.table);
@@ -261,6 +265,9 @@ int run_verify(const VerifyOptions& options) {
                      worst.orientation <= header.orientation_error;
   if (options.json) {
     nlohmann::ordered_json json = summary(file.table);
+    if (is_signed) {
+      json["signed_version"] = version;
+    }
     json["samples"] = options.samples;
     json["largest_position_error"] = worst.position;
     json["largest_orientation_error"] = worst.orientation;
@@ -270,6 +277,9 @@ int run_verify(const VerifyOptions& options) {
     json["holds"] = holds && gain.holds;
     fmt::print("{}\n", json.dump(2));
   } else {
+    if (is_signed) {
+      fmt::print("signed with this key, as version {}\n", version);
+    }
     fmt::print(
         "largest error found at {} places: {:.4g} µm, {:.4g} µrad\n"
         "bound derived from its nodes:     {:.4g} µm, {:.4g} µrad\n"
@@ -313,7 +323,8 @@ void add_table(CLI::App* app, Action* action) {
       "table",
       "The robot's compliance along a program, for the controller, with a certified error.\n"
       "Example: flexcomp table --model robot.yaml --path path.csv --tolerance 1e-6 --out t.fct\n"
-      "         flexcomp table verify t.fct --model robot.yaml");
+      "         flexcomp table verify t.fct --model robot.yaml\n"
+      "         flexcomp table sign t.fct --key key --counter 7");
   auto build = std::make_shared<BuildOptions>();
   auto verify = std::make_shared<VerifyOptions>();
   command->require_subcommand(0, 1);
@@ -329,6 +340,7 @@ void add_table(CLI::App* app, Action* action) {
   command->add_option("--moment", build->moment,
                       "N·m, largest moment to certify for; if not given, 1.1 times the path's");
   add_process(command, build.get());
+  add_signing(command, &build->signing);
   command->add_flag("--json", build->json, "print the certificate as JSON");
 
   CLI::App* check = command->add_subcommand("verify",
@@ -341,6 +353,7 @@ void add_table(CLI::App* app, Action* action) {
                                             "robot.");
   check->add_option("table", verify->table, "table to check")->required();
   check->add_option("--model", verify->model, "robot.yaml")->required();
+  check->add_option("--key", verify->key, "the table must be signed with the key in this file");
   check->add_option("--path", verify->path,
                     "look along this program too, besides the chords between the table's nodes");
   add_process(check, verify.get());
@@ -348,9 +361,11 @@ void add_table(CLI::App* app, Action* action) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}));
   check->add_flag("--json", verify->json, "print the result as JSON");
 
+  CLI::App* sign = add_table_sign(command, action);
+
   check->callback([=] { *action = [=] { return run_verify(*verify); }; });
   command->callback([=] {
-    if (check->parsed()) {
+    if (check->parsed() || sign->parsed()) {
       return;
     }
     for (const CLI::Option* option : {model, path, out}) {

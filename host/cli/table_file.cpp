@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "messages/table_trailer.hpp"
 
 namespace flexcomp::cli {
 
@@ -23,7 +24,8 @@ TableFile read_unproven_table(const std::filesystem::path& path, const model::Ro
   TableFile file;
   file.words.resize((bytes.size() + 3) / 4);
   std::memcpy(file.words.data(), bytes.data(), bytes.size());
-  const Result opened = Table::open(file.words.data(), bytes.size(), &file.table);
+  const Result opened =
+      Table::open(file.words.data(), bytes_of_table(bytes.data(), bytes.size()), &file.table);
   if (opened != Result::ok) {
     refuse(path, describe(opened));
   }

@@ -142,6 +142,7 @@ class Authentication(HilTest):
         cls.key = folder / "key"
         cls.key.touch(0o600)
         cls.key.write_text(KEY + "\n")
+        flexcomp("table", "sign", cls.job.table, "--key", cls.key, "--counter", 1)
 
     def plant(self, *options, bus=f"can:{BUS}"):
         command = [BIN / "flexcomp", "plant", "--model", self.job.model, "--path", self.job.path, "--period", PERIOD,

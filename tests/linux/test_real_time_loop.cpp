@@ -105,9 +105,21 @@ void a_table_that_nobody_checks_is_given_up_and_the_next_one_taken() {
   const auto second = running.next<TableReceived>(2);
   TEST_ASSERT_TRUE(second.has_value());
   // The verdict on the first comes after all, and is not taken for one on the second.
-  running.exchange->to_real_time.send(Verdict{first->transfer, Result::table_version, {}});
-  running.exchange->to_real_time.send(Verdict{second->transfer, Result::table_corrupt, {}});
+  running.exchange->to_real_time.send(
+      Verdict{first->transfer, Reply::ok, Result::table_version, {}});
+  running.exchange->to_real_time.send(
+      Verdict{second->transfer, Reply::ok, Result::table_corrupt, {}});
   TEST_ASSERT_EQUAL(static_cast<int>(Result::table_corrupt), answer(&running, 2).value_or(0));
+}
+
+void a_table_that_is_refused_unopened_is_answered_with_the_reason() {
+  Running running;
+  running.send_table();
+  const auto received = running.next<TableReceived>(2);
+  TEST_ASSERT_TRUE(received.has_value());
+  running.exchange->to_real_time.send(
+      Verdict{received->transfer, Reply::table_older, Result::no_table, {}});
+  TEST_ASSERT_EQUAL(number(Reply::table_older), answer(&running, 2).value_or(0));
 }
 
 void a_table_is_handed_over_as_soon_as_there_is_room() {
@@ -136,6 +148,7 @@ void a_stop_and_the_end_are_told_when_all_queues_are_full() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(a_table_that_nobody_checks_is_given_up_and_the_next_one_taken);
+  RUN_TEST(a_table_that_is_refused_unopened_is_answered_with_the_reason);
   RUN_TEST(a_table_is_handed_over_as_soon_as_there_is_room);
   RUN_TEST(a_stop_and_the_end_are_told_when_all_queues_are_full);
   return UNITY_END();
