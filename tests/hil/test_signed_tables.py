@@ -13,7 +13,7 @@ PERIOD = 0.01
 class SignedTables(HilTest):
     def setUp(self):
         super().setUp()
-        self.job = Job(self.folder, period=PERIOD)
+        self.job = Job(self.folder, "kr270", 0.02, period=PERIOD)  # time enough to run with two tables
         self.job.be_patient()
         self.key = self.folder / "key"
         self.key.touch(0o600)
