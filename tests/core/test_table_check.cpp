@@ -197,7 +197,8 @@ void every_part_of_a_record_that_lies_is_refused_or_within_the_certificate() {
                       Table::open(subject.words.data(), 4 * subject.words.size(), &table));
     const std::vector<float> truth = responses(subject.words, subject.setpoints);
     const RecordLayout layout = record_layout(table);
-    for (const std::uint32_t node : {0U, 1U, table.header().node_count - 1}) {
+    for (const std::uint32_t node :
+         {std::uint32_t{0}, std::uint32_t{1}, table.header().node_count - 1}) {
       for (std::uint32_t i = 0; i < layout.size; ++i) {
         const std::size_t at = kHeaderWords + std::size_t{node} * layout.size + i;
         float number = 0;
