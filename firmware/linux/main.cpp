@@ -177,8 +177,8 @@ int serve(const Options& options, Service::Reread reread) {
   Service::block_signals();
   Background background;
   auto exchange = std::make_unique<Exchange>();
-  Service service(options, std::move(reread), std::move(admission), table ? table->counter : 0,
-                  exchange.get(), &background);
+  Service service(options, std::move(reread), admission, table ? table->counter : 0, exchange.get(),
+                  &background);
   RealTimeLoop loop(options, node.get(), &can, authentication.get(), exchange.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
   const StopAtEnd stop_at_end(exchange.get());

@@ -42,7 +42,7 @@ Service::Service(const Options& options, Reread reread, std::optional<TableAdmis
       exchange_(exchange),
       background_(background),
       configurations_(std::make_shared<Channel<std::optional<NodeConfig>>>()),
-      signed_tables_(std::move(signed_tables)),
+      signed_tables_(signed_tables),
       counter_in_use_(counter) {
   if (!options.state_directory.empty()) {
     slots_ = std::make_shared<SlotFiles>(options.state_directory);

@@ -308,11 +308,12 @@ const Row* find_row(const std::string& effect, const std::string& parameter) {
   const auto holds = [&](const Row& row) {
     return effect == row.effect && std::strstr(row.parameters, (" " + parameter + " ").c_str());
   };
-  const auto plain = std::find_if(std::begin(kTable), std::end(kTable), holds);
+  const auto* const plain = std::find_if(std::begin(kTable), std::end(kTable), holds);
   if (plain != std::end(kTable)) {
     return plain;
   }
-  const auto of_form = std::find_if(std::begin(kTableOfForms), std::end(kTableOfForms), holds);
+  const auto* const of_form =
+      std::find_if(std::begin(kTableOfForms), std::end(kTableOfForms), holds);
   return of_form != std::end(kTableOfForms) ? of_form : nullptr;
 }
 

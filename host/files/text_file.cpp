@@ -78,8 +78,8 @@ class TemporaryFile {
       : asked_(std::move(asked)),
         target_(std::move(target)),
         path_(target_.string() + fmt::format(".{}.part", ::getpid())) {
-    const auto free = std::find_if(unfinished_files.begin(), unfinished_files.end(),
-                                   [](const auto& name) { return name[0] == '\0'; });
+    auto* const free = std::find_if(unfinished_files.begin(), unfinished_files.end(),
+                                    [](const auto& name) { return name[0] == '\0'; });
     const std::size_t length = path_.native().size();
     if (free != unfinished_files.end() && length < free->size()) {
       path_.native().copy(free->data(), length);

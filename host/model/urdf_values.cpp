@@ -52,8 +52,9 @@ std::optional<double> decimal_number(std::string_view word) {
     word.remove_prefix(1);
   }
   double value = 0;
-  const char* const end = word.data() + word.size();
-  const auto read = std::from_chars(word.data(), end, value);
+  const char* const begin = word.data();
+  const char* const end = begin + word.size();
+  const auto read = std::from_chars(begin, end, value);
   const bool is_number = read.ec == std::errc{} && read.ptr == end && std::isfinite(value);
   return is_number ? std::optional(value) : std::nullopt;
 }

@@ -234,6 +234,16 @@ void tables_of_either_precision_are_found_true() {
   }
 }
 
+void a_table_of_a_robot_that_gives_nowhere_is_exact() {
+  Model model = kr270<double>();
+  for (auto& joint : model.joints) {
+    joint.compliance = 0;
+  }
+  const Subject subject = path_subject(model);
+  TEST_ASSERT_FALSE(is_refused(model, subject.words));
+  TEST_ASSERT_TRUE(is_refused(kr270<double>(), subject.words));
+}
+
 void a_table_of_another_robot_is_refused_whatever_its_fingerprint() {
   const Subject subject = path_subject(kr270<double>());
   Model other = kr270<double>();
@@ -268,6 +278,7 @@ int main() {
   RUN_TEST(springs_limits_and_bounds_that_lie_are_refused);
   RUN_TEST(every_part_of_a_record_that_lies_is_refused_or_within_the_certificate);
   RUN_TEST(tables_of_either_precision_are_found_true);
+  RUN_TEST(a_table_of_a_robot_that_gives_nowhere_is_exact);
   RUN_TEST(a_table_of_another_robot_is_refused_whatever_its_fingerprint);
   RUN_TEST(what_is_no_table_or_no_model_is_refused);
   return UNITY_END();

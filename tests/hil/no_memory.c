@@ -1,5 +1,5 @@
-/* Preloaded into flexcompd by the tests: while the file named by FLEXCOMP_NO_MEMORY exists, its first
- * thread, which serves signals, gets no memory. */
+/* Preloaded into flexcompd by the tests: while the file named by FLEXCOMP_NO_MEMORY exists, its
+ * first thread, which serves signals, gets no memory. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <stdlib.h>

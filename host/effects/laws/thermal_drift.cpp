@@ -18,7 +18,7 @@ Eigen::VectorXd approach(const Eigen::VectorXd& time, double constant) {
 /// How far the structure has grown at every row of a scene.
 using Growth = Eigen::VectorXd (*)(const Scene&, const Values&);
 
-Eigen::VectorXd by_temperature(const Scene& scene, const Values&) {
+Eigen::VectorXd by_temperature(const Scene& scene, const Values& /*values*/) {
   return warming(scene.temperature);
 }
 
