@@ -30,20 +30,29 @@ struct CompensateOptions {
   bool json = false;
 };
 
+/// The gain that the core takes with a table. A program that is corrected beforehand closes no loop
+/// through the process, so what a table allows a controller does not matter: the correction is
+/// linear in the gain, and is divided by it afterwards.
+double offline_gain(const Table& table) {
+  const auto largest = static_cast<double>(table.header().largest_gain);
+  return largest > 0 ? std::min(largest, 1.0) : 1.0;
+}
+
 /// The core as an offline tool: no filter, no fading, and limits that only a fault would meet, so
 /// that every row gets its full correction.
 Core::Config offline_config(const model::Robot& robot, const Table& table) {
   Core::Config config;
   config.period = 1;
   config.model_hash = model_hash(robot.elastic);
+  config.gain = offline_gain(table);
   // The certificate holds up to these; rounding to float in the header may have shaved a bit off.
   config.force_range = 1.000001 * table.header().force_bound + 1e-6;
   config.moment_range = 1.000001 * table.header().moment_bound + 1e-6;
   config.setpoint_age_limit = 1;
   config.wrench_age_limit = 1;
   config.joint_speed.setConstant(1e6);
-  config.limits.fill({0.2, 1e3, 1e3});
-  config.deflection_limit = 0.1;
+  config.limits.fill({0.2 * config.gain, 1e3, 1e3});
+  config.deflection_limit = 0.1 * config.gain;
   // The program may be sampled anew between the points the table was made from.
   config.chart_margin = 1e-3;
   config.hold_time = 0;
@@ -59,6 +68,7 @@ class OfflineCompensator {
                      const recording::Recording& path)
       : path_(path),
         nodes_(table.header().node_count),
+        gain_(offline_gain(table)),
         q_cmd_(recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6")),
         wrench_(recording::require(path, path.wrench, "fx..mz")) {
     Result result = core_.configure(offline_config(robot, table));
@@ -84,7 +94,7 @@ class OfflineCompensator {
     if (output.status != 0 || output.state != State::active) {
       refuse(row, output.status);
     }
-    return output.setpoint;
+    return q_cmd_.row(row).transpose() + output.correction / gain_;
   }
 
  private:
@@ -106,6 +116,7 @@ class OfflineCompensator {
 
   const recording::Recording& path_;
   std::uint32_t nodes_;
+  double gain_;
   const recording::Samples& q_cmd_;
   const recording::Samples& wrench_;
   Core core_;

@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "cli/command.hpp"
 #include "cli/table_file.hpp"
+#include "control/path_gain.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "model/robot.hpp"
@@ -29,7 +33,17 @@ std::string joint_speeds(const model::Robot& robot) {
   return text;
 }
 
-std::string configuration(const ConfigureOptions& options, const model::Robot& robot) {
+/// Rounded down to four digits, so that it is never above the limit it comes from.
+std::string gain_text(double gain) {
+  const double unit = std::pow(10, std::floor(std::log10(gain)) - 3);
+  return fmt::format("{:.4g}", std::floor(gain / unit) * unit);
+}
+
+/// The gain to write: the table's largest safe one, or 1 where that was not analysed.
+double safe_gain(double largest) { return largest > 0 ? std::min(largest, 1.0) : 1; }
+
+std::string configuration(const ConfigureOptions& options, const model::Robot& robot,
+                          double largest_gain) {
   std::string text = fmt::format(
       "# Configuration of flexcompd for {}.\n"
       "# Every option of flexcompd --help may stand here; those left out have their defaults.\n\n"
@@ -38,6 +52,12 @@ std::string configuration(const ConfigureOptions& options, const model::Robot& r
       robot.name, options.model, model_hash(robot.elastic));
   if (!options.table.empty()) {
     text += fmt::format("table = \"{}\"\n", std::filesystem::absolute(options.table).string());
+  }
+  if (!options.table.empty()) {
+    text += fmt::format(
+        "\n# share of the deflection that is corrected: {}\ngain = {}\n",
+        largest_gain > 0 ? "the largest that the table's process allows" : "process not analysed",
+        gain_text(safe_gain(largest_gain)));
   }
   text += fmt::format(
       "\n# s, from one setpoint to the next\n"
@@ -50,13 +70,29 @@ std::string configuration(const ConfigureOptions& options, const model::Robot& r
 
 int run(const ConfigureOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
+  double largest_gain = 0;
   if (!options.table.empty()) {
-    read_table(options.table, robot);
+    largest_gain =
+        static_cast<double>(read_table(options.table, robot).table.header().largest_gain);
   }
-  files::write_file(options.out,
-                    [&](std::ostream& stream) { stream << configuration(options, robot); });
+  if (largest_gain > 0 && largest_gain <= 1.01 * control::GainLimit::kNone) {
+    fmt::print(stderr,
+               "flexcomp: {}: no gain is safe, the tool digs in by itself: a deeper cut or less "
+               "force; nothing is written\n",
+               options.table);
+    return kDoesNotHold;
+  }
+  files::write_file(options.out, [&](std::ostream& stream) {
+    stream << configuration(options, robot, largest_gain);
+  });
   fmt::print("{}: robot {:016x}; start with: flexcompd --config {} --can can0\n", options.out,
              model_hash(robot.elastic), options.out);
+  if (!options.table.empty() && largest_gain <= 0) {
+    fmt::print("the largest safe gain is not known: the table was made without a process\n");
+  } else if (!options.table.empty()) {
+    fmt::print("gain {}, the largest that is safe with the process the table was made for\n",
+               gain_text(safe_gain(largest_gain)));
+  }
   return kDone;
 }
 
@@ -68,7 +104,8 @@ void add_configure(CLI::App* app, Action* action) {
       "configure",
       "A configuration file for flexcompd: the robot's fingerprint, how fast its joints can be, "
       "and\n"
-      "the table to start with. Refuses a table of another robot.\n"
+      "the table to start with, with the largest gain that is safe for it. Refuses a table of "
+      "another robot.\n"
       "Example: flexcomp configure --model robot.yaml --table t.fct --out node.toml");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command->add_option("--table", options->table, "made by flexcomp table");

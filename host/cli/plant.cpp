@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <cmath>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/process_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
 #include "control/arc_parameters.hpp"
@@ -33,8 +35,9 @@ struct PlantOptions {
   double compliance_scale = 1;
   double gain = 1;
   double filter_cutoff = 20;
-  simulation::Process process;
+  ProcessOptions process;
   simulation::PlantOptions plant;
+  bool allow_unstable = false;
   bool without_compensation = false;
   bool json = false;
 };
@@ -48,10 +51,34 @@ NodeConfig node_config(const PlantOptions& options, const model::Robot& robot) {
   return config;
 }
 
+/// Of the loop through the process that the plant cuts with, for the robot as it is.
+control::GainLimit gain_limit(const PlantOptions& options, const model::Robot& known,
+                              const recording::Recording& path) {
+  control::CorrectionLoop loop = options.process.loop;
+  loop.period = loop.delay = options.plant.period;
+  loop.filter_cutoff = options.filter_cutoff;
+  return control::gain_limit_along(
+      simulation::with_scaled_compliance(known.elastic, options.compliance_scale), path,
+      options.process.process, loop, options.compliance_scale);
+}
+
+/// One line that says what would be stable, and how to have it.
+std::string unstable_text(const control::GainLimit& limit) {
+  return limit.digs_in
+             ? "unstable: the tool digs in by itself, at every gain: a deeper cut (--depth-of-cut) "
+               "or less force; --allow-unstable mills all the same"
+             : fmt::format(
+                   "unstable: with this process the largest stable gain is {:.4g}, the largest "
+                   "safe one {:.4g}: make the table for it (flexcomp table --depth-of-cut) and "
+                   "configure anew, or give --gain; --allow-unstable mills all the same",
+                   limit.stable, limit.safe);
+}
+
 nlohmann::ordered_json summary(const simulation::PlantRun& run) {
   return {{"ticks", run.ticks},
           {"unanswered", run.unanswered},
           {"armed", run.armed},
+          {"unstable", run.is_unstable},
           {"arm_reply", describe_reply(run.arm_reply)},
           {"largest_gain", run.largest_gain},
           {"status", run.status},
@@ -82,7 +109,7 @@ std::unique_ptr<simulation::RobotInCut> dynamic_robot(const PlantOptions& option
   }
   simulation::FlexibleArm<6> arm = request.arm;
   arm.model = simulation::with_scaled_compliance(request.arm.model, options.compliance_scale);
-  return std::make_unique<control::DynamicMillingRobot>(arm, options.process, controller,
+  return std::make_unique<control::DynamicMillingRobot>(arm, options.process.process, controller,
                                                         options.plant.period, design.gains.period);
 }
 
@@ -92,7 +119,8 @@ std::unique_ptr<simulation::RobotInCut> robot_in_cut(const PlantOptions& options
     return dynamic_robot(options, robot);
   }
   return std::make_unique<simulation::MillingRobot>(
-      simulation::with_scaled_compliance(robot.elastic, options.compliance_scale), options.process);
+      simulation::with_scaled_compliance(robot.elastic, options.compliance_scale),
+      options.process.process);
 }
 
 int run(const PlantOptions& options) {
@@ -120,28 +148,56 @@ int run(const PlantOptions& options) {
   } else {
     bus = simulation::open_plant_bus(options.bus, options.key);
   }
-  simulation::Contour contour(robot.elastic,
-                              recording::read_recording_of(robot.elastic, options.path),
-                              options.process.side);
+  const recording::Recording path = recording::read_recording(options.path);
+  const control::GainLimit limit = gain_limit(options, known, path);
+  simulation::Contour contour(robot.elastic, path, options.process.process.side);
+  if (!options.allow_unstable && limit.digs_in) {
+    fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));
+    return kDoesNotHold;
+  }
+  plant_options.gain = options.gain;
+  if (!options.allow_unstable) {
+    plant_options.stable_gain = limit.stable;
+  }
   simulation::Plant plant(robot_in_cut(options, robot), std::move(contour), plant_options,
                           bus.get());
   Progress progress("milling", 1000);
   const simulation::PlantRun result =
       plant.run([&](double share) { progress.show(static_cast<std::size_t>(1000 * share)); });
-  const bool refused = plant_options.compensate && !result.armed;
+  const bool refused = plant_options.compensate && (!result.armed || result.is_unstable);
   if (!refused && !options.out.empty()) {
     recording::write_recording(options.out, result.recording);
   }
+  if (result.is_unstable) {
+    fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));
+  }
   if (options.json) {
-    fmt::print("{}\n", summary(result).dump(2));
+    nlohmann::ordered_json json = summary(result);
+    json["largest_stable_gain"] =
+        std::isfinite(limit.stable) ? nlohmann::ordered_json(limit.stable) : nullptr;
+    json["largest_safe_gain"] = limit.safe;
+    json["process"] = to_json(options.process);
+    fmt::print("{}\n", json.dump(2));
+  } else if (result.is_unstable) {
+    return kDoesNotHold;
   } else if (refused) {
     fmt::print("not armed: {}; largest safe gain {:.4g}\n", describe_reply(result.arm_reply),
                result.largest_gain);
   } else {
     fmt::print("{} ticks, {} without an answer; engagement {:.3f} to {:.3f} of the nominal depth\n",
                result.ticks, result.unanswered, result.least_engagement, result.most_engagement);
+    fmt::print("largest safe gain {:.4g}, with a cut {:g} mm deep\n", limit.safe,
+               1e3 * options.process.process.depth_of_cut);
   }
-  return refused ? kDoesNotHold : kDone;
+  const bool ran_away = !refused && !options.allow_unstable &&
+                        result.most_engagement > 0.999 * simulation::RobotInCut::kMostEngagement;
+  if (ran_away) {
+    fmt::print(stderr,
+               "flexcomp: {}: the cut became {:g} times as deep as it should be, and was stopped "
+               "there, as a spindle would stall: a deeper cut (--depth-of-cut) or less force\n",
+               options.path, simulation::RobotInCut::kMostEngagement);
+  }
+  return refused || ran_away ? kDoesNotHold : kDone;
 }
 
 }  // namespace
@@ -155,7 +211,9 @@ void add_plant(CLI::App* app, Action* action) {
       "its force sensor and a tracker measure, and moves by what flexcompd sends back. A deeper "
       "cut\n"
       "gives more force. With --table the compensator runs inside this process, in lock-step: the\n"
-      "same code and frames without a bus. Exit code 1 if the compensator refuses to arm.\n"
+      "same code and frames without a bus. Exit code 1 if the compensator refuses to arm, or if "
+      "with\n"
+      "its gain and this process the loop is unstable.\n"
       "Example: flexcomp plant --model robot.yaml --path path.csv --bus can:vcan0 --out run.csv");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command->add_option("--path", options->path, "recording with t, q_cmd and the nominal wrench")
@@ -165,9 +223,13 @@ void add_plant(CLI::App* app, Action* action) {
                       "file with a key of 32 hexadecimal digits: take and send only messages that "
                       "are\nauthenticated with it, as flexcompd --key does (CAN only)");
   command->add_option("--table", options->table, "table for a compensator inside this process");
-  command->add_option("--gain", options->gain, "of the compensator inside")
+  command
+      ->add_option("--gain", options->gain,
+                   "of the compensator inside; on a bus the largest that it may have")
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--filter-cutoff", options->filter_cutoff, "Hz, of the compensator inside")
+  command
+      ->add_option("--filter-cutoff", options->filter_cutoff,
+                   "Hz, of the compensator, inside or on the bus")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out, "recording of the contour to write");
   command
@@ -179,12 +241,10 @@ void add_plant(CLI::App* app, Action* action) {
                     "as fast as answers come, not in real time");
   command->add_flag("--without-compensation", options->without_compensation,
                     "do not arm, and ignore what comes back");
-  command->add_option("--depth-of-cut", options->process.depth_of_cut, "m, nominal")
-      ->check(CLI::PositiveNumber);
-  const std::map<std::string, simulation::MaterialSide> sides = {
-      {"outside", simulation::MaterialSide::outside}, {"inside", simulation::MaterialSide::inside}};
-  command->add_option("--material", options->process.side, "side of the contour: outside or inside")
-      ->transform(CLI::CheckedTransformer(sides, CLI::ignore_case));
+  add_process(command, &options->process);
+  command->remove_option(command->get_option("--no-process"));  // it is the process that is cut
+  command->add_flag("--allow-unstable", options->allow_unstable,
+                    "mill although the correction and the process make an unstable loop");
   command
       ->add_option("--compliance-scale", options->compliance_scale,
                    "all springs this many times as soft: a robot that is not as its model says")

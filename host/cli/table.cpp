@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "cli/command.hpp"
+#include "cli/process_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
 #include "cli/table_signing.hpp"
@@ -31,9 +31,7 @@ struct BuildOptions {
   double orientation_tolerance = 0;
   double force = 0;
   double moment = 0;
-  double depth_of_cut = 0;
-  simulation::MaterialSide material = simulation::MaterialSide::outside;
-  control::CorrectionLoop loop;
+  ProcessOptions process;
   SigningOptions signing;
   bool json = false;
 };
@@ -43,9 +41,7 @@ struct VerifyOptions {
   std::string key;
   std::string table;
   std::string path;
-  double depth_of_cut = 0;
-  simulation::MaterialSide material = simulation::MaterialSide::outside;
-  control::CorrectionLoop loop;
+  ProcessOptions process;
   std::size_t samples = 100000;
   bool json = false;
 };
@@ -100,6 +96,17 @@ nlohmann::ordered_json summary(const Table& table) {
           {"largest_gain", header.largest_gain}};
 }
 
+std::string gain_text(const control::GainLimit& gain, const ProcessOptions& process) {
+  if (process.is_none) {
+    return "no process: the largest safe correction gain is not analysed";
+  }
+  if (gain.digs_in) {
+    return fmt::format("no correction gain is safe: the tool digs in by itself with {}",
+                       describe(process));
+  }
+  return fmt::format("largest safe correction gain {:.4g}, with {}", gain.safe, describe(process));
+}
+
 int run_build(const BuildOptions& options) {
   if (!(options.tolerance > 0)) {
     throw InputError("--tolerance: expected a length above zero");
@@ -113,9 +120,11 @@ int run_build(const BuildOptions& options) {
   }
   std::vector<std::uint32_t> words;
   TableRequirements<double> wanted = requirements(options, path);
-  if (options.depth_of_cut > 0) {
-    wanted.largest_gain = control::largest_safe_gain_along(
-        robot.elastic, path, {options.depth_of_cut, options.material}, options.loop);
+  control::GainLimit gain;
+  if (!options.process.is_none) {
+    gain = control::gain_limit_along(robot.elastic, path, options.process.process,
+                                     options.process.loop);
+    wanted.largest_gain = gain.safe;
   }
   try {
     words = build(robot.elastic, points, wanted);
@@ -128,7 +137,9 @@ int run_build(const BuildOptions& options) {
   Table table;
   Table::open(words.data(), 4 * words.size(), &table);
   if (options.json) {
-    fmt::print("{}\n", summary(table).dump(2));
+    nlohmann::ordered_json json = summary(table);
+    json["process"] = to_json(options.process);
+    fmt::print("{}\n", json.dump(2));
   } else {
     const TableHeader& header = table.header();
     fmt::print(
@@ -137,9 +148,7 @@ int run_build(const BuildOptions& options) {
         "{:.3g} µm and {:.3g} µrad\nfor any force up to {:.6g} N and moment up to {:.6g} N·m\n",
         options.out, header.node_count, header.size, 1e6 * header.position_error,
         1e6 * header.orientation_error, header.force_bound, header.moment_bound);
-    if (header.largest_gain > 0) {
-      fmt::print("largest safe correction gain with this process: {:.4g}\n", header.largest_gain);
-    }
+    fmt::print("{}\n", gain_text(gain, options.process));
   }
   return kDone;
 }
@@ -232,23 +241,24 @@ GainCheck check_gain(const VerifyOptions& options, const model::Robot& robot, co
   const auto stated = static_cast<double>(table.header().largest_gain);
   const std::string name = stated > 0 ? fmt::format("{:.4g}", stated) : "not analysed";
   GainCheck gain;
-  if (!(options.depth_of_cut > 0)) {
-    gain.text = fmt::format(
-        "largest safe gain:                {}: NOT CHECKED, which takes --path and "
-        "--depth-of-cut\n",
-        name);
+  if (options.path.empty()) {
+    gain.text = fmt::format("largest safe gain:                {}: NOT CHECKED, which takes --path\n",
+                            name);
     return gain;
   }
-  if (options.path.empty()) {
-    throw InputError("--depth-of-cut: the path decides the largest gain too; expected --path");
-  }
-  const auto found = static_cast<float>(control::largest_safe_gain_along(
-      robot.elastic, recording::read_program_of(robot.elastic, options.path),
-      {options.depth_of_cut, options.material}, options.loop));
+  const double found =
+      options.process.is_none
+          ? 0
+          : control::gain_limit_along(robot.elastic,
+                                      recording::read_program_of(robot.elastic, options.path),
+                                      options.process.process, options.process.loop)
+                .safe;
   gain.checked = true;
-  gain.holds = std::abs(stated - static_cast<double>(found)) <= 1e-6 * static_cast<double>(found);
-  gain.text = fmt::format("largest safe gain:                {}; this process allows {:.4g}{}\n",
-                          name, found, gain.holds ? "" : ": NOT THE SAME");
+  gain.holds = std::abs(stated - found) <= 1e-6 * found;
+  gain.text = fmt::format("largest safe gain:                {}; found {}{}\n", name,
+                          found > 0 ? fmt::format("{:.4g} with {}", found, describe(options.process))
+                                    : "no process",
+                          gain.holds ? "" : ": NOT THE SAME");
   return gain;
 }
 
@@ -293,25 +303,16 @@ int run_verify(const VerifyOptions& options) {
   return holds && gain.holds ? kDone : kDoesNotHold;
 }
 
-/// What decides how much correction the process allows.
-template <typename Options>
-void add_process(CLI::App* command, Options* build) {
-  command->add_option(
-      "--depth-of-cut", build->depth_of_cut,
-      "m, nominal; computes the largest safe correction gain, past which moving into\n"
-      "the cut raises the force faster than it helps; the controller then refuses more");
-  const std::map<std::string, simulation::MaterialSide> sides = {
-      {"outside", simulation::MaterialSide::outside}, {"inside", simulation::MaterialSide::inside}};
-  command->add_option("--material", build->material, "side of the contour: outside or inside")
-      ->transform(CLI::CheckedTransformer(sides, CLI::ignore_case));
-  command->add_option("--loop-period", build->loop.period, "s, of the controller")
+/// Of the controller that the largest safe gain is for.
+void add_loop(CLI::App* command, control::CorrectionLoop* loop) {
+  command->add_option("--loop-period", loop->period, "s, of the controller")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--loop-filter-cutoff", build->loop.filter_cutoff,
+      ->add_option("--loop-filter-cutoff", loop->filter_cutoff,
                    "Hz, of the controller's filter on the wrench; 0: none")
       ->check(CLI::NonNegativeNumber);
   command
-      ->add_option("--loop-delay", build->loop.delay,
+      ->add_option("--loop-delay", loop->delay,
                    "s, from the wrench to the robot standing corrected")
       ->check(CLI::NonNegativeNumber);
 }
@@ -321,7 +322,11 @@ void add_process(CLI::App* command, Options* build) {
 void add_table(CLI::App* app, Action* action) {
   CLI::App* command = app->add_subcommand(
       "table",
-      "The robot's compliance along a program, for the controller, with a certified error.\n"
+      "The robot's compliance along a program, for the controller, with a certified error, and "
+      "the\n"
+      "largest correction gain that is safe: moving deeper into a cut raises the force, which "
+      "past\n"
+      "that gain helps less than it harms. A controller refuses more.\n"
       "Example: flexcomp table --model robot.yaml --path path.csv --tolerance 1e-6 --out t.fct\n"
       "         flexcomp table verify t.fct --model robot.yaml\n"
       "         flexcomp table sign t.fct --key key --counter 7");
@@ -339,7 +344,8 @@ void add_table(CLI::App* app, Action* action) {
                       "N, largest force to certify for; if not given, 1.1 times the path's");
   command->add_option("--moment", build->moment,
                       "N·m, largest moment to certify for; if not given, 1.1 times the path's");
-  add_process(command, build.get());
+  add_process(command, &build->process);
+  add_loop(command, &build->process.loop);
   add_signing(command, &build->signing);
   command->add_flag("--json", build->json, "print the certificate as JSON");
 
@@ -356,7 +362,8 @@ void add_table(CLI::App* app, Action* action) {
   check->add_option("--key", verify->key, "the table must be signed with the key in this file");
   check->add_option("--path", verify->path,
                     "look along this program too, besides the chords between the table's nodes");
-  add_process(check, verify.get());
+  add_process(check, &verify->process);
+  add_loop(check, &verify->process.loop);
   check->add_option("--samples", verify->samples, "places to look at")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}));
   check->add_flag("--json", verify->json, "print the result as JSON");

@@ -8,22 +8,24 @@
 #include "flexcomp/chain.hpp"
 
 namespace flexcomp::simulation {
-namespace {
 
-/// Unit normals into the material. The sides come from the way the path turns: its area vector
-/// (Newell) is the axis it runs around, and outside is feed × axis.
-recording::Samples surface_normals(const recording::Samples& position, MaterialSide side,
-                                   const std::string& file) {
+// The sides come from the way the path turns: its area vector (Newell) is the axis it runs around,
+// and outside is feed × axis.
+std::optional<recording::Samples> surface_normals(const recording::Samples& position,
+                                                  MaterialSide side) {
+  constexpr double kNoArea = 1e-6;  // of the length squared: a line that wavers
   const Eigen::Index rows = position.rows();
   Vector3<double> axis = Vector3<double>::Zero();
+  double length = 0;
   const Vector3<double> origin = position.row(0).transpose();
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Vector3<double> a = position.row(i).transpose() - origin;
     const Vector3<double> b = position.row((i + 1) % rows).transpose() - origin;
     axis += a.cross(b);
+    length += (b - a).norm();
   }
-  if (axis.norm() < 1e-12) {
-    throw InputError(file + ": the path encloses no area, so it has no outside to mill");
+  if (!(axis.norm() > kNoArea * length * length)) {
+    return std::nullopt;
   }
   axis.normalize();
   recording::Samples normals(rows, 3);
@@ -39,8 +41,6 @@ recording::Samples surface_normals(const recording::Samples& position, MaterialS
   return normals;
 }
 
-}  // namespace
-
 Contour::Contour(const RobotModel<double, 6>& model, const recording::Recording& path,
                  MaterialSide side)
     : model_(model),
@@ -55,7 +55,11 @@ Contour::Contour(const RobotModel<double, 6>& model, const recording::Recording&
     const JointVector<double, 6> q = q_.row(i).transpose();
     position.row(i) = forward_kinematics<double, 6>(model_, q).tcp.position.transpose();
   }
-  normal_ = surface_normals(position, side, path.file);
+  const std::optional<recording::Samples> normals = surface_normals(position, side);
+  if (!normals) {
+    throw InputError(path.file + ": the path encloses no area, so it has no outside to mill");
+  }
+  normal_ = *normals;
 }
 
 Contour::Point Contour::at(double time) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "recording/recording.hpp"
 #include "simulation/quasi_static.hpp"
 
@@ -13,6 +15,11 @@ struct Process {
   double depth_of_cut = 0.002;  ///< m, nominal, along the surface normal
   MaterialSide side = MaterialSide::outside;
 };
+
+/// Unit normals into the material, one a row, along a path of the TCP (one row each, m). Nothing
+/// where the path encloses no area, so that it has no sides: less than 10⁻⁶ of its length squared.
+std::optional<recording::Samples> surface_normals(const recording::Samples& position,
+                                                  MaterialSide side);
 
 /// A contour to be milled, as a function of time: what is commanded, what cutting at the nominal
 /// depth gives, and where the material is. Between the rows of the recording everything runs

@@ -39,6 +39,13 @@ PlantRun Plant::run(const std::function<void(double)>& progress) {
   if (options_.compensate && !run_.armed) {
     return run_;
   }
+  const double allowed = run_.largest_gain > 0 ? run_.largest_gain : 1;
+  run_.is_unstable = run_.armed && std::min(options_.gain, allowed) > options_.stable_gain;
+  if (run_.is_unstable) {
+    bus_->send(CommandMessage{Command::disarm});
+    stand_still(kReadyTime);
+    return run_;
+  }
   const auto loading = static_cast<int>(options_.load_time / options_.period);
   for (int i = 1; i <= loading; ++i) {
     tick(0, static_cast<double>(i) / loading);

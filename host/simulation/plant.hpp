@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <random>
 
@@ -21,6 +22,11 @@ struct PlantOptions {
   double moment_noise = 0.05;    ///< N·m
   std::uint64_t seed = 1;        ///< of the noise
   std::uint64_t model_hash = 0;  ///< that the plant announces
+  /// At most, of the compensator; a table that it was armed with may allow less.
+  double gain = 1;
+  /// Above it the correction and the process make an unstable loop: then the tool stays out of the
+  /// cut.
+  double stable_gain = std::numeric_limits<double>::infinity();
 };
 
 /// What came of a run.
@@ -30,6 +36,7 @@ struct PlantRun {
   bool armed = false;
   std::uint8_t arm_reply = 0;  ///< Result or Reply, where it was not armed
   double largest_gain = 0;     ///< that came with it
+  bool is_unstable = false;    ///< armed, but with a gain that may be above the stable one
   std::uint64_t ticks = 0;
   std::uint64_t unanswered = 0;  ///< setpoints without an answer in their period
   std::uint32_t status = 0;      ///< all status bits seen on the contour

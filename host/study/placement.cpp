@@ -211,7 +211,7 @@ class Search {
   RobotModel<double, 6> inner_ = model_;  ///< with its limits drawn in
   const Job& job_;
   const PlacementRequest& request_;
-  const std::function<void(int)>& progress_;
+  std::function<void(int)> progress_;
   std::vector<Eigen::Index> looked_at_;
   int evaluated_ = 0;
   Placement best_;
@@ -248,6 +248,21 @@ PlacedJob judged(const RobotModel<double, 6>& model, recording::Recording path,
   return job;
 }
 
+/// The job in a place, at those joint angles.
+recording::Recording moved_job(const Job& job, const Placement& placement,
+                               const recording::Samples& q) {
+  recording::Recording path;
+  path.file = job.recording.file;
+  path.lines = job.recording.lines;
+  path.time = job.recording.time;
+  path.q_cmd = q;
+  path.wrench = recording::Samples(path.size(), 6);
+  for (Eigen::Index i = 0; i < path.size(); ++i) {
+    path.wrench->row(i) = turned_wrench(job, i, placement).transpose();
+  }
+  return path;
+}
+
 }  // namespace
 
 PlacedJob as_placed(const RobotModel<double, 6>& model, const recording::Recording& job) {
@@ -259,24 +274,25 @@ PlacedJob best_placement(const RobotModel<double, 6>& model, const recording::Re
                          const std::function<void(int)>& progress) {
   check(request);
   const Job given(model, job);
-  Search search(model, given, request, progress);
-  const Placement placement = search.best();
-  const std::optional<recording::Samples> q = search.follow(placement);
-  if (!q) {
-    throw InputError(fmt::format(
-        "{}: the place that was found cannot be followed at every row: look at more points",
-        job.file));
+  // Between points that lie far apart the job may leave its branch: then look at more of them.
+  PlacementRequest dense = request;
+  int done = 0;
+  while (true) {
+    Search search(model, given, dense, [&](int evaluated) { progress(done + evaluated); });
+    const Placement placement = search.best();
+    const std::optional<recording::Samples> q = search.follow(placement);
+    if (q) {
+      return judged(model, moved_job(given, placement, *q), placement);
+    }
+    if (static_cast<std::size_t>(dense.points) >= given.poses.size()) {
+      throw InputError(fmt::format(
+          "{}: the place that was found cannot be followed at every row without a jump of more "
+          "than {} rad: rows closer together",
+          job.file, kLargestStep));
+    }
+    dense.points *= 2;
+    done += request.evaluations;
   }
-  recording::Recording path;
-  path.file = job.file;
-  path.lines = job.lines;
-  path.time = job.time;
-  path.q_cmd = *q;
-  path.wrench = recording::Samples(path.size(), 6);
-  for (Eigen::Index i = 0; i < path.size(); ++i) {
-    path.wrench->row(i) = turned_wrench(given, i, placement).transpose();
-  }
-  return judged(model, std::move(path), placement);
 }
 
 }  // namespace flexcomp::study

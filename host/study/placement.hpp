@@ -23,7 +23,8 @@ struct PlacementRequest {
   /// singularity.
   double least_singular_value = 0.05;
   double joint_margin = 0.05;  ///< rad, from the joint limits
-  int points = 24;             ///< of the path that are looked at while searching
+  /// Of the path, looked at while searching; doubled where the place found so cannot be followed.
+  int points = 24;
   int evaluations = 2000;
 };
 

@@ -11,15 +11,20 @@
 namespace flexcomp::study {
 namespace {
 
-constexpr double kStraight = 1e-9;  // m, and of unit vectors
+// Of the reach, and of unit vectors. A point so far beside the plane moves in it as one in it does,
+// to as small a part; models rounded to micrometres, or to six digits of π/2, are within it.
+constexpr double kStraight = 1e-4;
 
 Planar in_plane(const Vector3<double>& point) { return {point.x(), point.z()}; }
 
 /// 1 for an axis along −y, which turns x to z; −1 along y.
 double turn_of(const Vector3<double>& axis, int joint) {
-  if (std::abs(std::abs(axis.y()) - 1) > kStraight) {
-    throw InputError(fmt::format(
-        "the map is of the plane of joints 2 and 3, y = 0: joint {} must turn about y", joint));
+  if (std::hypot(axis.x(), axis.z()) > kStraight) {
+    throw InputError(
+        fmt::format("the map is of the plane y = 0, where the axes of joints 2, 3 and 5 are "
+                    "parallel to y with all "
+                    "joints at 0: here joint {}'s is not; flexcomp map --volume takes any robot",
+                    joint));
   }
   return axis.y() < 0 ? 1 : -1;
 }
@@ -58,8 +63,12 @@ PlanarArm planar_arm(const RobotModel<double, 6>& model, ToolPoint point, bool l
   const Kinematics<double, 6> at = forward_kinematics(model, zero);
   const Vector3<double> wrist = at.links[4].position;
   const Vector3<double> tool = point == ToolPoint::wrist ? wrist : at.tcp.position;
-  if (std::abs(tool.y()) > kStraight && point == ToolPoint::tcp) {
-    throw InputError("the map is of the plane y = 0: the TCP must lie in it with all joints at 0");
+  const double length = (tool - at.links[1].position).norm();
+  if (std::abs(tool.y()) > kStraight * length && point == ToolPoint::tcp) {
+    throw InputError(fmt::format(
+        "the map is of the plane y = 0: with all joints at 0 the TCP must lie in it, here it lies "
+        "{:.3g} mm beside it; flexcomp map --volume takes any robot",
+        1e3 * std::abs(tool.y())));
   }
   PlanarArm arm;
   arm.turn_2 = turn_of(at.axes[1], 2);
@@ -72,7 +81,7 @@ PlanarArm planar_arm(const RobotModel<double, 6>& model, ToolPoint point, bool l
   for (std::size_t i = 0; i < 3; ++i) {
     arm.compliance[i] = model.joints[i < 2 ? i + 1 : 4].compliance;
   }
-  if (!(std::abs(arm.upper_arm) > kStraight) || !(std::abs(arm.forearm) > kStraight)) {
+  if (!(std::min(std::abs(arm.upper_arm), std::abs(arm.forearm)) > kStraight * length)) {
     throw InputError("joints 2 and 3, or joint 3 and the tool point, coincide: there is no arm");
   }
   const Joint<double>& elbow = model.joints[2];

@@ -338,5 +338,65 @@ class Manners(PathCommand):
         self.assertEqual("precious\n", kept.read_text())
 
 
+class StableGain(Command):
+    """A process too stiff for the robot: half the depth of cut at which it would be safe."""
+
+    def setUp(self):
+        super().setUp()
+        self.path, self.table = self.folder / "path.csv", self.folder / "t.fct"
+        self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz",
+                      "--points", "72", "--out", self.path)
+
+    def build(self, *words):
+        return json.loads(self.run_well("table", "--model", KR270, "--path", self.path, "--out", self.table,
+                                        "--json", *words))
+
+    def test_a_table_always_says_the_gain_and_the_process_it_assumes(self):
+        usual = self.build()
+        self.assertEqual(1, usual["largest_gain"])
+        self.assertEqual({"depth_of_cut": 0.002, "material": "outside", "loop_period": 0.004,
+                          "loop_filter_cutoff": 20, "loop_delay": 0.004}, usual["process"])
+        self.assertLess(self.build("--depth-of-cut", "0.0008")["largest_gain"], 0.5)
+        none = self.build("--no-process")
+        self.assertEqual(0, none["largest_gain"])
+        self.assertIsNone(none["process"])
+
+    def test_configure_writes_the_safe_gain(self):
+        largest = self.build("--depth-of-cut", "0.0008")["largest_gain"]
+        config = self.folder / "node.toml"
+        said = self.run_well("configure", "--model", KR270, "--table", self.table, "--out", config)
+        gain = float(next(line for line in config.read_text().splitlines() if line.startswith("gain =")).split()[2])
+        self.assertLessEqual(gain, largest)
+        self.assertGreater(gain, 0.99 * largest)
+        self.assertIn(f"gain {gain}", said)
+
+    def test_a_path_without_sides_takes_the_worst_side(self):
+        rows = self.path.read_text().splitlines()
+        self.path.write_text("\n".join(rows[:3]) + "\n")  # a line: no area
+        self.assertLess(0, self.build("--depth-of-cut", "0.0008")["largest_gain"])
+
+    def test_a_plant_refuses_an_unstable_loop_in_one_line_that_names_the_gain(self):
+        self.build("--no-process")
+        words = ("plant", "--model", KR270, "--path", self.path, "--table", self.table, "--depth-of-cut", "0.0008")
+        done = flexcomp(*words, "--out", self.folder / "run.csv")
+        self.assertEqual(1, done.returncode, done.stdout + done.stderr)
+        self.assertRegex(done.stderr, r"^flexcomp: .*the largest stable gain is 0\.\d+.*--gain.*\n$")
+        self.assertFalse((self.folder / "run.csv").exists())
+        steady = json.loads(self.run_well(*words, "--gain", "0.2", "--json"))
+        self.assertGreater(steady["least_engagement"], 0.9)
+
+    def test_compensating_beforehand_closes_no_loop(self):
+        corrected = []
+        for process in (("--no-process",), ("--depth-of-cut", "0.0008")):
+            self.build(*process)
+            out = self.folder / "corrected.csv"
+            said = json.loads(self.run_well("compensate", "--model", KR270, "--table", self.table, "--path", self.path,
+                                            "--out", out, "--json"))
+            corrected.append([[float(cell) for cell in row.split(",")] for row in out.read_text().splitlines()[1:]])
+        for one, other in zip(*corrected):
+            for a, b in zip(one, other):
+                self.assertAlmostEqual(a, b, delta=1e-9)
+
+
 if __name__ == "__main__":
     unittest.main()

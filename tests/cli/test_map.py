@@ -88,6 +88,16 @@ class Map(Command):
                 summary = self.summary("--step", "0.2", model=model)
                 self.assertLess(summary["min"], summary["max"])
 
+    def test_a_tcp_a_micrometre_off_the_plane_has_a_map(self):
+        urdf = (ROBOTS / "kr270" / "kr270.urdf").read_text()
+        for off, is_mapped in (("0.00000014", True), ("0.02", False)):
+            self.file("kr270.urdf", urdf.replace('<origin xyz="0 0 0" rpy="0 1.57', f'<origin xyz="0 {off} 0" rpy="0 1.57'))
+            model = self.file("robot.yaml", KR270.read_text())
+            words = "map", "--model", model, "--preset", "flange", "--step", "0.4", "--out", self.folder / "map"
+            done = flexcomp(*words)
+            self.assertEqual(0 if is_mapped else 2, done.returncode, done.stderr)
+            self.assertEqual(not is_mapped, "20 mm beside it; flexcomp map --volume" in done.stderr)
+
     def test_what_makes_no_map_is_refused(self):
         for words, saying in ((("--step", "0"), "step"), (("--step", "1e-6"), "step"),
                               (("--radius", "-1"), "radius"), (("--radius", "9"), "reach"),

@@ -109,6 +109,14 @@ void what_is_told_is_what_the_core_predicts() {
                             as_is.mean_square);
 }
 
+/// Two points say little of what lies between; more are looked at until the place can be followed.
+void a_place_that_cannot_be_followed_is_sought_with_more_points() {
+  PlacementRequest request = some_request();
+  request.points = 2;
+  const PlacedJob after = placed(job_of(some_robot()), request);
+  TEST_ASSERT_TRUE(after.largest < as_placed(some_robot(), job_of(some_robot())).largest);
+}
+
 void jobs_and_requests_that_make_no_sense_are_refused() {
   const RobotModel<double, 6> robot = some_robot();
   int refused = 0;
@@ -140,6 +148,7 @@ int main() {
   RUN_TEST(the_job_keeps_its_form);
   RUN_TEST(the_joints_stay_within_their_limits_and_go_smoothly);
   RUN_TEST(what_is_told_is_what_the_core_predicts);
+  RUN_TEST(a_place_that_cannot_be_followed_is_sought_with_more_points);
   RUN_TEST(jobs_and_requests_that_make_no_sense_are_refused);
   return UNITY_END();
 }

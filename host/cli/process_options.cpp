@@ -1,0 +1,54 @@
+#include "cli/process_options.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "node/default_config.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+bool is_outside(const ProcessOptions& options) {
+  return options.process.side == simulation::MaterialSide::outside;
+}
+
+}  // namespace
+
+ProcessOptions::ProcessOptions() {
+  const CompensatorConfig<double, 6> node = default_compensator_config<double>();
+  loop = {node.period, node.filter_cutoff, node.period};
+}
+
+void add_process(CLI::App* command, ProcessOptions* options) {
+  command
+      ->add_option("--depth-of-cut", options->process.depth_of_cut,
+                   "m, nominal: how much deeper the tool is for twice the force")
+      ->check(CLI::PositiveNumber);
+  const std::map<std::string, simulation::MaterialSide> sides = {
+      {"outside", simulation::MaterialSide::outside}, {"inside", simulation::MaterialSide::inside}};
+  command->add_option("--material", options->process.side, "side of the contour: outside or inside")
+      ->transform(CLI::CheckedTransformer(sides, CLI::ignore_case));
+  command->add_flag("--no-process", options->is_none,
+                    "the force does not answer where the tool is (no cut): any gain is stable");
+}
+
+std::string describe(const ProcessOptions& options) {
+  return fmt::format(
+      "a cut {:g} mm deep, material {}; ticks every {:g} ms, filter {:g} Hz, delay {:g} ms",
+      1e3 * options.process.depth_of_cut, is_outside(options) ? "outside" : "inside",
+      1e3 * options.loop.period, options.loop.filter_cutoff, 1e3 * options.loop.delay);
+}
+
+nlohmann::ordered_json to_json(const ProcessOptions& options) {
+  if (options.is_none) {
+    return nullptr;
+  }
+  return {{"depth_of_cut", options.process.depth_of_cut},
+          {"material", is_outside(options) ? "outside" : "inside"},
+          {"loop_period", options.loop.period},
+          {"loop_filter_cutoff", options.loop.filter_cutoff},
+          {"loop_delay", options.loop.delay}};
+}
+
+}  // namespace flexcomp::cli
