@@ -76,10 +76,11 @@ int run(const ConfigureOptions& options) {
         static_cast<double>(read_table(options.table, robot).table.header().largest_gain);
   }
   if (largest_gain > 0 && largest_gain <= 1.01 * control::GainLimit::kNone) {
-    fmt::print(stderr,
-               "flexcomp: {}: no gain is safe, the tool digs in by itself: a deeper cut or less "
-               "force; nothing is written\n",
-               options.table);
+    fmt::print(
+        stderr,
+        "flexcomp: {}: no gain is safe with the process it was made for, in which the tool digs "
+        "in (flexcomp table says how deep a cut it takes); nothing is written\n",
+        options.table);
     return kDoesNotHold;
   }
   files::write_file(options.out, [&](std::ostream& stream) {

@@ -64,9 +64,9 @@ control::GainLimit gain_limit(const PlantOptions& options, const model::Robot& k
 
 /// One line that says what would be stable, and how to have it.
 std::string unstable_text(const control::GainLimit& limit) {
-  return limit.digs_in
-             ? "unstable: the tool digs in by itself, at every gain: a deeper cut (--depth-of-cut) "
-               "or less force; --allow-unstable mills all the same"
+  return limit.digs_in()
+             ? fmt::format("no stable gain is safe: {}; --allow-unstable mills all the same",
+                           describe_digging_in(limit))
              : fmt::format(
                    "unstable: with this process the largest stable gain is {:.4g}, the largest "
                    "safe one {:.4g}: make the table for it (flexcomp table --depth-of-cut) and "
@@ -74,11 +74,37 @@ std::string unstable_text(const control::GainLimit& limit) {
                    limit.stable, limit.safe);
 }
 
+/// The faults of a status word, in words.
+std::string faults_of(std::uint32_t status) {
+  std::string text;
+  for (std::uint32_t bit = 1; (bit & kFaultBits) != 0; bit <<= 1) {
+    if ((status & bit) != 0) {
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(static_cast<StatusBit>(bit)));
+    }
+  }
+  return text.empty() ? "no fault reported" : text;
+}
+
+/// Warns of what went on but should not have.
+void warn(const PlantOptions& options, const control::GainLimit& limit,
+          const simulation::PlantRun& run) {
+  if (run.gain > limit.safe * (1 + 1e-6)) {
+    fmt::print(stderr, "flexcomp: {}: the gain {:.4g} is {} above the largest safe one, {:.4g}\n",
+               options.path, run.gain, run.gain > limit.stable ? "unstable," : "stable but",
+               limit.safe);
+  }
+  if (run.was_lost) {
+    fmt::print(stderr, "flexcomp: {}: the correction did not last, it faded out on the way: {}\n",
+               options.path, faults_of(run.status));
+  }
+}
+
 nlohmann::ordered_json summary(const simulation::PlantRun& run) {
   return {{"ticks", run.ticks},
           {"unanswered", run.unanswered},
           {"armed", run.armed},
           {"unstable", run.is_unstable},
+          {"lost", run.was_lost},
           {"arm_reply", describe_reply(run.arm_reply)},
           {"largest_gain", run.largest_gain},
           {"status", run.status},
@@ -151,7 +177,7 @@ int run(const PlantOptions& options) {
   const recording::Recording path = recording::read_recording(options.path);
   const control::GainLimit limit = gain_limit(options, known, path);
   simulation::Contour contour(robot.elastic, path, options.process.process.side);
-  if (!options.allow_unstable && limit.digs_in) {
+  if (!options.allow_unstable && limit.digs_in()) {
     fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));
     return kDoesNotHold;
   }
@@ -196,6 +222,9 @@ int run(const PlantOptions& options) {
                "flexcomp: {}: the cut became {:g} times as deep as it should be, and was stopped "
                "there, as a spindle would stall: a deeper cut (--depth-of-cut) or less force\n",
                options.path, simulation::RobotInCut::kMostEngagement);
+  }
+  if (!refused) {
+    warn(options, limit, result);
   }
   return refused || ran_away ? kDoesNotHold : kDone;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "node/default_config.hpp"
@@ -38,6 +39,19 @@ std::string describe(const ProcessOptions& options) {
       "a cut {:g} mm deep, material {}; ticks every {:g} ms, filter {:g} Hz, delay {:g} ms",
       1e3 * options.process.depth_of_cut, is_outside(options) ? "outside" : "inside",
       1e3 * options.loop.period, options.loop.filter_cutoff, 1e3 * options.loop.delay);
+}
+
+std::string describe_digging_in(const control::GainLimit& limit) {
+  constexpr const char* kRemedy = "it takes a deeper cut (--depth-of-cut) or less force";
+  return std::isfinite(limit.engagement)
+             ? fmt::format("with it the cut would become {:.2g} times as deep; {}",
+                           limit.engagement, kRemedy)
+             : fmt::format("the tool digs in by itself; {}", kRemedy);
+}
+
+std::string describe_fading(const control::GainLimit& limit) {
+  return fmt::format("should the correction fade out, the cut becomes {:.2g} times as deep",
+                     limit.engagement_without);
 }
 
 nlohmann::ordered_json to_json(const ProcessOptions& options) {

@@ -100,11 +100,15 @@ std::string gain_text(const control::GainLimit& gain, const ProcessOptions& proc
   if (process.is_none) {
     return "no process: the largest safe correction gain is not analysed";
   }
-  if (gain.digs_in) {
-    return fmt::format("no correction gain is safe: the tool digs in by itself with {}",
-                       describe(process));
+  if (gain.digs_in()) {
+    return fmt::format("no stable correction gain is safe with {}: {}", describe(process),
+                       describe_digging_in(gain));
   }
-  return fmt::format("largest safe correction gain {:.4g}, with {}", gain.safe, describe(process));
+  const std::string text =
+      fmt::format("largest safe correction gain {:.4g}, with {}", gain.safe, describe(process));
+  return gain.engagement_without <= control::GainLimit::kMargin
+             ? text
+             : text + "\n" + describe_fading(gain);
 }
 
 int run_build(const BuildOptions& options) {
@@ -242,8 +246,8 @@ GainCheck check_gain(const VerifyOptions& options, const model::Robot& robot, co
   const std::string name = stated > 0 ? fmt::format("{:.4g}", stated) : "not analysed";
   GainCheck gain;
   if (options.path.empty()) {
-    gain.text = fmt::format("largest safe gain:                {}: NOT CHECKED, which takes --path\n",
-                            name);
+    gain.text = fmt::format(
+        "largest safe gain:                {}: NOT CHECKED, which takes --path\n", name);
     return gain;
   }
   const double found =
@@ -255,10 +259,10 @@ GainCheck check_gain(const VerifyOptions& options, const model::Robot& robot, co
                 .safe;
   gain.checked = true;
   gain.holds = std::abs(stated - found) <= 1e-6 * found;
-  gain.text = fmt::format("largest safe gain:                {}; found {}{}\n", name,
-                          found > 0 ? fmt::format("{:.4g} with {}", found, describe(options.process))
-                                    : "no process",
-                          gain.holds ? "" : ": NOT THE SAME");
+  gain.text = fmt::format(
+      "largest safe gain:                {}; found {}{}\n", name,
+      found > 0 ? fmt::format("{:.4g} with {}", found, describe(options.process)) : "no process",
+      gain.holds ? "" : ": NOT THE SAME");
   return gain;
 }
 

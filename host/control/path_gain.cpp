@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "flexcomp/compliance.hpp"
 
@@ -64,16 +65,26 @@ FeedbackRange feedback_along(const RobotModel<double, 6>& model, const recording
 GainLimit gain_limit_along(const RobotModel<double, 6>& model, const recording::Recording& path,
                            const simulation::Process& process, const CorrectionLoop& loop,
                            double softer) {
-  constexpr double kMargin = 2;
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const FeedbackRange range = feedback_along(model, path, process);
-  GainLimit limit;
-  limit.digs_in = range.most >= 1;
-  // λ/(1−λ) grows with λ: only the ends of the range can be the worst.
-  const auto critical = [&](double feedback) {
-    return critical_gain(feedback / softer / (1 - feedback), loop);
+  const auto deepened = [&](double gain) {
+    const double left = 1 - range.most * (1 - gain / softer);
+    return left > 0 ? 1 / left : kInfinite;
   };
-  limit.stable = limit.digs_in ? 0 : std::min(critical(range.least), critical(range.most));
-  limit.safe = std::clamp(limit.stable / kMargin, GainLimit::kNone, 1.0);
+  GainLimit limit;
+  limit.engagement_without = deepened(0);
+  if (range.most < 1) {
+    // λ/(1−λ) grows with λ: only the ends of the range can be the worst.
+    const auto critical = [&](double feedback) {
+      return critical_gain(feedback / softer / (1 - feedback), loop);
+    };
+    limit.stable = std::min(critical(range.least), critical(range.most));
+  }
+  limit.safe = std::clamp(limit.stable / GainLimit::kMargin, GainLimit::kNone, 1.0);
+  limit.engagement = range.most < 1 ? deepened(limit.safe) : kInfinite;
+  if (limit.digs_in()) {
+    limit.safe = GainLimit::kNone;
+  }
   return limit;
 }
 

@@ -40,7 +40,8 @@ PlantRun Plant::run(const std::function<void(double)>& progress) {
     return run_;
   }
   const double allowed = run_.largest_gain > 0 ? run_.largest_gain : 1;
-  run_.is_unstable = run_.armed && std::min(options_.gain, allowed) > options_.stable_gain;
+  run_.gain = run_.armed ? std::min(options_.gain, allowed) : 0;
+  run_.is_unstable = run_.gain > options_.stable_gain;
   if (run_.is_unstable) {
     bus_->send(CommandMessage{Command::disarm});
     stand_still(kReadyTime);
@@ -185,6 +186,8 @@ void Plant::take(const Message& message) {
     ++corrected_;
     run_.last_state = corrected->state;
     if (on_contour_) {
+      run_.was_lost = run_.was_lost ||
+                      (run_.armed && corrected->state != static_cast<std::uint8_t>(State::active));
       run_.status |= corrected->status;
       run_.node_status |= corrected->node_status;
     }

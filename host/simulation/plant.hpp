@@ -36,6 +36,8 @@ struct PlantRun {
   bool armed = false;
   std::uint8_t arm_reply = 0;  ///< Result or Reply, where it was not armed
   double largest_gain = 0;     ///< that came with it
+  double gain = 0;             ///< at most that of the correction
+  bool was_lost = false;       ///< armed, but not active all along the contour
   bool is_unstable = false;    ///< armed, but with a gain that may be above the stable one
   std::uint64_t ticks = 0;
   std::uint64_t unanswered = 0;  ///< setpoints without an answer in their period

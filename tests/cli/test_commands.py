@@ -339,7 +339,7 @@ class Manners(PathCommand):
 
 
 class StableGain(Command):
-    """A process too stiff for the robot: half the depth of cut at which it would be safe."""
+    """Shallow cuts, in which the force answers strongly where the tool is."""
 
     def setUp(self):
         super().setUp()
@@ -356,13 +356,13 @@ class StableGain(Command):
         self.assertEqual(1, usual["largest_gain"])
         self.assertEqual({"depth_of_cut": 0.002, "material": "outside", "loop_period": 0.004,
                           "loop_filter_cutoff": 20, "loop_delay": 0.004}, usual["process"])
-        self.assertLess(self.build("--depth-of-cut", "0.0008")["largest_gain"], 0.5)
+        self.assertLess(self.build("--depth-of-cut", "0.001")["largest_gain"], 0.95)
         none = self.build("--no-process")
         self.assertEqual(0, none["largest_gain"])
         self.assertIsNone(none["process"])
 
     def test_configure_writes_the_safe_gain(self):
-        largest = self.build("--depth-of-cut", "0.0008")["largest_gain"]
+        largest = self.build("--depth-of-cut", "0.001")["largest_gain"]
         config = self.folder / "node.toml"
         said = self.run_well("configure", "--model", KR270, "--table", self.table, "--out", config)
         gain = float(next(line for line in config.read_text().splitlines() if line.startswith("gain =")).split()[2])
@@ -377,17 +377,39 @@ class StableGain(Command):
 
     def test_a_plant_refuses_an_unstable_loop_in_one_line_that_names_the_gain(self):
         self.build("--no-process")
-        words = ("plant", "--model", KR270, "--path", self.path, "--table", self.table, "--depth-of-cut", "0.0008")
+        words = ("plant", "--model", KR270, "--path", self.path, "--table", self.table, "--depth-of-cut", "0.0012",
+                 "--filter-cutoff", "0")
         done = flexcomp(*words, "--out", self.folder / "run.csv")
         self.assertEqual(1, done.returncode, done.stdout + done.stderr)
         self.assertRegex(done.stderr, r"^flexcomp: .*the largest stable gain is 0\.\d+.*--gain.*\n$")
         self.assertFalse((self.folder / "run.csv").exists())
-        steady = json.loads(self.run_well(*words, "--gain", "0.2", "--json"))
+        steady = json.loads(self.run_well(*words, "--gain", "0.3", "--json"))
         self.assertGreater(steady["least_engagement"], 0.9)
+        self.assertLess(steady["most_engagement"], 2)
+        self.assertFalse(steady["lost"])
+
+    def test_a_plant_warns_of_a_gain_that_is_stable_but_not_safe(self):
+        self.build("--no-process")
+        done = flexcomp("plant", "--model", KR270, "--path", self.path, "--table", self.table,
+                        "--depth-of-cut", "0.0012", "--filter-cutoff", "0", "--gain", "0.5")
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertRegex(done.stderr, r"the gain 0\.5 is stable but above the largest safe one, 0\.3\d+\n$")
+
+    def test_a_cut_that_all_but_digs_in_has_no_safe_gain(self):
+        process = ("--depth-of-cut", "0.0008")
+        said = self.run_well("table", "--model", KR270, "--path", self.path, "--out", self.table, *process)
+        self.assertIn("no stable correction gain is safe", said)
+        config = self.folder / "node.toml"
+        for words in (("configure", "--model", KR270, "--table", self.table, "--out", config),
+                      ("plant", "--model", KR270, "--path", self.path, "--table", self.table, *process)):
+            done = flexcomp(*words)
+            self.assertEqual(1, done.returncode, done.stdout)
+            self.assertRegex(done.stderr, r"^flexcomp: .*\n$")
+        self.assertFalse(config.exists())
 
     def test_compensating_beforehand_closes_no_loop(self):
         corrected = []
-        for process in (("--no-process",), ("--depth-of-cut", "0.0008")):
+        for process in (("--no-process",), ("--depth-of-cut", "0.001")):
             self.build(*process)
             out = self.folder / "corrected.csv"
             said = json.loads(self.run_well("compensate", "--model", KR270, "--table", self.table, "--path", self.path,
