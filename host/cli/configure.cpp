@@ -78,8 +78,8 @@ int run(const ConfigureOptions& options) {
   if (largest_gain > 0 && largest_gain <= 1.01 * control::GainLimit::kNone) {
     fmt::print(
         stderr,
-        "flexcomp: {}: no gain is safe with the process it was made for, in which the tool digs "
-        "in (flexcomp table says how deep a cut it takes); nothing is written\n",
+        "flexcomp: {}: no gain is safe with the process it was made for: it takes a deeper cut "
+        "(flexcomp table --depth-of-cut) or less force; nothing is written\n",
         options.table);
     return kDoesNotHold;
   }

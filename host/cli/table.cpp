@@ -243,7 +243,12 @@ struct GainCheck {
 
 GainCheck check_gain(const VerifyOptions& options, const model::Robot& robot, const Table& table) {
   const auto stated = static_cast<double>(table.header().largest_gain);
-  const std::string name = stated > 0 ? fmt::format("{:.4g}", stated) : "not analysed";
+  const auto name_of = [](double value) {
+    return value <= 0                           ? std::string("not analysed")
+           : value <= control::GainLimit::kNone ? std::string("none is safe")
+                                                : fmt::format("{:.4g}", value);
+  };
+  const std::string name = name_of(stated);
   GainCheck gain;
   if (options.path.empty()) {
     gain.text = fmt::format(
