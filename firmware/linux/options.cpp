@@ -1,9 +1,11 @@
 #include "linux/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <set>
 
 #include "linux/build_info.hpp"
 #include "linux/complaint.hpp"
+#include "linux/config_lines.hpp"
 #include "linux/option_list.hpp"
 #include "linux/whole_file.hpp"
 #include "node/default_config.hpp"
@@ -29,6 +31,7 @@ constexpr const char* kDescription =
 /// Options as they are typed; six numbers may be given as one for all.
 struct Typed {
   std::string model_hash;
+  std::string trigger = "setpoint";
   std::vector<float> joint_speed = {1.5F};
   std::vector<float> value = {0.01F};
   std::vector<float> rate = {0.1F};
@@ -36,24 +39,44 @@ struct Typed {
   bool without_identity = false;
 };
 
+/// A number that `is_good`; CLI11's own ranges name their far end too.
+CLI::Validator number(const char* expected, bool (*is_good)(double)) {
+  return {[=](std::string& text) {
+            double value = 0;
+            return CLI::detail::lexical_cast(text, value) && is_good(value)
+                       ? std::string()
+                       : std::string("expected ") + expected + ", not " + text;
+          },
+          ""};
+}
+
+CLI::Validator above_zero() {
+  return number("a number above zero", [](double value) { return value > 0; });
+}
+
+CLI::Validator zero_or_above() {
+  return number("a number of zero or above", [](double value) { return value >= 0; });
+}
+
+CLI::Validator zero_to_one() {
+  return number("a number from 0 to 1", [](double value) { return value >= 0 && value <= 1; });
+}
+
 template <typename Number>
 void positive(OptionList* app, const char* name, Number* value, const char* help) {
-  app->add_changeable(name, value, help)->check(CLI::PositiveNumber);
+  app->add_changeable(name, value, help)->check(above_zero());
 }
 
 template <typename Number>
 void not_negative(OptionList* app, const char* name, Number* value, const char* help) {
-  app->add_changeable(name, value, help)->check(CLI::NonNegativeNumber);
+  app->add_changeable(name, value, help)->check(zero_or_above());
 }
 
 void one_or_six(OptionList* app, const char* name, std::vector<float>* values, const char* help) {
-  app->add_changeable(name, values, help)
-      ->check(CLI::PositiveNumber)
-      ->expected(1, 6)
-      ->delimiter(',');
+  app->add_changeable(name, values, help)->check(above_zero())->expected(1, 6)->delimiter(',');
 }
 
-void add_links(OptionList* app, Options* options) {
+void add_links(OptionList* app, Options* options, Typed* typed) {
   app->add_fixed("--can", &options->can, "CAN interface, such as can0");
   app->add_fixed("--fd", &options->fd, "answer with CAN FD frames");
   app->add_fixed("--lcm", &options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
@@ -61,11 +84,9 @@ void add_links(OptionList* app, Options* options) {
       "--key", &options->key,
       "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
       "authenticated with it, and take only tables signed with it (CAN only; SECURITY.md)");
-  const std::map<std::string, Trigger> triggers = {
-      {"setpoint", Trigger::setpoint}, {"clock", Trigger::clock}, {"lockstep", Trigger::lockstep}};
-  app->add_fixed("--trigger", &options->settings.trigger,
-                 "what makes a tick: setpoint, clock or lockstep")
-      ->transform(CLI::CheckedTransformer(triggers, CLI::ignore_case));
+  app->add_fixed("--trigger", &typed->trigger, "what makes a tick: setpoint, clock or lockstep")
+      ->transform(
+          CLI::IsMember(std::set<std::string>{"setpoint", "clock", "lockstep"}, CLI::ignore_case));
   app->add_fixed("--tolerated-losses", &options->settings.tolerated_losses,
                  "messages in a row that may be lost without a break")
       ->check(CLI::Range(0, 6));
@@ -86,10 +107,9 @@ void add_table(OptionList* app, Options* options, Typed* typed) {
 
 void add_correction(OptionList* app, Options* options, Typed* typed) {
   auto& core = options->settings.node.compensator;
-  app->add_fixed("--period", &core.period, "s, from one tick to the next")
-      ->check(CLI::PositiveNumber);
+  app->add_fixed("--period", &core.period, "s, from one tick to the next")->check(above_zero());
   app->add_changeable("--gain", &core.gain, "share of the deflection that is corrected")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(zero_to_one());
   not_negative(app, "--filter-cutoff", &core.filter_cutoff, "Hz, low-pass on the wrench; 0: none");
   one_or_six(app, "--correction-limit", &typed->value,
              "rad, largest correction; one or a joint each");
@@ -156,7 +176,8 @@ std::uint64_t parse_hash(const std::string& text) {
   return std::stoull(text, nullptr, 16);
 }
 
-void apply(const Typed& typed, Options* options) {
+/// Puts what was typed where it belongs.
+void transfer(const Typed& typed, Options* options) {
   require_one_or_six(typed.joint_speed, "--joint-speed");
   require_one_or_six(typed.value, "--correction-limit");
   require_one_or_six(typed.rate, "--correction-rate");
@@ -167,18 +188,28 @@ void apply(const Typed& typed, Options* options) {
     core.limits[i] = {at(typed.value, i), at(typed.rate, i), at(typed.acceleration, i)};
   }
   core.model_hash = parse_hash(typed.model_hash);
+  options->settings.trigger = typed.trigger == "clock"      ? Trigger::clock
+                              : typed.trigger == "lockstep" ? Trigger::lockstep
+                                                            : Trigger::setpoint;
   options->settings.node.require_identity = !typed.without_identity;
   options->settings.node.use_timestamps = options->settings.trigger != Trigger::lockstep;
-  if (!options->key.empty() && !options->settings_out.empty()) {
+}
+
+/// Do the options make sense together?
+void check_together(const Options& options) {
+  if (!is_usable(options.settings.node)) {
+    throw CLI::ValidationError("configuration", describe(Result::bad_config));
+  }
+  if (!options.key.empty() && !options.settings_out.empty()) {
     throw CLI::ValidationError("--key", "a microcontroller has none: not with --settings-out");
   }
-  if (!options->settings_out.empty()) {
+  if (!options.settings_out.empty()) {
     return;  // the microcontroller has its own bus
   }
-  if (options->can.empty() && options->lcm.empty()) {
+  if (options.can.empty() && options.lcm.empty()) {
     throw CLI::ValidationError("--can or --lcm", "expected at least one of them");
   }
-  if (!options->key.empty() && !options->lcm.empty()) {
+  if (!options.key.empty() && !options.lcm.empty()) {
     throw CLI::ValidationError("--key", "authenticates CAN only: not together with --lcm");
   }
 }
@@ -194,36 +225,111 @@ std::string complaint_about_file(const std::string& path) {
   }
 }
 
+/// All options of flexcompd, and where what they are given goes.
+class Parser {
+ public:
+  Parser() : app_(kDescription), list_(&app_) {
+    options_.settings.node = default_node_config();
+    app_.option_defaults()->always_capture_default();
+    app_.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
+    app_.set_config("--config", "", "file with any of these options, one a line: name = value")
+        ->check(CLI::Validator(complaint_about_file, ""));
+    app_.allow_config_extras(CLI::config_extras_mode::error);
+    add_links(&list_, &options_, &typed_);
+    add_table(&list_, &options_, &typed_);
+    add_correction(&list_, &options_, &typed_);
+    add_plausibility(&list_, &options_, &typed_);
+    add_process(&list_, &options_);
+  }
+
+  Options parse(int argc, const char* const* argv) {
+    app_.parse(argc, argv);
+    transfer(typed_, &options_);
+    check_together(options_);
+    refuse_repeated_names();
+    options_.fixed = list_.fixed();
+    return options_;
+  }
+
+  /// What is wrong with one option, whatever the others are; empty if nothing.
+  std::string complaint_about(const std::string& name, const std::vector<std::string>& values) {
+    const CLI::Option* option = app_.get_option_no_throw("--" + name);
+    if (option == nullptr || option == app_.get_config_ptr()) {
+      return name + " is no option";
+    }
+    app_.get_option("--model-hash")->required(false);
+    typed_.model_hash = std::string(16, '0');
+    std::vector<std::string> words(values.rbegin(), values.rend());  // CLI11 takes the last first
+    const std::string first = words.empty() ? "" : words.back();
+    if (!words.empty()) {
+      words.pop_back();
+    }
+    words.push_back("--" + name + "=" + first);
+    try {
+      app_.parse(words);
+      transfer(typed_, &options_);
+      return is_usable(options_.settings.node) ? ""
+                                               : "--" + name + ": " + first + " is out of range";
+    } catch (const CLI::ParseError& error) {
+      return error.what();
+    }
+  }
+
+  /// Ends with help or version, or complains. The exit code.
+  int end(const CLI::ParseError& error) const {
+    if (error.get_exit_code() == 0) {
+      return app_.exit(error);
+    }
+    complain(where(error.what()) + " (see --help)");
+    return kUnusableInput;
+  }
+
+ private:
+  /// The configuration file that was given and can be read; else empty.
+  std::string config_file() const {
+    const std::vector<std::string>& given = app_.get_config_ptr()->results();
+    return given.size() == 1 && complaint_about_file(given.front()).empty() ? given.front() : "";
+  }
+
+  /// A complaint with the line of the configuration file that it is about, if it is about one.
+  std::string where(const std::string& complaint) const {
+    const auto complaint_about = [](const std::string& name,
+                                    const std::vector<std::string>& values) {
+      return Parser().complaint_about(name, values);
+    };
+    const std::string file = config_file();
+    for (const auto& at_line :
+         {complaint_about_lines(file, complaint_about), complaint_about_repeated_names(file),
+          complaint_at_line_of_its_option(file, complaint)}) {
+      if (at_line) {
+        return *at_line;
+      }
+    }
+    return complaint;
+  }
+
+  /// CLI11 takes the first of two and says nothing.
+  void refuse_repeated_names() const {
+    const std::optional<std::string> complaint = complaint_about_repeated_names(config_file());
+    if (complaint) {
+      throw CLI::ConversionError(*complaint);
+    }
+  }
+
+  Options options_;
+  Typed typed_;
+  CLI::App app_;
+  OptionList list_;
+};
+
 }  // namespace
 
 std::optional<Options> read_options(int argc, const char* const* argv, int* exit_code) {
-  Options options;
-  options.settings.node = default_node_config();
-  Typed typed;
-  CLI::App app(kDescription);
-  app.option_defaults()->always_capture_default();
-  app.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
-  app.set_config("--config", "", "file with any of these options, one a line: name = value")
-      ->check(CLI::Validator(complaint_about_file, ""));
-  app.allow_config_extras(CLI::config_extras_mode::error);
-  OptionList list(&app);
-  add_links(&list, &options);
-  add_table(&list, &options, &typed);
-  add_correction(&list, &options, &typed);
-  add_plausibility(&list, &options, &typed);
-  add_process(&list, &options);
+  Parser parser;
   try {
-    app.parse(argc, argv);
-    apply(typed, &options);
-    options.fixed = list.fixed();
-    return options;
+    return parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      *exit_code = app.exit(error);
-    } else {
-      complain(std::string(error.what()) + " (see --help)");
-      *exit_code = kUnusableInput;
-    }
+    *exit_code = parser.end(error);
     return std::nullopt;
   }
 }

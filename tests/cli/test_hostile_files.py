@@ -34,6 +34,26 @@ class HostileFiles(Command):
     def refusal(self, program, *arguments):
         return self.assert_one_printable_line(run_limited(program, *arguments))
 
+    def test_what_cannot_stand_in_a_configuration_is_refused_with_its_line(self):
+        lines = {'nmae = 3': "nmae is no option", 'config = "x"': "config is no option",
+                 'period = -1': "--period: expected a number above zero, not -1",
+                 'period = abc': "--period: expected a number above zero, not abc",
+                 'gain = 2': "--gain: expected a number from 0 to 1, not 2",
+                 'filter-cutoff = -1': "--filter-cutoff: expected a number of zero or above",
+                 'joint-speed = [1, 2, 3]': "--joint-speed: expected one number, or six",
+                 'trigger = "x"': "--trigger: x not in", 'fd = maybe': "Could not convert: --fd = maybe",
+                 'hold-time = 0.2': "hold-time stands in line 2 already",
+                 'period = 400': "--period: 400 is out of range",
+                 'ready-ticks = 1.5': "Could not convert: --ready-ticks = 1.5",
+                 '[section]': "expected name = value", '= 3': "expected name = value",
+                 'model-hash = "12"': "--model-hash: expected 16 hexadecimal digits"}
+        for line, saying in lines.items():
+            with self.subTest(line=line):
+                the_rest = "" if "model-hash" in line else 'model-hash = "0123456789abcdef"\n'
+                config = self.file("node.toml", f'# A node.\nhold-time = 0.1\n\n{line}\n{the_rest}')
+                told = self.refusal(FLEXCOMPD, "--config", config, "--can", "vcan0")
+                self.assertIn(f"flexcompd: {config}:4: {saying}", told)
+
     def planned(self):
         path = self.folder / "path.csv"
         self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz",

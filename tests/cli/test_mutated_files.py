@@ -213,6 +213,8 @@ class MutatedFiles(Command):
             return f"exit code {done.returncode}: {told[-500:]}"
         if not re.fullmatch(r"flexcompd?: [^\n]+\n", told) or UNPRINTABLE.search(told) or "\ufffd" in told:
             return f"not one printable line: {told!r}"
+        if name == "toml" and not re.match(r"flexcompd: [^\n]*node\.toml(:\d+)?: |flexcompd: --model-hash is required", told):
+            return f"does not say where: {told!r}"
         if written or done.stdout:
             return f"left {[str(each) for each in written]} {done.stdout[:80]}"
         return None

@@ -192,7 +192,7 @@ class Life(Process):
     def test_a_new_configuration_is_refused_while_correcting_and_taken_when_off(self):
         with Flexcompd(self.job) as node:
             self.bring_up()
-            self.job.config.write_text(self.job.config.read_text() + "gain = 0.5\n")
+            self.job.config.write_text(self.job.config.read_text().replace("gain = 1\n", "gain = 0.5\n"))
             node.process.send_signal(signal.SIGHUP)
             received = self.feeder.run(0.5)
             self.assertEqual(STATES["active"], states(received)[-1])
