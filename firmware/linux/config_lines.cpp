@@ -57,7 +57,9 @@ std::optional<std::string> complaint_about_repeated_names(const std::string& pat
 std::optional<std::string> complaint_at_line_of_its_option(const std::string& path,
                                                            const std::string& complaint) {
   return first_complaint(path, [&](const CLI::ConfigItem& item, std::size_t /*line*/) {
-    return complaint.rfind("--" + item.name + ": ", 0) == 0 ? complaint : std::string();
+    const bool is_about_it = complaint.rfind("--" + item.name + ": ", 0) == 0 ||
+                             complaint.rfind(item.name + ": ", 0) == 0;
+    return is_about_it ? complaint : std::string();
   });
 }
 

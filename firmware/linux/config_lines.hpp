@@ -20,7 +20,7 @@ std::optional<std::string> complaint_about_lines(const std::string& path,
 /// The same for a name that stands twice.
 std::optional<std::string> complaint_about_repeated_names(const std::string& path);
 
-/// A complaint that begins with "--name: ", with the line where that name stands.
+/// A complaint that begins with "--name: " or "name: ", with the line where that name stands.
 std::optional<std::string> complaint_at_line_of_its_option(const std::string& path,
                                                            const std::string& complaint);
 
