@@ -270,8 +270,8 @@ class Parser {
       transfer(typed_, &options_);
       return is_usable(options_.settings.node) ? ""
                                                : "--" + name + ": " + first + " is out of range";
-    } catch (const CLI::ParseError& error) {
-      return error.what();
+    } catch (const CLI::ParseError& error) {  // which help and version are, too
+      return error.get_exit_code() == 0 ? name + " is no option" : error.what();
     }
   }
 

@@ -35,7 +35,7 @@ class HostileFiles(Command):
         return self.assert_one_printable_line(run_limited(program, *arguments))
 
     def test_what_cannot_stand_in_a_configuration_is_refused_with_its_line(self):
-        lines = {'nmae = 3': "nmae is no option", 'config = "x"': "config is no option",
+        lines = {'nmae = 3': "nmae is no option", 'help = true': "help is no option", 'config = "x"': "config is no option",
                  'period = -1': "--period: expected a number above zero, not -1",
                  'period = abc': "--period: expected a number above zero, not abc",
                  'gain = 2': "--gain: expected a number from 0 to 1, not 2",
