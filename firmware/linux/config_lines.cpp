@@ -1,5 +1,7 @@
 #include "linux/config_lines.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <map>
@@ -28,7 +30,7 @@ std::optional<std::string> first_complaint(
     for (const CLI::ConfigItem& item : items_of(line)) {
       const std::string complaint = complaint_about(item, number);
       if (!complaint.empty()) {
-        return path + ":" + std::to_string(number) + ": " + complaint;
+        return fmt::format("{}:{}: {}", path, number, complaint);
       }
     }
   }
@@ -50,7 +52,7 @@ std::optional<std::string> complaint_about_repeated_names(const std::string& pat
   return first_complaint(path, [&](const CLI::ConfigItem& item, std::size_t line) {
     const auto [before, is_new] = lines.emplace(item.name, line);
     return is_new ? std::string()
-                  : item.name + " stands in line " + std::to_string(before->second) + " already";
+                  : fmt::format("{} stands in line {} already", item.name, before->second);
   });
 }
 
