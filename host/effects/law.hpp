@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/plausible_range.hpp"
 #include "simulation/machine.hpp"
 
 /// Physics that a robot's model may lack. A law knows machines, and no recording's residual.
@@ -43,9 +44,11 @@ struct Traits {
   bool alters_model = false;   ///< the scene must be simulated anew; else the law adds a term
   bool is_curved = false;      ///< far from proportion: derivatives must be taken where it stands
   bool is_curve_only = false;  ///< a curve for want of the law: a law that fits as well is meant
-  bool is_wave = false;   ///< its first two parameters are the amplitudes of a sine and a cosine
-  bool is_body = false;   ///< mass that a link or the flange carries, simplified in its own way
-  bool is_clock = false;  ///< a clock of the measurement is late, by its one parameter
+  bool is_wave = false;  ///< its first two parameters are the amplitudes of a sine and a cosine
+  bool is_body = false;  ///< mass that a link or the flange carries, simplified in its own way
+  bool tells_inertia = false;    ///< it says how a mass is spread: with it the joint-space inertia
+                                 ///< must stay positive definite
+  bool is_clock = false;         ///< a clock of the measurement is late, by its one parameter
   bool is_model_number = false;  ///< a number that every model has: it may stand in for physics
                                  ///< that no law has
   bool can_be_undone =
@@ -63,6 +66,13 @@ struct Law {
   Traits traits;
   /// Its parameters; their names may depend on the direction of the joint's axis.
   std::function<std::vector<Parameter>(const model::Robot&, int joint)> parameters;
+  /// What its parameters can be, each with its source; a parameter without one may be anything.
+  std::vector<ParameterRange> ranges;
+  /// Why a robot that a model became by it, at a joint, could not be, the model's size given; empty
+  /// where it can. May be left out.
+  std::function<std::string(const model::Robot& model, const model::Robot& altered,
+                            const MachineSize&, int joint)>
+      no_body;
   /// Why this robot cannot have it at a joint; empty where it can. May be left out.
   std::function<std::string(const model::Robot&, int joint)> impossible;
   /// Gives the machine the effect, beside the effects it has.
@@ -89,6 +99,11 @@ struct Effect {
   /// out. Not called for a joint of which the list `effects` says more.
   std::function<void(const model::Robot&, int joint, Machine*)> apply_keys;
 };
+
+/// What a parameter of a law can be at a joint; endless, without a source, where the law does not
+/// say.
+Range plausible_range(const Law& law, const model::Robot& robot, const MachineSize& size, int joint,
+                      const std::string& parameter);
 
 /// Every effect that is known (effects/catalogue.inc).
 const std::vector<Effect>& catalogue();

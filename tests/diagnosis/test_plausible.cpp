@@ -207,8 +207,8 @@ void every_parameter_of_every_effect_has_a_plausible_range_with_its_source() {
       for (const Hypothesis& hypothesis : all_hypotheses(observations)) {
         seen.insert(hypothesis.effect());
         for (const Parameter& parameter : hypothesis.parameters) {
-          const Range range =
-              plausible_range(robot, size_of(observations), hypothesis, parameter.name);
+          const Range range = plausible_range(*hypothesis.law, robot, size_of(observations),
+                                              hypothesis.joint, parameter.name);
           const std::string what = hypothesis.effect() + " " + parameter.name;
           TEST_ASSERT_TRUE_MESSAGE(*range.source != 0, what.c_str());
           TEST_ASSERT_TRUE_MESSAGE(range.lower <= range.upper, what.c_str());

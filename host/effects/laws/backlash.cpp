@@ -73,7 +73,13 @@ Forms laws::backlash() {
       machine->terms.push_back(keyed_play(joint, gap));
     }
   };
-  return {{by_load, by_motion}, apply_keys};
+  return {
+      {by_load, by_motion},
+      apply_keys,
+      {{"", " gap ", [](const Subject&) { return up_to(0.01); },
+        "gears' data sheets: 1 arcmin (cycloidal) to 20 arcmin (spur gears of servos), and wear"},
+       {"", " hold ", [](const Subject& of) { return up_to(of.effort()); },
+        "a drag beyond the drive's largest torque would hold the joint"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -40,7 +40,12 @@ Forms laws::base_frame() {
                     }};
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " x y z ", [](const Subject&) { return within(80); },
+            "laser trackers' data sheets: they reach 80 m"},
+           {"", " rx ry rz ", [](const Subject&) { return within(M_PI); },
+            "any turn is one by at most half a revolution"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -15,7 +15,11 @@ Forms laws::coulomb_friction() {
   alter_keys([](const Values& values, int joint,
                 model::Robot* robot) { robot->dynamics[index_of(joint)].coulomb += values[0]; },
              &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " torque ",
+            [](const Subject& of) { return change(of.dynamics().coulomb, of.effort()); },
+            "friction does not drive, and a joint moves that its drive can move"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -61,7 +61,15 @@ Forms laws::friction_hysteresis() {
   return {
       {grip_law("play", with_play, {torque, slip, {"gap", "rad"}}),
        grip_law("slider", without_play, {torque, slip}), grip_law("dahl", by_dahl, {torque, slip})},
-      {}};
+      {},
+      {{"", " torque ", [](const Subject& of) { return up_to(of.effort()); },
+        "friction does not drive, and a joint moves that its drive can move"},
+       {"", " slip ", [](const Subject&) { return up_to(0.1); },
+        "friction of contacts and belts is built up within some degrees of turning back (Al-Bender "
+        "and Swevers 2008); built up at once it is dry friction"},
+       {"", " gap ", [](const Subject&) { return up_to(0.1); },
+        "brakes, belts and seals grip within some degrees of turning back; no gear's teeth are "
+        "meant"}}};
 }
 
 }  // namespace flexcomp::effects

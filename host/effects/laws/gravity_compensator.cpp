@@ -68,7 +68,26 @@ Forms laws::gravity_compensator() {
   sine.traits.is_curve_only = true;
   sine.parameters = constant({{"sine_torque", "N·m"}, {"cosine_torque", "N·m"}});
   balance(&sine, sine_torque);
-  return {{spring, sine}, {}};
+  return {
+      {spring, sine},
+      {},
+      {{"", " stiffness_torque pull_torque ",
+        [](const Subject& of) { return within(10 * of.size.weight_torque); },
+        "a balancer holds about the arm's weight; its preload and rate may work against each "
+        "other"},
+       {"", " sine_torque cosine_torque ",
+        [](const Subject& of) { return within(3 * of.size.weight_torque); },
+        "a balancer holds about the arm's weight"},
+       {"", " anchor_ratio ",
+        [](const Subject&) {
+          return Range{0, 1, Rest::below};
+        },
+        "anchored at the same distance twice it would fold; near the axis its torque is a sine"},
+       {"", " zero_angle ",
+        [](const Subject&) {
+          return Range{-4, 4, Rest::both};
+        },
+        "any angle is one of half a revolution either way"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -53,7 +53,14 @@ Forms laws::hysteresis() {
            loop_law("prandtl_ishlinskii", simulation::prandtl_ishlinskii),
            loop_law("bouc_wen_from_zero", from_zero<simulation::bouc_wen>),
            loop_law("prandtl_ishlinskii_from_zero", from_zero<simulation::prandtl_ishlinskii>)},
-          {}};
+          {},
+          {{"", " amplitude ", [](const Subject&) { return up_to(0.01); },
+            "as the gap of backlash: gears' data sheets give both as lost motion"},
+           {"", " yield_torque ",
+            [](const Subject& of) {
+              return Range{0, of.effort()};
+            },
+            "friction beyond the drive's largest torque would hold the joint"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -45,7 +45,10 @@ Forms laws::joint_axis() {
         }
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " tilt_x tilt_y tilt_z ", [](const Subject&) { return within(0.1); },
+            "an axis 6° askew is another machine; castings are machined to minutes of arc"}}};
 }
 
 }  // namespace flexcomp::effects

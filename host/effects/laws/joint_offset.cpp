@@ -15,7 +15,10 @@ Forms laws::joint_offset() {
   law.apply = [](const Values& values, int joint, Machine* machine) {
     machine->encoder_offset[joint - 1] += values[0];
   };
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " offset ", [](const Subject&) { return within(M_PI); },
+            "an encoder may be set to zero anywhere"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -1,6 +1,22 @@
+#include <algorithm>
+
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
+namespace {
+
+constexpr double kSmallestShare = 0.01;  // of a spring's compliance, of one in the other
+
+Range joint_spring(const Subject& of) {
+  const double known = of.joint().compliance;
+  const double most = softest(kMostTurn, kSpringTurn, of.load());
+  if (!(known > 0)) {
+    return up_to(most);
+  }
+  return {(kSmallestShare - 1) * known, std::min(most, known / kSmallestShare) - known};
+}
+
+}  // namespace
 
 // Linear compliance of a joint that differs from the model's: it winds up by more or less per
 // torque (virtual-joint model, Klimchik et al. 2017).
@@ -21,7 +37,14 @@ Forms laws::joint_stiffness() {
         robot->elastic.joints[index_of(joint)].compliance += values[0];
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " compliance_change ", joint_spring,
+            "no gear is rigid, none a hundred times softer than was measured of its kind, and none "
+            "winds "
+            "up "
+            "by 0.1 rad under what it bears (series elastic actuators do, Pratt and Williamson "
+            "1995)"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -7,10 +7,11 @@
 
 namespace flexcomp::effects {
 
-/// The laws of one effect, a law for each form it takes.
+/// The laws of one effect, a law for each form it takes, and the ranges of their parameters.
 struct Forms {
   std::vector<Law> laws;
   std::function<void(const model::Robot&, int joint, Machine*)> apply_keys;
+  std::vector<ParameterRange> ranges;
 };
 
 namespace laws {

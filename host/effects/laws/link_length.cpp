@@ -1,6 +1,17 @@
+#include <algorithm>
+
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
+namespace {
+
+Range half_of_length(const Subject& of) {
+  const double length =
+      of.robot.elastic.joints[std::min<std::size_t>(of.index() + 1, 5)].origin.position.norm();
+  return within(std::max(0.5 * length, 0.02 * of.size.reach));
+}
+
+}  // namespace
 
 // Length of the link that a joint moves, along the line to the next joint (kinematic calibration;
 // Mooring, Roth and Driels 1991).
@@ -21,7 +32,10 @@ Forms laws::link_length() {
         next += values[0] * next.normalized();
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " length ", half_of_length,
+            "with half of its length more or less a link is that of another robot"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -5,6 +5,31 @@
 namespace flexcomp::effects {
 namespace {
 
+constexpr double kLostMass = 0.8;   // of a link's mass
+constexpr double kAddedMass = 2;    // times a link's mass
+constexpr double kLeastLink = 0.2;  // of the reach, about a joint: the size of a link there
+
+double largest_mounted(const Subject& of) {
+  return std::max(kAddedMass * of.joint().mass, of.size.payload);
+}
+
+/// How large a link can be that joint `index` moves.
+double link_size(const RobotModel<double, 6>& elastic, const MachineSize& size, std::size_t index) {
+  const Pose<double>& end =
+      index + 1 < elastic.joints.size() ? elastic.joints[index + 1].origin : elastic.tool;
+  return std::max({end.position.norm(), kLeastLink * size.reach,
+                   1.5 * elastic.joints[index].center_of_mass.norm()});
+}
+
+std::string why_no_link(const model::Robot& model, const model::Robot& altered,
+                        const MachineSize& size, int joint) {
+  const Joint<double>& link = altered.elastic.joints[index_of(joint)];
+  return link.mass > 0 &&
+                 link.center_of_mass.norm() <= link_size(model.elastic, size, index_of(joint))
+             ? ""
+             : "a link whose centre of mass lies outside of it cannot be";
+}
+
 /// Adds a point mass at the link's origin and a first moment (kg·m), which has no inertia of its
 /// own.
 void mount(double mass, const Vector3<double>& moment, std::size_t index, model::Robot* robot) {
@@ -31,7 +56,9 @@ Forms laws::link_mass() {
   body.traits.linear_in = 1;
   body.traits.is_body = true;
   body.statement = says("the link that joint {} moves has another mass");
+  body.no_body = why_no_link;
   Law mounted = body;
+  body.traits.tells_inertia = true;
   body.parameters = constant({{"mass", "kg"}});
   body.impossible = [](const model::Robot& robot, int joint) {
     return robot.elastic.joints[index_of(joint)].mass > 0 ? "" : "its link has no mass";
@@ -51,7 +78,23 @@ Forms laws::link_mass() {
         mount(values[0], {values[1], values[2], values[3]}, index_of(joint), robot);
       },
       &mounted);
-  return {{body, mounted}, {}};
+  return {{body, mounted},
+          {},
+          {{"body", " mass ",
+            [](const Subject& of) {
+              return Range{-kLostMass * of.joint().mass, kAddedMass * of.joint().mass};
+            },
+            "models' masses are estimates to a half (Gaz et al. 2019); none is off fivefold"},
+           {"mounted", " mass ",
+            [](const Subject& of) {
+              return Range{-kLostMass * of.joint().mass, largest_mounted(of)};
+            },
+            "no more is mounted on a link than twice its mass or what the flange could carry"},
+           {"mounted", " mx my mz ",
+            [](const Subject& of) {
+              return within((of.joint().mass + largest_mounted(of)) * of.size.reach);
+            },
+            "what is mounted on a link lies within the arm's reach"}}};
 }
 
 }  // namespace flexcomp::effects

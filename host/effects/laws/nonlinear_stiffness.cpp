@@ -1,6 +1,19 @@
+#include <algorithm>
+
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
+namespace {
+
+/// Wind-up c1 τ + c3 τ³ that does not turn back, nor is beyond tenfold, under the largest load.
+Range cubic_spring(const Subject& of) {
+  const double load = std::max(of.load(), 1.0);
+  const double straight = of.joint().compliance / (load * load);
+  const double known = of.joint().cubic_compliance;
+  return {-straight / 3 - known, std::min(10 * straight, kMostTurn) - known};
+}
+
+}  // namespace
 
 // Cubic torque-deflection curve of a joint, deflection = c1 tau + c3 tau^3, softening above zero
 // and hardening below (strain-wave and cycloidal gears; Albu-Schaeffer 2002).
@@ -15,7 +28,10 @@ Forms laws::nonlinear_stiffness() {
         robot->elastic.joints[index_of(joint)].cubic_compliance += values[0];
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " cubic_compliance ", cubic_spring,
+            "more torque winds up more: a curve that turns back stores no energy"}}};
 }
 
 }  // namespace flexcomp::effects

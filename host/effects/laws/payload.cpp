@@ -3,6 +3,11 @@
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
+namespace {
+
+constexpr double kFarthest = 0.5;  // of the reach, from the flange
+
+}  // namespace
 
 // Mass on the flange that differs from the model's, as a point: mass and first moment in the tool
 // frame (rigid-body dynamics).
@@ -11,6 +16,14 @@ Forms laws::payload() {
   law.joints = {0};
   law.traits.linear_in = 4;
   law.traits.is_body = true;
+  law.traits.tells_inertia = true;
+  law.no_body = [](const model::Robot&, const model::Robot& robot, const MachineSize& size, int) {
+    return robot.elastic.payload_mass < 0 ||
+                   robot.elastic.payload_center.norm() > kFarthest * size.reach
+               ? "a payload without mass or farther from the flange than half of the reach cannot "
+                 "be"
+               : "";
+  };
   law.parameters = constant({{"mass", "kg"}, {"mx", "kg·m"}, {"my", "kg·m"}, {"mz", "kg·m"}});
   law.statement = says("the mass on the flange is another");
   alter_keys(
@@ -24,7 +37,17 @@ Forms laws::payload() {
                                    : Vector3<double>::Zero();
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " mass ",
+            [](const Subject& of) {
+              const double known = of.robot.elastic.payload_mass;
+              return Range{-known, of.size.payload - known};
+            },
+            "data sheets: no arm carries more than it moves of itself, and no mass is negative"},
+           {"", " mx my mz ",
+            [](const Subject& of) { return within(kFarthest * of.size.payload * of.size.reach); },
+            "what the flange carries lies within half of the arm's reach from it"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "effects/inertia.hpp"
 #include "effects/laws/laws.hpp"
@@ -75,7 +76,23 @@ Forms laws::resonance() {
     };
     machine->terms.push_back(vibration(joint, frequencies, values[1]));
   };
-  return {{constant_mode, by_posture}, {}};
+  return {{constant_mode, by_posture},
+          {},
+          {{"", " frequency ",
+            [](const Subject&) {
+              return Range{1, 300};
+            },
+            "arms' lowest modes are at 2 to 60 Hz (Abele, Weigold and Rothenbuecher 2007)"},
+           {"", " stiffness ",
+            [](const Subject&) {
+              return Range{0, std::numeric_limits<double>::infinity()};
+            },
+            "a spring pulls back; its size follows from the frequencies above"},
+           {"", " damping ",
+            [](const Subject&) {
+              return Range{0, 0.5};
+            },
+            "steel and gears damp by 0.002 to 0.2; beyond 0.5 nothing swings"}}};
 }
 
 }  // namespace flexcomp::effects

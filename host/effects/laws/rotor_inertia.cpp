@@ -8,6 +8,7 @@ Forms laws::rotor_inertia() {
   Law law;
   law.joints = joints(1, 6);
   law.traits.linear_in = 1;
+  law.traits.tells_inertia = true;
   law.parameters = constant({{"inertia", "kg·m^2"}});
   law.statement = says("the rotor of joint {} has another inertia");
   alter_keys(
@@ -15,7 +16,11 @@ Forms laws::rotor_inertia() {
         robot->dynamics[index_of(joint)].rotor_inertia += values[0];
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " inertia ",
+            [](const Subject& of) { return change(of.dynamics().rotor_inertia, of.effort()); },
+            "a drive whose largest torque moves its own rotor by 1 rad/s² moves no arm"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -46,7 +46,10 @@ Forms laws::servo_lag() {
     machine->lag.segment(first_of(joint) - 1, count).array() += values[0];
   };
   law.sketch = late_joints;
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " time_constant ", [](const Subject&) { return up_to(1); },
+            "position loops close at 1 to 20 Hz; none is slower than a second"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -27,7 +27,15 @@ Forms laws::stribeck_friction() {
   add_term(
       [](const Values& values, int joint) { return slow_friction(joint, values[0], values[1]); },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " excess ", [](const Subject& of) { return up_to(of.effort()); },
+            "a joint starts that its drive can move"},
+           {"", " speed ",
+            [](const Subject& of) {
+              return Range{0, of.velocity()};
+            },
+            "friction falls within the joint's speeds"}}};
 }
 
 }  // namespace flexcomp::effects

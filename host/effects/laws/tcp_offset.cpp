@@ -16,7 +16,10 @@ Forms laws::tcp_offset() {
         tool.position += tool.rotation * Vector3<double>(values[0], values[1], values[2]);
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " x y z ", [](const Subject& of) { return within(0.5 * of.size.reach); },
+            "no tool is longer than half of the arm's reach"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <limits>
 
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
 namespace {
+
+constexpr double kAluminium = 23e-6;  // 1/K, growth of the lightest material of arms
 
 /// Rise of the temperature (K) over its first hundredth, whose mean is less noisy than one value.
 Eigen::VectorXd warming(const Eigen::VectorXd& temperature) {
@@ -59,7 +62,21 @@ Forms laws::thermal_drift() {
   temperature.traits.needs_temperature = true;
   const Law time =
       drift_law("time", by_time, {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"time_constant", "s"}});
-  return {{temperature, time}, {}};
+  return {
+      {temperature, time},
+      {},
+      {{"temperature", " x y z ",
+        [](const Subject& of) { return within(10 * kAluminium * of.size.reach); },
+        "aluminium grows by 23e-6 a kelvin; up and forward, and five times as warm as the sensor"},
+       {"time", " x y z ",
+        [](const Subject& of) { return within(100 * kAluminium * of.size.reach); },
+        "aluminium grows by 23e-6 a kelvin; up and forward, by 50 K (ISO 230-3)"},
+       {"time", " time_constant ",
+        [](const Subject&) {
+          return Range{60, std::numeric_limits<double>::infinity(), Rest::above};
+        },
+        "housings and castings warm within minutes to hours (ISO 230-3), slowly like a straight "
+        "line"}}};
 }
 
 }  // namespace flexcomp::effects

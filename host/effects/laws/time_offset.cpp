@@ -67,7 +67,9 @@ Forms laws::time_offset() {
   return {{of_channel(simulation::tcp_position, "TCP measurement"),
            of_channel(simulation::joint_torque, "torques"),
            of_channel(simulation::joint_deflection, "link encoders"), of_wrench()},
-          {}};
+          {},
+          {{"", " delay ", [](const Subject&) { return within(10); },
+            "loggers' clocks are set by hand or by a network: to seconds, or far better"}}};
 }
 
 }  // namespace flexcomp::effects

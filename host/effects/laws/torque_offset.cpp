@@ -17,7 +17,10 @@ Forms laws::torque_offset() {
             }};
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " torque ", [](const Subject& of) { return within(of.effort()); },
+            "a current sensor's zero lies within what it is made to measure"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -18,7 +18,15 @@ Forms laws::torque_ripple() {
                     }};
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " sine cosine ", [](const Subject& of) { return within(of.effort()); },
+            "a joint turns past a ripple that its drive can move"},
+           {"", " order ",
+            [](const Subject&) {
+              return Range{0, 1e4};
+            },
+            "pole pairs times slots times a gear ratio of some hundred"}}};
 }
 
 }  // namespace flexcomp::effects

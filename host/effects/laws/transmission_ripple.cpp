@@ -18,7 +18,15 @@ Forms laws::transmission_ripple() {
                     }};
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " sine cosine ", [](const Subject&) { return within(0.01); },
+            "gears' data sheets: transmission errors of 0.3 to 5 arcmin; 10 mrad are 34"},
+           {"", " order ",
+            [](const Subject&) {
+              return Range{0, 1e4};
+            },
+            "teeth times a gear ratio of some hundred"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -31,7 +31,14 @@ Forms laws::viscous_friction() {
                     }};
       },
       &by_direction);
-  return {{both_ways, by_direction}, {}};
+  return {
+      {both_ways, by_direction},
+      {},
+      {{"", " coefficient forward backward ",
+        [](const Subject& of) {
+          return change(of.dynamics().viscous, over(of.effort(), 0.1 * of.velocity()));
+        },
+        "friction does not drive, nor take the drive's largest torque at a tenth of its speed"}}};
 }
 
 }  // namespace flexcomp::effects

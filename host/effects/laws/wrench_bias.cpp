@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
@@ -15,7 +17,17 @@ Forms laws::wrench_bias() {
         return Wrench<double>(read - Eigen::Map<const Wrench<double>>(values.data()));
       },
       &law);
-  return {{law}, {}};
+  return {
+      {law},
+      {},
+      {{"", " fx fy fz ", [](const Subject& of) { return within(2 * of.size.payload * kGravity); },
+        "force sensors' data sheets: ranges of once to twice the weight that their robots carry"},
+       {"", " mx my mz ",
+        [](const Subject& of) {
+          const double wrist = std::max({of.size.effort[3], of.size.effort[4], of.size.effort[5]});
+          return within(std::min(wrist, 0.5 * of.size.payload * kGravity * of.size.reach));
+        },
+        "force sensors' data sheets: ranges of about the torques that their robots' wrists bear"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -26,7 +26,13 @@ Forms laws::wrench_frame() {
         return truth;
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " rx ry rz ",
+            [](const Subject&) {
+              return Range{-3.2, 3.2, Rest::both};
+            },
+            "any turn is one by at most half a revolution"}}};
 }
 
 }  // namespace flexcomp::effects

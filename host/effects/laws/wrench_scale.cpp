@@ -16,7 +16,13 @@ Forms laws::wrench_scale() {
   alter_sensor([](const Values& values,
                   const Wrench<double>& read) { return Wrench<double>(read / (1 + values[0])); },
                &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " gain_error ",
+            [](const Subject&) {
+              return Range{-0.95, 10};
+            },
+            "the farthest unit of force is the kilogram-force, 9.81 N"}}};
 }
 
 }  // namespace flexcomp::effects

@@ -19,7 +19,10 @@ Forms laws::test_lift() {
                     }};
       },
       &law);
-  return {{law}, {}};
+  return {{law},
+          {},
+          {{"", " lift ", [](const Subject&) { return within(0.1); },
+            "no floor slopes by more than a tenth of a metre a radian"}}};
 }
 
 }  // namespace flexcomp::effects

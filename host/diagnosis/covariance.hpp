@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "diagnosis/observations.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// Covariance of the parameters of a fit, by the prediction's derivative (samples to fit to ×
+/// parameters, over the noise), the samples' weights, the remainder and the variance of a sample of
+/// weight one.
+///
+/// It is that of independent errors, widened where errors hang together over time (a late clock, a
+/// remainder that nothing accounts for): then the scores of whole stretches scatter more than those
+/// of as many independent samples (Liang and Zeger 1986). It is never narrowed: there are few
+/// stretches. Zero where nothing depends on a parameter.
+Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::MatrixXd& derivative,
+                              const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,
+                              double variance);
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,30 @@
+#include "effects/machine_size.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "effects/plausible_range.hpp"
+
+namespace flexcomp::effects {
+
+MachineSize size_of(const model::Robot& robot) {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  constexpr double kLargestPayload = 2300;  // kg, of the strongest arm that is sold (data sheet)
+  MachineSize size;
+  double mass = 0;
+  for (std::size_t i = 0; i < robot.elastic.joints.size(); ++i) {
+    const model::JointDynamics& limits = robot.dynamics[i];
+    mass += robot.elastic.joints[i].mass;
+    // The first joint's distance from the base lies below all that moves.
+    size.reach += i > 0 ? robot.elastic.joints[i].origin.position.norm() : 0;
+    size.effort[i] = limits.effort > 0 ? limits.effort : kEndless;
+    size.velocity[i] = limits.velocity > 0 ? limits.velocity : kEndless;
+  }
+  size.reach += robot.elastic.tool.position.norm();
+  size.payload = mass > 0 ? std::max(mass, robot.elastic.payload_mass) : kLargestPayload;
+  size.weight = kGravity * mass;
+  size.weight_torque = mass > 0 ? 0.5 * size.weight * size.reach : kEndless;
+  return size;
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "model/robot.hpp"
+
+namespace flexcomp::effects {
+
+/// How large and strong a machine is: plausible ranges are in proportion to it. Infinite where
+/// neither the model nor the recordings tell.
+struct MachineSize {
+  double reach = 0;          ///< m, of the stretched arm with its tool
+  double payload = 0;        ///< kg, the most that an arm of these masses can carry
+  double weight = 0;         ///< N, of the links that move; zero where the model has no masses
+  double weight_torque = 0;  ///< N·m, of that weight on the stretched arm
+  double force = 0;          ///< N, the largest on the tool
+  std::array<double, 6> effort{};    ///< N·m, the largest torque of each joint's drive
+  std::array<double, 6> velocity{};  ///< rad/s, the largest speed
+  std::array<double, 6> load{};      ///< N·m, the largest that each joint's spring bore
+};
+
+/// Of a robot as its model describes it, without loads and force.
+MachineSize size_of(const model::Robot& robot);
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+
+#include "effects/machine_size.hpp"
+
+namespace flexcomp::effects {
+
+/// The bounds of a range that a fit may rest on: there the quantity is nothing, or its exact size
+/// ceases to matter.
+enum class Rest { nowhere, below, above, both };
+
+/// What a parameter can be on a machine that can be; of the change, where it changes the model.
+struct Range {
+  double lower = 0;
+  double upper = 0;
+  Rest rest = Rest::nowhere;
+  const char* source = "";  ///< a data sheet, a standard, a paper or a physical argument
+};
+
+/// A parameter of a law at a place on a robot.
+struct Subject {
+  const model::Robot& robot;
+  const MachineSize& size;
+  int place;  ///< joint, 1 to 6; 0 where the law acts on the whole machine
+  const std::string& parameter;
+
+  std::size_t index() const;
+  const Joint<double>& joint() const { return robot.elastic.joints[index()]; }
+  const model::JointDynamics& dynamics() const { return robot.dynamics[index()]; }
+  double effort() const { return size.effort[index()]; }
+  double velocity() const { return size.velocity[index()]; }
+  double load() const { return size.load[index()]; }
+  double largest_load() const;
+};
+
+/// A range for parameters of an effect.
+struct ParameterRange {
+  const char* form;        ///< the form of the effect that it is for; empty: all of them
+  const char* parameters;  ///< names, each with a space before and behind it
+  Range (*range)(const Subject&);
+  const char* source;
+};
+
+/// Either way.
+Range within(double size);
+/// From nothing, on which a fit may rest.
+Range up_to(double most);
+/// Of a number that the model knows and that is from nothing to `most`.
+Range change(double known, double most);
+
+/// A quotient; endless where either number is not known.
+double over(double value, double divisor);
+
+/// Compliance with which a spring gives by `most` under a load, or the softest of any where that is
+/// less.
+double softest(double of_any, double most, double load);
+
+constexpr double kSpringTurn = 0.1;     ///< rad, the most under the load that a spring bore
+constexpr double kShiftOfReach = 0.05;  ///< of the reach, the same
+constexpr double kMostTurn = 0.1;       ///< rad/(N·m), of springs that are made soft on purpose
+constexpr double kMostShift = 0.01;     ///< m/N, ten times as soft as rubber feet
+constexpr double kGravity = 9.81;       ///< m/s²
+
+}  // namespace flexcomp::effects
