@@ -20,12 +20,8 @@ Attempt best_of_pairs(const Inquiry& inquiry, Attempt best, const Tell& tell) {
   const std::vector<Fit> pairs = propose_pairs(inquiry);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (is_better(inquiry, pairs[i], best.fit) || (inquiry.observations.is_static && i == 0)) {
-      const Sought sought = seek(inquiry, pairs[i]);
-      Attempt rival = grow(inquiry, {pairs[i], sought ? sought : best.sought}, tell);
-      best.sought = rival.sought;
-      if (is_better(inquiry, rival.fit, best.fit)) {
-        best.fit = std::move(rival.fit);
-      }
+      Attempt rival = grow(inquiry, {pairs[i], seek(inquiry, pairs[i])}, tell);
+      best = better_of(inquiry, std::move(best), std::move(rival));
     }
   }
   return best;

@@ -95,8 +95,7 @@ Attempt grow(const Inquiry& inquiry, Attempt attempt, const Tell& tell) {
   while (attempt.fit.chosen.size() < kMostFindings && add_one(inquiry, &found_in, &attempt)) {
     tell(attempt.fit.chosen.size(), kMostFindings);
     attempt.fit = revised(inquiry, attempt);
-    const Sought sought = seek(inquiry, attempt.fit);
-    attempt.sought = sought ? sought : attempt.sought;
+    attempt.sought = seek(inquiry, attempt.fit);
   }
   return attempt;
 }

@@ -66,6 +66,10 @@ bool is_better(const Inquiry& inquiry, const Fit& one, const Fit& other) {
   return true;
 }
 
+Attempt better_of(const Inquiry& inquiry, Attempt best, Attempt rival) {
+  return is_better(inquiry, rival.fit, best.fit) ? rival : best;
+}
+
 bool is_as_good(const Inquiry& inquiry, const Fit& plain, const Fit& rich) {
   return bic_gain(inquiry.observations, plain, rich) < kStrongEvidence;
 }

@@ -50,6 +50,9 @@ double criterion(const Observations& observations, const Fit& fit);
 /// of its findings hold?
 bool is_better(const Inquiry& inquiry, const Fit& one, const Fit& other);
 
+/// The better of two attempts, with what was sought in what its own fit leaves.
+Attempt better_of(const Inquiry& inquiry, Attempt best, Attempt rival);
+
 /// Is there no strong evidence for the richer fit?
 bool is_as_good(const Inquiry& inquiry, const Fit& plain, const Fit& rich);
 

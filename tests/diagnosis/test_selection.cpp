@@ -1,0 +1,51 @@
+// What is chosen of several attempts, and what stays with it.
+#include "diagnosis/select/judge.hpp"
+#include "diagnosis/swinging_robot.hpp"
+#include "unity_main.hpp"
+
+using namespace flexcomp::diagnosis;
+using flexcomp::test::SwingingRobot;
+
+namespace {
+
+constexpr int kJoint = 3;
+constexpr double kOffset = 4e-4;  // rad
+
+/// An attempt, with a dictionary of its own that was sought in what it leaves.
+Attempt attempt_of(const Observations& observations, const Dictionary& dictionary,
+                   std::vector<Chosen> chosen) {
+  return {fit(observations, std::move(chosen), 12), std::make_shared<const Dictionary>(dictionary)};
+}
+
+void an_attempt_that_loses_leaves_nothing_behind() {
+  const SwingingRobot swinging(1);
+  const Eigen::MatrixXd error =
+      swinging.moved_by(kJoint, Eigen::VectorXd::Constant(swinging.rows(), kOffset));
+  const Observations observations = swinging.observed(error);
+  const Dictionary dictionary(observations, all_hypotheses(observations),
+                              [](std::size_t, std::size_t) {});
+  const Inquiry inquiry{observations, dictionary, 0.01};
+  const Attempt nothing = attempt_of(observations, dictionary, {});
+  const Attempt right = [&] {
+    for (const Hypothesis& each : dictionary.hypotheses) {
+      if (each.effect() == "joint_offset" && each.joint == kJoint) {
+        return attempt_of(observations, dictionary, {{each, {kOffset}}});
+      }
+    }
+    TEST_FAIL_MESSAGE("no such hypothesis");
+    return nothing;
+  }();
+  for (const auto& [best, rival] : {std::pair(right, nothing), std::pair(nothing, right)}) {
+    const Attempt better = better_of(inquiry, best, rival);
+    TEST_ASSERT_EQUAL_UINT64(1, better.fit.chosen.size());
+    TEST_ASSERT_TRUE(better.sought == right.sought);
+  }
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(an_attempt_that_loses_leaves_nothing_behind);
+  return UNITY_END();
+}
