@@ -100,7 +100,7 @@ Json excitation_json(const Excitation& of) {
 }
 
 /// A form, not a finding: what the residual goes with, whatever causes it.
-Json proposal(const std::vector<ProposedTerm>& terms) {
+Json proposal_json(const std::vector<ProposedTerm>& terms) {
   Json json = Json::array();
   for (const ProposedTerm& term : terms) {
     json.push_back({{"form", term.text},
@@ -114,7 +114,7 @@ Json proposal(const std::vector<ProposedTerm>& terms) {
 
 /// The model's own numbers that stand in for what is unexplained, and what they do for each
 /// channel.
-Json retuned(const Observations& observations, const Diagnosis& diagnosis) {
+Json retuned_json(const Observations& observations, const Diagnosis& diagnosis) {
   const Fit& fit = diagnosis.retuned;
   if (fit.chosen.empty()) {
     return nullptr;
@@ -151,8 +151,8 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
     json["unexplained"] = {{"reason", diagnosis.reason},
                            {"location", location(diagnosis.left)},
                            {"nearest", places(diagnosis.nearest)},
-                           {"proposal", proposal(diagnosis.proposal)},
-                           {"retuned", retuned(observations, diagnosis)}};
+                           {"proposal", proposal_json(diagnosis.proposal)},
+                           {"retuned", retuned_json(observations, diagnosis)}};
   }
   json["indistinguishable"] = Json::array();
   for (const std::vector<Place>& group : diagnosis.indistinguishable) {
