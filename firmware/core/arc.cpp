@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checked_number.hpp"
 #include "instantiate.hpp"
 
 #ifdef __FAST_MATH__
@@ -15,11 +16,6 @@ namespace {
 template <typename Derived>
 bool all_positive(const Eigen::MatrixBase<Derived>& values) {
   return values.allFinite() && values.minCoeff() > typename Derived::Scalar(0);
-}
-
-template <typename Scalar>
-bool is_positive(Scalar value) {
-  return std::isfinite(value) && value > Scalar(0);
 }
 
 template <typename Scalar, int Joints>

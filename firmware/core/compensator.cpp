@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "checked_number.hpp"
 #include "instantiate.hpp"
 #include "packed_six.hpp"
 
@@ -19,11 +20,6 @@
 
 namespace flexcomp {
 namespace {
-
-template <typename Scalar>
-bool is_positive(Scalar value) {
-  return std::isfinite(value) && value > Scalar(0);
-}
 
 /// A positive number whose square is one, too.
 template <typename Scalar>

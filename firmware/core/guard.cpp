@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "checked_number.hpp"
 #include "instantiate.hpp"
 #include "packed_six.hpp"
 
@@ -13,11 +14,6 @@ namespace {
 /// Of the allowed deceleration.
 template <typename Scalar>
 constexpr Scalar kPlanned = Scalar(31) / Scalar(32);
-
-template <typename Scalar>
-bool is_positive(Scalar value) {
-  return std::isfinite(value) && value > Scalar(0);
-}
 
 /// Largest step from which braking ends within `distance`, the step itself included.
 template <typename Scalar>

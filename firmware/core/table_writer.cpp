@@ -3,16 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "checked_number.hpp"
 #include "crc32.hpp"
 #include "instantiate.hpp"
 
 namespace flexcomp {
 namespace {
-
-template <typename Scalar>
-bool is_positive(Scalar value) {
-  return std::isfinite(value) && value > Scalar(0);
-}
 
 /// The next float not below `value`: a certificate may only be rounded up.
 template <typename Scalar>

@@ -18,7 +18,7 @@ struct Place {
   int joint = 0;
 };
 
-/// What is wrong between a model and its recordings.
+/// The mismatch between a model and its recordings, and its causes.
 struct Diagnosis {
   std::string verdict;  ///< no_mismatch, explained, partly_explained or unexplained
   std::string reason;   ///< why not explained; empty where it is
@@ -36,7 +36,7 @@ struct Diagnosis {
   std::vector<std::vector<Place>> indistinguishable;
   std::string suggested_experiment;  ///< empty where none is needed
 
-  /// What the updated model has: what was found, and what stands in for the rest.
+  /// The fit behind the updated model: the findings, and the numbers that stand in for the rest.
   const Fit& updated() const { return retuned.chosen.empty() ? choice.fit : retuned; }
 };
 

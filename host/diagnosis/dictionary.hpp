@@ -64,7 +64,7 @@ LeastSquares solve_within_bounds(const std::vector<const Hypothesis*>& hypothese
                                  const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                                  const Eigen::VectorXd& length);
 
-/// What an entry would explain beside what is fitted already.
+/// An entry's gain beside the hypotheses that are fitted already.
 struct Screened {
   std::size_t entry = 0;
   double sum = 0;             ///< of squares that it would leave
@@ -92,7 +92,7 @@ std::vector<ScreenedPair> screen_pairs(const Observations& observations,
                                        const std::vector<Hypothesis>& hypotheses,
                                        const Dictionary& dictionary, std::size_t most);
 
-/// What a fit of all linear entries at once leaves: the fullest fit there is.
+/// The remainder of a fit of all linear entries at once: the fullest fit there is.
 struct FullestFit {
   Eigen::VectorXd remainder;  ///< of the samples to fit to
   Eigen::Index freedom = 0;   ///< samples less independent columns

@@ -59,7 +59,7 @@ struct Squares {
   Group group;
 };
 
-/// Of each component of a channel in a scene, or of each group (the TCP's position, a joint's
+/// Sums of each component of a channel in a scene, or of each group (the TCP's position, a joint's
 /// torque, a joint's deflection) in all of them.
 std::vector<Squares> squares_of(const Observations& observations, const Fit& without,
                                 const Fit& with, bool by_group) {

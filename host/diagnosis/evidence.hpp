@@ -14,7 +14,7 @@ using Group = std::pair<Channel, Eigen::Index>;
 /// Both of the TCP's position, or both of one joint, whose torque winds it up.
 bool are_of_one_place(const Group& a, const Group& b);
 
-/// What speaks for a hypothesis, the others of a fit being there.
+/// The evidence for a hypothesis beside the others of a fit.
 struct Evidence {
   double delta_bic = 0;     ///< BIC without it less BIC with it
   double p_value = 1;       ///< of so large a gain by chance, times the places looked at

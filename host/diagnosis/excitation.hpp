@@ -7,8 +7,8 @@
 
 namespace flexcomp::diagnosis {
 
-/// What recordings can say about a joint. A resolution is the half-width of the 95 % interval with
-/// which a change would be known if it were the only one; not finite where it would not show.
+/// How much recordings can say about a joint. A resolution is the half-width of the 95 % interval
+/// with which a change would be known if it were the only one; not finite where it would not show.
 struct Excitation {
   int joint = 0;
   double range = 0;          ///< rad

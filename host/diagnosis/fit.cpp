@@ -87,7 +87,8 @@ class Evaluator {
                        [](const Chosen& each) { return each.hypothesis.traits().alters_model; });
   }
 
-  /// Of a machine near which derivatives are wanted; most parameters leave them as they are.
+  /// Rigid-body torques of a machine near which derivatives are wanted; most parameters leave them
+  /// as they are.
   std::vector<simulation::RigidTorque> rigid_torques(const Machine& machine) const {
     const std::vector<simulation::RigidTorque>& known = observations_.rigid;
     if (known.empty() || !alters_any() || known.front().holds_for(machine)) {

@@ -30,7 +30,7 @@ struct Fit {
   Eigen::Index first_parameter(std::size_t index) const;
   /// Covariance of the values of one that was chosen.
   Eigen::MatrixXd covariance_of(std::size_t index) const;
-  /// What was chosen, as laws of the machine.
+  /// The chosen hypotheses as laws of the machine.
   std::vector<effects::Placed> placed() const;
 };
 

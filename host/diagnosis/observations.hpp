@@ -27,7 +27,7 @@ constexpr Eigen::Index kHoldoutStretches = 20;
 /// Which of them a row of a recording is in, from zero.
 Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows);
 
-/// What the motion's differentiation brings into predictions, by channel; empty where nothing.
+/// Noise that the motion's differentiation brings into predictions, by channel; empty without any.
 struct PredictionNoise {
   std::array<Eigen::RowVectorXd, 3> deviation;  ///< by the encoders' noise, of each component
   std::array<Eigen::MatrixXd, 3> doubt;         ///< rows × components, by too abrupt motion
@@ -94,7 +94,7 @@ class Observations {
   void set_noise(double factor);
 
  private:
-  /// What is predicted otherwise for another course of a scene's motion, by channel.
+  /// Change of the predictions, by channel, for another course of a scene's motion.
   std::array<Eigen::MatrixXd, 3> change_with(const Scene& other, std::size_t scene) const;
   PredictionNoise prediction_noise(std::size_t scene) const;
   void collect(std::size_t holdouts);

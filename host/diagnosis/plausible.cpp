@@ -32,7 +32,7 @@ std::string why_not(const Parameter& parameter, const Range& range, double value
   return "";
 }
 
-/// Of the arm's own motion, with the rotors; kg·m².
+/// Joint-space inertia matrix of the arm with its rotors, kg·m².
 Eigen::Matrix<double, 6, 6> inertia_matrix(const model::Robot& robot,
                                            const JointVector<double, 6>& q) {
   model::Robot weightless = robot;

@@ -37,7 +37,7 @@ struct Derived {
 /// The property of a joint that a law's first parameter measures.
 enum class Measures { none, stiffness, zero, friction };
 
-/// What a law is like, for those who fit, choose and report it.
+/// Properties of a law, for those who fit, choose and report it.
 struct Traits {
   std::size_t linear_in = 0;   ///< the first so many parameters act (nearly) in proportion; all of
                                ///< these zero: no effect
@@ -66,7 +66,7 @@ struct Law {
   Traits traits;
   /// Its parameters; their names may depend on the direction of the joint's axis.
   std::function<std::vector<Parameter>(const model::Robot&, int joint)> parameters;
-  /// What its parameters can be, each with its source; a parameter without one may be anything.
+  /// Ranges of its parameters, each with its source; a parameter without one may be anything.
   std::vector<ParameterRange> ranges;
   /// Why a robot that a model became by it, at a joint, could not be, the model's size given; empty
   /// where it can. May be left out.
@@ -100,8 +100,7 @@ struct Effect {
   std::function<void(const model::Robot&, int joint, Machine*)> apply_keys;
 };
 
-/// What a parameter of a law can be at a joint; endless, without a source, where the law does not
-/// say.
+/// Range of a law's parameter at a joint; endless, without a source, where the law does not say.
 Range plausible_range(const Law& law, const model::Robot& robot, const MachineSize& size, int joint,
                       const std::string& parameter);
 

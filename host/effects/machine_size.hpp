@@ -19,7 +19,7 @@ struct MachineSize {
   std::array<double, 6> load{};      ///< N·m, the largest that each joint's spring bore
 };
 
-/// Of a robot as its model describes it, without loads and force.
+/// The size of a robot as its model describes it, without loads and force.
 MachineSize size_of(const model::Robot& robot);
 
 }  // namespace flexcomp::effects

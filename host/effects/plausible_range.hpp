@@ -10,7 +10,8 @@ namespace flexcomp::effects {
 /// ceases to matter.
 enum class Rest { nowhere, below, above, both };
 
-/// What a parameter can be on a machine that can be; of the change, where it changes the model.
+/// Range of a parameter on a machine that can be; a range of changes where the parameter changes
+/// the model.
 struct Range {
   double lower = 0;
   double upper = 0;
@@ -46,7 +47,7 @@ struct ParameterRange {
 Range within(double size);
 /// From nothing, on which a fit may rest.
 Range up_to(double most);
-/// Of a number that the model knows and that is from nothing to `most`.
+/// Changes of a number that the model knows and that lies between nothing and `most`.
 Range change(double known, double most);
 
 /// A quotient; endless where either number is not known.

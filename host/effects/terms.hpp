@@ -4,7 +4,7 @@
 
 #include "simulation/machine.hpp"
 
-/// What terms of laws are made of.
+/// Parts that the terms of laws are made of.
 namespace flexcomp::effects {
 
 using simulation::Prediction;

@@ -14,7 +14,7 @@ std::string time_picture(const Observations& observations, const Eigen::VectorXd
 /// Root mean square of the TCP's residual along the path angle of the first recording (SVG).
 std::string path_picture(const Observations& observations, const Eigen::VectorXd& after);
 
-/// What each effect would explain alone, as bars (SVG); empty without any.
+/// The share that each effect would explain alone, as bars (SVG); empty without any.
 std::string ranking_picture(const std::vector<Ranked>& ranking);
 
 }  // namespace flexcomp::diagnosis

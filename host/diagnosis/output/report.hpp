@@ -6,7 +6,7 @@
 
 namespace flexcomp::diagnosis {
 
-/// What was done to make a recording usable, for the report.
+/// The steps that made a recording usable, for the report.
 struct Quality {
   std::string file;
   simulation::Preparation preparation;

@@ -4,12 +4,13 @@
 
 namespace flexcomp::diagnosis {
 
-/// What was chosen, and what stood beside it.
+/// The findings, and the candidates beside them.
 struct Choice {
   std::vector<Ranked> ranking;    ///< of all effects at all places before any is chosen, best first
   std::vector<Finding> findings;  ///< the strongest first
   Fit fit;                        ///< of all findings
-  /// What held beside the others, but with all of them left most of the mismatch there standing.
+  /// Hypotheses that held beside the others, while all of them left most of the mismatch there
+  /// standing.
   std::vector<Chosen> withdrawn;
   double explained = 0;      ///< most of the power there that was accounted for
   bool mispredicts = false;  ///< some came near the noise there, but not of what was held out

@@ -12,7 +12,7 @@ struct Alternative {
   Chosen chosen;
 };
 
-/// What is found: a law at a place with its values, why, and what else would have done.
+/// A finding: a law at a place with its values, the evidence for it, and its alternatives.
 struct Finding {
   Chosen chosen;
   Eigen::MatrixXd covariance;  ///< of its values
@@ -27,7 +27,7 @@ struct Selection {
   std::vector<Finding> findings;
 };
 
-/// What speaks for the last choice of a fit.
+/// The evidence for the last choice of a fit.
 Evidence weigh_last(const Inquiry& inquiry, const Fit& before, const Fit& after);
 
 /// Weighs one choice of a fit, all others being there.

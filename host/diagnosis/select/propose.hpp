@@ -6,7 +6,8 @@
 
 namespace flexcomp::diagnosis {
 
-/// What is chosen from, and how likely a false finding may be.
+/// The observations, the dictionary of hypotheses to choose from, and how likely a false finding
+/// may be.
 struct Inquiry {
   const Observations& observations;
   const Dictionary& dictionary;

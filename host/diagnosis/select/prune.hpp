@@ -8,7 +8,7 @@ namespace flexcomp::diagnosis {
 /// be first, then the weakest, one at a time.
 Selection prune(const Inquiry& inquiry, Fit fit);
 
-/// What is left of findings where some prove nothing.
+/// The findings that are left where some prove nothing.
 struct Proved {
   Selection selection;
   std::vector<Chosen> withdrawn;  ///< held, but leave most of the mismatch there standing

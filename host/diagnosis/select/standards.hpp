@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-/// What is asked of a finding. Each line says what a threshold trades; where it was measured is the
-/// commit that brought it, whose scores are in tools/score-diagnosis' figures of that time.
+/// Thresholds that a finding must pass. Each line says what its threshold trades. The commit that
+/// brought it, named in brackets, has the scores of tools/score-diagnosis by which it was set.
 namespace flexcomp::diagnosis {
 
 /// Deviations by which what was held out must confirm a finding: false alarms against weak effects
@@ -12,17 +12,20 @@ constexpr double kConfirmed = 2;
 /// Confirmation that outweighs the estimate of the noise: of a mismatch as fast as noise, that
 /// estimate is too large (1175996).
 constexpr double kOverwhelming = 20;
-/// Of the noise of the component that shows it most: what is weaker nobody could use (024da06).
+/// Least effect, over the noise of the component that shows it most: nobody could use a weaker one
+/// (024da06).
 constexpr double kLeastStrength = 1.0 / 3;
-/// Of the whole fit: what is weaker is within the exactness of a motion's simulation (6d8c9c3).
+/// Least effect, over that of the whole fit: a weaker one is within the exactness of a motion's
+/// simulation (6d8c9c3).
 constexpr double kExactness = 0.02;
-/// What was beyond the noise over what is taken away: encoder noise that is in a prediction is
-/// explained by a filter, but is no mismatch (fe36598: 1 of 44 clean recordings).
+/// Least power beyond the noise, over the power that a finding takes away: a filter explains the
+/// encoder noise in a prediction, which is no mismatch (fe36598: 1 of 44 clean recordings).
 constexpr double kLeastBeyondNoise = 0.75;
-/// Of what is left beyond the noise: many small steps are a wrong way (024da06).
+/// Least share of the power beyond the noise that a finding takes away: many small steps lead
+/// astray (024da06).
 constexpr double kLeastShare = 0.1;
-/// Of a mismatch's power, by all findings together: physics outside the catalogue against effects
-/// whose laws are only nearly ours (024da06).
+/// Least share of a mismatch's power that all findings explain together: physics outside the
+/// catalogue against effects whose laws are only nearly ours (024da06).
 constexpr double kLeastExplained = 0.9;
 /// The same where no more than `kFarFromNoise` is left: of engines whose laws are their own, more
 /// cannot be had (4675fca).
@@ -56,12 +59,12 @@ constexpr std::size_t kPairs = 3;
 /// Cosine between what two effects change: below it neither can stand in for the other, like the
 /// frictions of two joints (842a13d).
 constexpr double kMeeting = 0.03;
-/// Of BIC: two that differ by less do the same in numbers, and the smaller change is meant
+/// BIC: two findings that differ by less do the same in numbers, and the smaller change is meant
 /// (3c9165b).
 constexpr double kIdentical = 0.1;
-/// Of what a finding gains in BIC: no simplified body is told from another by less (0f27f02).
+/// Share of a finding's gain in BIC: no simplified body is told from another by less (0f27f02).
 constexpr double kNegligible = 1e-3;
-/// Of BIC: "not worth more than a bare mention" (Kass and Raftery 1995).
+/// BIC: "not worth more than a bare mention" (Kass and Raftery 1995).
 constexpr double kIndifferent = 2;
 
 }  // namespace flexcomp::diagnosis

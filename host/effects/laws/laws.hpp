@@ -41,7 +41,7 @@ void alter_keys(Alteration alteration, Law* law);
 /// Completes a law by the term that it adds.
 void add_term(std::function<Term(const Values&, int joint)> term, Law* law);
 
-/// What a force sensor's reading stands for, tool frame.
+/// The wrench that a force sensor's reading stands for, tool frame.
 using SensorModel = std::function<Wrench<double>(const Values&, const Wrench<double>& read)>;
 
 /// Completes a law about the force sensor.

@@ -12,7 +12,7 @@ Term late_channel(Channel channel, double delay) {
             if (values.cols() > 0 && !scene.is_static) {
               values = simulation::delayed(scene.time, values, delay);
               if (channel == simulation::joint_deflection) {
-                // Of late link encoders, the whole angle is late, not the wind-up alone.
+                // Late link encoders show the whole angle late, not the wind-up alone.
                 values += simulation::moved_before(scene.time, scene.q, scene.velocity, delay);
               }
             }
