@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/select/members.hpp"
+
 namespace flexcomp::diagnosis {
 namespace {
 
@@ -108,13 +110,48 @@ std::string reason_of_nothing(const Choice& choice) {
                                                 100 * std::max(choice.explained, 0.0));
 }
 
+/// Is what a fit leaves, so many times the noise, nothing but noise?
+bool is_like_noise(const Observations& observations, double ratio) {
+  return !observations.noise_is_known || ratio < kNoiseLike + 3 * observations.noise_uncertainty;
+}
+
+/// Takes the numbers that stand by themselves as findings; those that do not stay behind them.
+void take_members(const Inquiry& inquiry, Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  std::vector<Finding> standing = members_that_stand(inquiry, diagnosis->retuned);
+  if (standing.size() <= diagnosis->choice.findings.size()) {
+    return;
+  }
+  std::vector<Chosen> chosen;
+  for (const Finding& finding : standing) {
+    chosen.push_back(finding.chosen);
+  }
+  diagnosis->choice.findings = std::move(standing);
+  diagnosis->choice.fit = fit(observations, chosen, 0);
+  for (const Chosen& each : diagnosis->retuned.chosen) {
+    const bool is_found = std::any_of(chosen.begin(), chosen.end(), [&](const Chosen& found) {
+      return are_the_same(found.hypothesis, each.hypothesis);
+    });
+    if (!is_found) {
+      chosen.push_back(each);
+    }
+  }
+  const bool all_stand = chosen.size() == diagnosis->choice.findings.size();
+  diagnosis->retuned = all_stand ? Fit{} : fit(observations, std::move(chosen), 0);
+  diagnosis->nearest.clear();
+  diagnosis->indistinguishable.clear();
+  const double after = largest_ratio(observations, diagnosis->updated().remainder);
+  const bool is_noise = is_like_noise(observations, after);
+  diagnosis->verdict = is_noise ? "explained" : "partly_explained";
+  diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
+}
+
 void judge(const Observations& observations, Diagnosis* diagnosis) {
   const Fit& found = diagnosis->choice.fit;
   diagnosis->cancellation = cancellation(observations, found);
   add_nearest(diagnosis->choice.withdrawn, diagnosis);
   const double after = largest_ratio(observations, found.remainder);
-  const bool is_noise =
-      !observations.noise_is_known || after < kNoiseLike + 3 * observations.noise_uncertainty;
+  const bool is_noise = is_like_noise(observations, after);
   if (found.chosen.empty()) {
     diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
     diagnosis->reason = is_noise ? "" : reason_of_nothing(diagnosis->choice);
@@ -169,11 +206,12 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   find_groups(&diagnosis);
   judge(*observations, &diagnosis);
   if (diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained") {
-    diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
     if (diagnosis.proposal.empty()) {
       diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
     }
     diagnosis.retuned = retune(*observations, diagnosis.choice.fit, hypotheses, dictionary);
+    take_members({*observations, dictionary, settings.false_discovery}, &diagnosis);
+    diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
   }
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;

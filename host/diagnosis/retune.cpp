@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/families.hpp"
 #include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
@@ -104,10 +105,9 @@ bool predicts_better(const Observations& observations, const Fit& before, const 
   return best < kNoticeable && worst <= 1;
 }
 
-}  // namespace
-
-Fit retune(const Observations& observations, const Fit& findings,
-           const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+/// The few numbers that every model has: those that can be told from what they are.
+Fit fit_model_numbers(const Observations& observations, const Fit& findings,
+                      const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
   const std::size_t found = findings.chosen.size();
   Fit tuned =
       fit(observations, with_numbers(findings, hypotheses, dictionary), kTuningSteps, &dictionary);
@@ -118,11 +118,30 @@ Fit retune(const Observations& observations, const Fit& findings,
   for (std::vector<Chosen> next = kept(); next.size() < tuned.chosen.size(); next = kept()) {
     tuned = fit(observations, std::move(next), kTuningSteps, &dictionary);
   }
-  const bool stands = tuned.chosen.size() > found && can_be(observations, tuned) &&
-                      bic_gain(observations, findings, tuned) > kStrongEvidence &&
-                      predicts_better(observations, findings, tuned) &&
-                      cancellation(observations, tuned) < kMostCancellation;
-  return stands ? tuned : Fit{};
+  return tuned;
+}
+
+/// Do the numbers behind the findings stand?
+bool stands(const Observations& observations, const Fit& findings, const Fit& tuned) {
+  return tuned.chosen.size() > findings.chosen.size() && can_be(observations, tuned) &&
+         bic_gain(observations, findings, tuned) > kStrongEvidence &&
+         predicts_better(observations, findings, tuned) &&
+         cancellation(observations, tuned) < kMostCancellation;
+}
+
+}  // namespace
+
+Fit retune(const Observations& observations, const Fit& findings,
+           const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+  Fit best;
+  for (auto* refit : {fit_model_numbers, fit_families}) {
+    Fit tuned = refit(observations, findings, hypotheses, dictionary);
+    if (stands(observations, findings, tuned) &&
+        (best.chosen.empty() || predicts_better(observations, best, tuned))) {
+      best = std::move(tuned);
+    }
+  }
+  return best;
 }
 
 }  // namespace flexcomp::diagnosis

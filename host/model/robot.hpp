@@ -38,11 +38,19 @@ struct Robot {
   std::array<std::string, 6> joint_names;  ///< base to tip
   RobotModel<double, 6> elastic;           ///< geometry, springs and weights: what the core needs
   std::array<JointDynamics, 6> dynamics;
+  /// Speeds of the motors by those of the joints, in units of the joints: a coupled wrist's motor
+  /// turns with the joint before its own as well. A motor's friction and rotor act by its own
+  /// speed, and its torque on every joint that turns it. Recordings hold angles and torques of the
+  /// joints.
+  Eigen::Matrix<double, 6, 6> transmission = Eigen::Matrix<double, 6, 6>::Identity();
   /// Inertia (kg·m²) of each moved link about its centre of mass, in the link frame; bodies fixed
   /// to the link are part of it.
   std::array<Matrix3<double>, 6> link_inertia;
   std::vector<LearnedEffect> effects;  ///< for simulations; the core does not know them
 };
+
+/// Do the motors tell the joints' angles?
+bool is_transmission(const Eigen::Matrix<double, 6, 6>& transmission);
 
 /// Reads a robot (schema flexcomp/robot/1). Throws InputError naming the file and the line, key,
 /// link or joint for anything that is missing, unknown, misspelt, of the wrong type or impossible.
@@ -51,8 +59,8 @@ struct Robot {
 ///
 /// Beside the schema's keys a joint may have `link_compliance`: six numbers, m/N (3) and rad/(N·m)
 /// (3), of the link that the joint moves, diagonal in the link's frame, at the joint's origin; and
-/// the robot `effects`, a list of maps: `effect`, `joint` (1 to 6) and `form` where it has them,
-/// and the effect's parameters by name.
+/// the robot `transmission`, a list of six rows of six numbers, and `effects`, a list of maps:
+/// `effect`, `joint` (1 to 6) and `form` where it has them, and the effect's parameters by name.
 Robot load_robot(const std::filesystem::path& file);
 
 /// Writes a robot's YAML file, whole or not at all; it names `robot.urdf` by a path relative to it.

@@ -76,6 +76,19 @@ void read_payload(const YamlMap& yaml, RobotModel<double, 6>* elastic) {
   }
 }
 
+Eigen::Matrix<double, 6, 6> read_transmission(const YamlMap& yaml) {
+  const auto rows = yaml.square<6>("transmission");
+  Eigen::Matrix<double, 6, 6> transmission;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    transmission.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::Matrix<double, 1, 6>>(rows[i].data());
+  }
+  if (!is_transmission(transmission)) {
+    yaml.refuse("transmission", "the motors must tell the joints' angles: it has no inverse");
+  }
+  return transmission;
+}
+
 LearnedEffect read_effect(const YamlMap& yaml) {
   LearnedEffect learned;
   learned.effect = yaml.text("effect");
@@ -118,7 +131,7 @@ Robot load_robot(const std::filesystem::path& file) {
                 fmt::format("expected {}, found {}", kRobotSchema, files::one_line(schema)));
   }
   yaml.allow_only({"schema", "name", "urdf", "base_link", "tool_link", "gravity", "joints",
-                   "base_compliance", "tool_compliance", "payload", "effects"});
+                   "base_compliance", "tool_compliance", "payload", "transmission", "effects"});
   Robot robot;
   robot.yaml = file;
   robot.name = yaml.text("name");
@@ -136,6 +149,9 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.elastic.tool_compliance = read_compliance(yaml, "tool_compliance");
   if (yaml.has("payload")) {
     read_payload(yaml.map("payload"), &robot.elastic);
+  }
+  if (yaml.has("transmission")) {
+    robot.transmission = read_transmission(yaml);
   }
   if (yaml.has("effects")) {
     for (const YamlMap& effect : yaml.maps("effects")) {

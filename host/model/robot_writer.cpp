@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/emitter.h>
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <ostream>
 #include <stdexcept>
@@ -77,6 +78,21 @@ void write_text(YAML::Emitter* out, const std::string& key, const std::string& t
   *out << YAML::Key << key << YAML::Value << text;
 }
 
+void write_transmission(YAML::Emitter* out, const Eigen::Matrix<double, 6, 6>& transmission) {
+  if (transmission.isIdentity(0)) {
+    return;
+  }
+  *out << YAML::Key << "transmission" << YAML::Value << YAML::BeginSeq;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    *out << YAML::Flow << YAML::BeginSeq;
+    for (Eigen::Index column = 0; column < 6; ++column) {
+      *out << number(transmission(row, column));
+    }
+    *out << YAML::EndSeq;
+  }
+  *out << YAML::EndSeq;
+}
+
 void write_effects(YAML::Emitter* out, const std::vector<LearnedEffect>& effects) {
   if (effects.empty()) {
     return;
@@ -116,6 +132,7 @@ std::string document(const Robot& robot, const std::string& urdf) {
   write_list_unless_zero(&out, "base_compliance", robot.elastic.base_compliance);
   write_list_unless_zero(&out, "tool_compliance", robot.elastic.tool_compliance);
   write_payload(&out, robot.elastic);
+  write_transmission(&out, robot.transmission);
   write_effects(&out, robot.effects);
   out << YAML::EndMap << YAML::Newline;
   return out.c_str();
@@ -129,8 +146,9 @@ bool is_valid(const JointDynamics& dynamics) {
 }
 
 void refuse_impossible(const Robot& robot) {
-  bool valid = validate(robot.elastic) == Result::ok && has_plausible_springs(robot.elastic) &&
-               !robot.name.empty() && printable_line(robot.name) == robot.name;
+  bool valid = is_transmission(robot.transmission) && validate(robot.elastic) == Result::ok &&
+               has_plausible_springs(robot.elastic) && !robot.name.empty() &&
+               printable_line(robot.name) == robot.name;
   for (const JointDynamics& dynamics : robot.dynamics) {
     valid = valid && is_valid(dynamics);
   }
@@ -151,6 +169,12 @@ std::string relative_urdf(const std::filesystem::path& file, const Robot& robot)
 }
 
 }  // namespace
+
+bool is_transmission(const Eigen::Matrix<double, 6, 6>& transmission) {
+  constexpr double kSmallest = 1e-6;  // of the largest singular value
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(transmission);
+  return transmission.allFinite() && svd.singularValues()[5] > kSmallest * svd.singularValues()[0];
+}
 
 std::string robot_text(const std::filesystem::path& file, const Robot& robot) {
   refuse_impossible(robot);

@@ -163,6 +163,21 @@ double YamlMap::non_negative_or(const std::string& key, double fallback) const {
   return has(key) ? non_negative(key) : fallback;
 }
 
+void YamlMap::read_square(const std::string& key, double* values, std::size_t count) const {
+  const YAML::Node rows = required(key);
+  if (!rows.IsSequence() || rows.size() != count) {
+    refuse(key, fmt::format("expected a list of {} rows, found {}", count, description(rows)));
+  }
+  for (const YAML::Node& row : rows) {
+    if (!row.IsSequence() || row.size() != count) {
+      refuse(key, fmt::format("expected rows of {} numbers, found {}", count, description(row)));
+    }
+    for (const YAML::Node& value : row) {
+      *values++ = scalar(value, key);
+    }
+  }
+}
+
 void YamlMap::read_numbers(const std::string& key, double* values, std::size_t count) const {
   const YAML::Node child = required(key);
   if (!child.IsSequence() || child.size() != count) {

@@ -45,6 +45,14 @@ class YamlMap {
     return values;
   }
 
+  /// A list of so many rows, each a list of as many finite numbers; row by row.
+  template <std::size_t Count>
+  std::array<std::array<double, Count>, Count> square(const std::string& key) const {
+    std::array<std::array<double, Count>, Count> rows{};
+    read_square(key, rows.front().data(), Count);
+    return rows;
+  }
+
   /// A list of finite numbers, however many.
   std::vector<double> list(const std::string& key) const;
 
@@ -54,6 +62,7 @@ class YamlMap {
  private:
   YAML::Node required(const std::string& key) const;
   void read_numbers(const std::string& key, double* values, std::size_t count) const;
+  void read_square(const std::string& key, double* values, std::size_t count) const;
   double scalar(const YAML::Node& node, const std::string& key) const;
   std::string location(const YAML::Node& node, const std::string& key) const;
 

@@ -111,15 +111,19 @@ Row drive_torque(const Machine& machine, const Scene& scene, const Simulation& a
   return held - wrench_torque<double, 6>(geometric_jacobian<double, 6>(straight), wrench);
 }
 
+/// Torque of the motors' friction and rotors on the joints.
 Row friction(const Machine& machine, const Simulation& at, Eigen::Index row) {
+  const Eigen::Matrix<double, 6, 6>& transmission = machine.robot.transmission;
+  const Row speed = transmission * at.velocity.row(row).transpose();
+  const Row acceleration = transmission * at.acceleration.row(row).transpose();
   Row torque;
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
-    const model::JointDynamics& dynamics = machine.robot.dynamics[static_cast<std::size_t>(joint)];
-    const double speed = at.velocity(row, joint);
-    torque[joint] = dynamics.viscous * speed + dynamics.coulomb * direction_of_motion(speed) +
-                    dynamics.rotor_inertia * at.acceleration(row, joint);
+  for (Eigen::Index motor = 0; motor < 6; ++motor) {
+    const model::JointDynamics& dynamics = machine.robot.dynamics[static_cast<std::size_t>(motor)];
+    torque[motor] = dynamics.viscous * speed[motor] +
+                    dynamics.coulomb * direction_of_motion(speed[motor]) +
+                    dynamics.rotor_inertia * acceleration[motor];
   }
-  return torque;
+  return transmission.transpose() * torque;
 }
 
 void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Simulation* at) {

@@ -200,8 +200,11 @@ Observations showing_all(const model::Robot& robot, bool is_warmed, bool has_enc
 void every_parameter_of_every_effect_has_a_plausible_range_with_its_source() {
   std::set<std::string> seen;
   for (const char* const name : {"kr100", "kr270", "kr360", "kr500", ""}) {
-    const model::Robot robot = model::load_robot(
+    model::Robot robot = model::load_robot(
         *name != 0 ? std::string(FLEXCOMP_ROBOTS "/") + name + "/robot.yaml" : kDesktopArm);
+    for (model::JointDynamics& motor : robot.dynamics) {
+      motor.coulomb = 1;  // N·m, so that a coupled drive could show
+    }
     for (const bool is_warmed : {true, false}) {
       const Observations observations = showing_all(robot, is_warmed, is_warmed);
       for (const Hypothesis& hypothesis : all_hypotheses(observations)) {

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
+#include "diagnosis/diagnosis.hpp"
 #include "diagnosis/retune.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
@@ -119,6 +121,55 @@ void what_no_number_can_stand_in_for_leaves_them_as_they_are() {
   TEST_ASSERT_TRUE(retuned(observations, hypotheses).chosen.empty());
 }
 
+/// Friction torques (n × 6, N·m) of the first five joints, the motor of the fifth coupled to the
+/// fourth by one turn: by hand, as every joint's power is that of the motors.
+Eigen::MatrixXd coupled_friction(const SwingingRobot& swinging) {
+  const Eigen::MatrixXd& speed = swinging.scene.velocity;
+  Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(speed.rows(), 6);
+  for (Eigen::Index motor = 0; motor < 5; ++motor) {
+    const double dry = 20 + 5 * static_cast<double>(motor);       // N·m
+    const double viscous = 50 - 10 * static_cast<double>(motor);  // N·m·s/rad
+    Eigen::VectorXd own = speed.col(motor);
+    if (motor == 4) {
+      own += speed.col(3);
+    }
+    const Eigen::VectorXd friction = dry * own.array().sign().matrix() + viscous * own;
+    torque.col(motor) += friction;
+    if (motor == 4) {
+      torque.col(3) += friction;
+    }
+  }
+  return torque;
+}
+
+/// No single cause accounts for much of it; all of them do, each by its own evidence.
+void friction_everywhere_and_a_coupled_drive_are_found_together() {
+  const SwingingRobot swinging(5);
+  Observations observations = with_torques(swinging, coupled_friction(swinging));
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  diagnosis::Settings settings;
+  settings.simulating = settings.choosing = [](std::size_t, std::size_t) {};
+  const diagnosis::Diagnosis found = diagnose(&observations, hypotheses, settings);
+  std::set<int> with_friction;
+  bool is_coupled = false;
+  for (const diagnosis::Finding& finding : found.choice.findings) {
+    const Hypothesis& hypothesis = finding.chosen.hypothesis;
+    if (hypothesis.effect() == "coulomb_friction" || hypothesis.effect() == "viscous_friction") {
+      with_friction.insert(hypothesis.joint);
+    }
+    if (hypothesis.effect() == "transmission") {
+      TEST_ASSERT_EQUAL_INT(5, hypothesis.joint);
+      TEST_ASSERT_DOUBLE_WITHIN(0.05, 1, finding.chosen.values.front());
+      is_coupled = true;
+    }
+  }
+  TEST_ASSERT_EQUAL_STRING("explained", found.verdict.c_str());
+  TEST_ASSERT_TRUE(is_coupled);
+  TEST_ASSERT_TRUE(with_friction == (std::set<int>{1, 2, 3, 4, 5}));
+  // As near as whoever knows what was put in: all that is left is the noise.
+  TEST_ASSERT_TRUE(held_out(observations, found.updated().remainder) < 1.1 * kTorqueNoise);
+}
+
 }  // namespace
 
 int main() {
@@ -127,5 +178,6 @@ int main() {
   RUN_TEST(numbers_stand_in_for_what_findings_leave);
   RUN_TEST(a_model_that_agrees_keeps_its_numbers);
   RUN_TEST(what_no_number_can_stand_in_for_leaves_them_as_they_are);
+  RUN_TEST(friction_everywhere_and_a_coupled_drive_are_found_together);
   return UNITY_END();
 }

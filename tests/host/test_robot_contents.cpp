@@ -46,6 +46,7 @@ Robot full_robot(const ScratchFolder& folder) {
   robot.elastic.tool_compliance << 0, 0, 0, 0, 0, 1e-300;
   robot.elastic.payload_mass = 123.456;
   robot.elastic.payload_center << 0.1, 0.2, 1.0 / 3;
+  robot.transmission(5, 4) = 1.0 / 3;
   return robot;
 }
 
@@ -58,6 +59,7 @@ void assert_same_yaml(const Robot& expected, const Robot& actual) {
   TEST_ASSERT_TRUE(expected.elastic.tool_compliance == actual.elastic.tool_compliance);
   TEST_ASSERT_TRUE(expected.elastic.payload_mass == actual.elastic.payload_mass);
   TEST_ASSERT_TRUE(expected.elastic.payload_center == actual.elastic.payload_center);
+  TEST_ASSERT_TRUE(expected.transmission == actual.transmission);
   for (std::size_t i = 0; i < 6; ++i) {
     const Joint<double>& spring = expected.elastic.joints[i];
     const Joint<double>& read = actual.elastic.joints[i];
@@ -78,6 +80,7 @@ void keys_that_are_left_out_are_zero() {
   TEST_ASSERT_FALSE(flexcomp::has_structure_springs(robot.elastic));
   TEST_ASSERT_TRUE(robot.elastic.payload_mass == 0);
   TEST_ASSERT_TRUE(robot.elastic.payload_center.isZero(0));
+  TEST_ASSERT_TRUE(robot.transmission.isIdentity(0));
   TEST_ASSERT_TRUE(robot.elastic.joints[1].cubic_compliance == 0);
   TEST_ASSERT_TRUE(robot.dynamics[0].backlash == 0);
   TEST_ASSERT_TRUE(robot.dynamics[1].backlash == 1e-4);

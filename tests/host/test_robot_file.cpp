@@ -65,6 +65,15 @@ void a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key() {
       {{"name:", "urdf: x\nname:"}, "robot.yaml:4: 'urdf': the key appears twice"},
       {{"name:", "[a, b]: 1\nname:"}, "robot.yaml:2: expected a word as key, found a list of 2"},
       {{"arm.urdf", "leg.urdf"}, "robot.yaml:3: 'urdf': no such file: "},
+      {{"name:", "transmission: [1, 0]\nname:"},
+       "robot.yaml:2: 'transmission': expected a list of 6 rows, found a list of 2"},
+      {{"name:", "transmission: [[1], [1], [1], [1], [1], [1]]\nname:"},
+       "robot.yaml:2: 'transmission': expected rows of 6 numbers, found a list of 1"},
+      {{"name:",
+        "transmission: [[1, 0, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, "
+        "0, 0],"
+        " [0, 0, 0, 0, 1, 1], [0, 0, 0, 0, 1, 1]]\nname:"},
+       "robot.yaml:2: 'transmission': the motors must tell the joints' angles"},
       {{"gravity: [0, 0, -9.81]\n", ""}, "robot.yaml:1: 'gravity': missing"},
       {{"-9.81]", "-9.81, 0]"},
        "robot.yaml:6: 'gravity': expected a list of 3 numbers, found a list of 4"},

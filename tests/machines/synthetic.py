@@ -1,6 +1,7 @@
 """Files of the published forms, made up, whose content is known in closed form."""
 
 import csv
+import gzip
 
 import numpy as np
 import yaml
@@ -85,6 +86,35 @@ def franka_panda(folder):
         **numbered("tau_Nm_{}", np.tile(np.arange(1.0, 8.0), (len(repeated), 1)))})
     whole = met != TORN
     return time[whole], angles[whole]
+
+
+TX40_LINK = """<link name="link_{number}"><inertial><mass value="3"/>
+ <origin xyz="0.1 0 0.05" rpy="0 0 0.5"/>
+ <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0.01" iyz="0" ixz="0"/></inertial></link>
+<joint name="joint_{number}" type="revolute"><parent link="{parent}"/><child link="link_{number}"/>
+ <origin xyz="0.2 0 0.1" rpy="{roll} 0 0"/><axis xyz="0 0 1"/>
+ <limit lower="-3" upper="3" effort="100" velocity="5"/></joint>"""
+
+
+def staubli_tx40(folder, rows=6000):
+    """Motors of gear ratios 32, 32, 45, -48, 45, 32; motor 6 turns with joint 5 as well. The motors
+    hold 1 to 6 N·m. Returns the joints' angles (n, 6) in rad."""
+    folder.mkdir(parents=True, exist_ok=True)
+    links = [TX40_LINK.format(number=number, roll=1.571 if number % 2 == 0 else 0.0,
+                              parent=f"link_{number - 1}" if number > 1 else "base_link")
+             for number in range(1, 7)]
+    (folder / "tx40_mdh_modified.urdf").write_text(
+        '<robot name="tx40"><link name="base_link"/>' + "\n".join(links) + "</robot>")
+    angles = swing(np.arange(rows) / 5000.0, 6)
+    turned = angles - np.array([0, -np.pi / 2, np.pi / 2, 0, 0, 0])
+    motors = turned * [32, 32, 45, -48, 45, 32]
+    motors[:, 5] = 32 * (turned[:, 5] + turned[:, 4])
+    for name, values in (("pos_read_data", motors),
+                         ("curr_data", np.tile(np.arange(1.0, 7.0), (rows, 1)))):
+        with gzip.open(folder / f"{name}.csv.gz", "wt") as file:
+            file.write("1,2,3,4,5,6\n")
+            np.savetxt(file, values, delimiter=",", fmt="%.15g")
+    return angles
 
 
 def emps(folder):

@@ -147,6 +147,20 @@ class Readers(Scratch):
         np.testing.assert_allclose(counterbalance.found_torque(trial, self.folder), -200.0)
         self.assertEqual([[balancer]], asked)
 
+    def test_tx40_has_the_angles_and_torques_of_the_joints(self):
+        (filtered, recorded), angles = self.written("staubli_tx40")
+        recording = tables.read_recording(recorded.recordings[0])
+        q = group(recording, "q_meas")
+        np.testing.assert_allclose(q, angles[:10 * len(q):10], atol=1e-9)
+        np.testing.assert_allclose(group(recording, "tau")[0],
+                                   [32, 64, 135, -192, 225 + 192, 192])
+        # Slow motion passes the filter as it is; it is half a window, 100 ms, shorter at either end.
+        recording = tables.read_recording(filtered.recordings[0])
+        self.assertAlmostEqual(0.1, recording["t"][0], 9)
+        q = group(recording, "q_meas")
+        np.testing.assert_allclose(q, angles[500:500 + 10 * len(q):10], atol=1e-4)
+        np.testing.assert_allclose(recording["tau_3"], 135)
+
     def test_panda_has_the_published_kinematics_with_joint_7_held(self):
         (experiment,), (_, angles) = self.written("franka_panda")
         links = ((0, 0.333, 0), (0, 0, -90), (0, 0.316, 90), (0.0825, 0, 90), (-0.0825, 0.384, -90),
@@ -296,6 +310,7 @@ class Command(Scratch):
                     "cells under a header"),
             "kuka_kr300": ("kr300_B.csv", "\n0.008,", "\n0.004,", "does not grow"),
             "franka_panda": ("panda_exciting_1kHz.csv", "tau_Nm_7", "tau", "no column 'tau_Nm_7'"),
+            "staubli_tx40": ("tx40_mdh_modified.urdf", "</robot>", "", "no robot description"),
             "hilti_jaibot": ("trailblazer.urdf", "</robot>", "", "no robot description"),
         }
         for name, (file, before, after, saying) in damages.items():

@@ -140,7 +140,7 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
   }
   json["noise_floor_rms"] = noise_floor(observations);
   json["baseline"] = rms_of(observations, observations.residual);
-  json["final"] = rms_of(observations, diagnosis.choice.fit.remainder);
+  json["final"] = rms_of(observations, diagnosis.updated().remainder);
   json["location"] = location(diagnosis.location);
   json["findings"] = Json::array();
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {

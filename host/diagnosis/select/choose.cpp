@@ -14,8 +14,8 @@ bool is_settled(const Observations& observations, const Fit& fit) {
   return fit.parameters() <= 2 && largest_ratio(observations, fit.remainder) < kSettled;
 }
 
-/// A fit that grows from a pair of hypotheses may end better than one that grows from a single. In a
-/// load test, whose fits are quick, the best pair grows even if it is not better yet.
+/// A fit that grows from a pair of hypotheses may end better than one that grows from a single. In
+/// a load test, whose fits are quick, the best pair grows even if it is not better yet.
 Attempt best_of_pairs(const Inquiry& inquiry, Attempt best, const Tell& tell) {
   const std::vector<Fit> pairs = propose_pairs(inquiry);
   for (std::size_t i = 0; i < pairs.size(); ++i) {

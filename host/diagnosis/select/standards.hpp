@@ -30,6 +30,9 @@ constexpr double kLeastExplained = 0.9;
 /// The same where no more than `kFarFromNoise` is left: of engines whose laws are their own, more
 /// cannot be had (4675fca).
 constexpr double kExplainedNearNoise = 0.8;
+/// Numbers of a family that must stand together: fewer causes are found one by one, and physics
+/// outside the catalogue is imitated by one or two (tests/diagnosis/test_retune.cpp).
+constexpr std::size_t kLeastMembers = 3;
 /// Times the noise: what leaves more has not been understood (0f27f02).
 constexpr double kFarFromNoise = 2;
 /// A recording of a real robot needs a dozen (842a13d).

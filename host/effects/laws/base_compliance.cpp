@@ -26,6 +26,7 @@ Forms laws::base_compliance() {
   Law law;
   law.joints = {0};
   law.traits.linear_in = 6;
+  law.traits.is_in_family = true;
   law.parameters = constant({{"x", "m/N"},
                              {"y", "m/N"},
                              {"z", "m/N"},

@@ -29,6 +29,7 @@ Forms laws::base_frame() {
   Law law;
   law.joints = {0};
   law.traits.linear_in = 6;
+  law.traits.is_in_family = true;
   law.traits.can_be_undone = false;
   law.parameters =
       constant({{"x", "m"}, {"y", "m"}, {"z", "m"}, {"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}});

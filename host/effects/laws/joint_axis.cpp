@@ -26,6 +26,7 @@ Forms laws::joint_axis() {
   Law law;
   law.joints = joints(1, 6);
   law.traits.linear_in = 2;
+  law.traits.is_in_family = true;
   law.parameters = [](const model::Robot& robot, int joint) {
     constexpr std::array<const char*, 3> kNames = {"tilt_x", "tilt_y", "tilt_z"};
     std::vector<Parameter> parameters;

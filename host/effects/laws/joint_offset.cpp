@@ -8,6 +8,7 @@ Forms laws::joint_offset() {
   Law law;
   law.joints = joints(1, 6);
   law.traits.linear_in = 1;
+  law.traits.is_in_family = true;
   law.traits.alters_model = true;
   law.traits.measures = Measures::zero;
   law.parameters = constant({{"offset", "rad"}});

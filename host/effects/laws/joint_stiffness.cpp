@@ -24,6 +24,7 @@ Forms laws::joint_stiffness() {
   Law law;
   law.joints = joints(1, 6);
   law.traits.linear_in = 1;
+  law.traits.is_in_family = true;
   law.traits.is_model_number = true;
   law.traits.measures = Measures::stiffness;
   law.parameters = constant({{"compliance_change", "rad/(N·m)"}});

@@ -19,6 +19,7 @@ Forms laws::link_length() {
   Law law;
   law.joints = joints(1, 5);
   law.traits.linear_in = 1;
+  law.traits.is_in_family = true;
   law.parameters = constant({{"length", "m"}});
   law.impossible = [](const model::Robot& robot, int joint) {
     constexpr double kNothing = 1e-6;  // m

@@ -15,6 +15,7 @@ Forms laws::payload() {
   Law law;
   law.joints = {0};
   law.traits.linear_in = 4;
+  law.traits.is_in_family = true;
   law.traits.is_body = true;
   law.traits.tells_inertia = true;
   law.no_body = [](const model::Robot&, const model::Robot& robot, const MachineSize& size, int) {

@@ -9,6 +9,7 @@ Forms laws::rotor_inertia() {
   law.joints = joints(1, 6);
   law.traits.linear_in = 1;
   law.traits.tells_inertia = true;
+  law.traits.is_in_family = true;
   law.parameters = constant({{"inertia", "kg·m^2"}});
   law.statement = says("the rotor of joint {} has another inertia");
   alter_keys(

@@ -8,6 +8,7 @@ Forms laws::tcp_offset() {
   Law law;
   law.joints = {0};
   law.traits.linear_in = 3;
+  law.traits.is_in_family = true;
   law.parameters = constant({{"x", "m"}, {"y", "m"}, {"z", "m"}});
   law.statement = says("the tool tip is elsewhere");
   alter_robot(

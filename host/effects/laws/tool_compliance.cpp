@@ -17,6 +17,7 @@ Forms laws::tool_compliance() {
   Law law;
   law.joints = {0};
   law.traits.linear_in = 3;
+  law.traits.is_in_family = true;
   law.parameters = constant({{"x", "m/N"}, {"y", "m/N"}, {"z", "m/N"}});
   law.statement = says("spindle, holder or flange give");
   alter_keys(

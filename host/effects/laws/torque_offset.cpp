@@ -7,6 +7,7 @@ Forms laws::torque_offset() {
   Law law;
   law.joints = joints(1, 6);
   law.traits.linear_in = 1;
+  law.traits.is_in_family = true;
   law.parameters = constant({{"torque", "N·m"}});
   law.statement = says("the torque of joint {} has another zero");
   add_term(

@@ -8,6 +8,7 @@ Forms laws::viscous_friction() {
   Law both_ways;
   both_ways.joints = joints(1, 6);
   both_ways.traits.linear_in = 1;
+  both_ways.traits.is_in_family = true;
   both_ways.traits.is_model_number = true;
   both_ways.parameters = constant({{"coefficient", "N·m·s/rad"}});
   both_ways.statement = says("joint {} has another viscous friction");

@@ -1,0 +1,3 @@
+"""Stäubli TX40."""
+
+from . import goals, pictures, reader  # noqa: F401
