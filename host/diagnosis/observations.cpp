@@ -47,6 +47,26 @@ double largest(const std::vector<Values>& all) {
   return most;
 }
 
+/// A residual (over the noise) as an error of a joint, by scene; `lever`: by how much a sample
+/// changes with it.
+template <typename Lever>
+std::vector<JointResidual> residual_through(const Observations& observations,
+                                            const Eigen::VectorXd& unexplained,
+                                            const Lever& lever) {
+  std::vector<JointResidual> all;
+  for (const Scene& scene : observations.scenes) {
+    all.push_back({Eigen::VectorXd::Zero(scene.rows()), Eigen::VectorXd::Zero(scene.rows())});
+  }
+  for (Eigen::Index i = 0; i < observations.train; ++i) {
+    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
+    const double arm = lever(at);
+    const double noise = observations.noise[i];
+    all[at.scene].product[at.row] += arm * unexplained[i] / noise;
+    all[at.scene].weight[at.row] += arm * arm / (noise * noise);
+  }
+  return all;
+}
+
 }  // namespace
 
 Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows) {
@@ -293,39 +313,20 @@ double Observations::rms(const Eigen::VectorXd& values, Channel channel, bool he
 
 std::vector<JointResidual> Observations::angle_residual(int joint,
                                                         const Eigen::VectorXd& unexplained) const {
-  std::vector<JointResidual> all;
-  for (const Scene& scene : scenes) {
-    all.push_back({Eigen::VectorXd::Zero(scene.rows()), Eigen::VectorXd::Zero(scene.rows())});
-  }
-  for (Eigen::Index i = 0; i < train; ++i) {
-    const Sample& at = samples[static_cast<std::size_t>(i)];
-    double lever = 0;
+  return residual_through(*this, unexplained, [&](const Sample& at) {
     if (at.channel == tcp_position) {
-      lever =
-          simulations[at.scene].jacobian[static_cast<std::size_t>(at.row)](at.component, joint - 1);
-    } else if (at.channel == joint_deflection && at.component == joint - 1) {
-      lever = 1;
+      return simulations[at.scene].jacobian[static_cast<std::size_t>(at.row)](at.component,
+                                                                              joint - 1);
     }
-    all[at.scene].product[at.row] += lever * unexplained[i] / noise[i];
-    all[at.scene].weight[at.row] += lever * lever / (noise[i] * noise[i]);
-  }
-  return all;
+    return at.channel == joint_deflection && at.component == joint - 1 ? 1.0 : 0.0;
+  });
 }
 
 std::vector<JointResidual> Observations::torque_residual(int joint,
                                                          const Eigen::VectorXd& unexplained) const {
-  std::vector<JointResidual> all;
-  for (const Scene& scene : scenes) {
-    all.push_back({Eigen::VectorXd::Zero(scene.rows()), Eigen::VectorXd::Zero(scene.rows())});
-  }
-  for (Eigen::Index i = 0; i < train; ++i) {
-    const Sample& at = samples[static_cast<std::size_t>(i)];
-    if (at.channel == joint_torque && at.component == joint - 1) {
-      all[at.scene].product[at.row] += unexplained[i] / noise[i];
-      all[at.scene].weight[at.row] += 1 / (noise[i] * noise[i]);
-    }
-  }
-  return all;
+  return residual_through(*this, unexplained, [&](const Sample& at) {
+    return at.channel == joint_torque && at.component == joint - 1 ? 1.0 : 0.0;
+  });
 }
 
 void Observations::drop_outliers(const Eigen::VectorXd& values, double limit) {

@@ -21,7 +21,8 @@ constexpr const char* kStyle =
     "border-bottom:1px solid #ddd}svg{max-width:100%;height:auto}.lead{font-size:1.2em}"
     "h2{margin-top:1.6em}";
 
-/// The 95 % interval of an estimate to either side, in one digit; tens and thousands are written out.
+/// The 95 % interval of an estimate to either side, in one digit; tens and thousands are written
+/// out.
 std::string margin(double deviation) {
   const double side = 1.96 * deviation;
   return side < 9.5 || side >= 1e6 ? fmt::format("{:.1g}", side) : fmt::format("{:.0f}", side);
