@@ -1,32 +1,31 @@
 /// The firmware: a node on a serial line. Priorities, highest first: the line's interrupts;
-/// SysTick, which runs the node; this program, which checks tables and looks after the rest.
+/// SysTick, which runs the node and feeds the watchdog while the program below it is alive; this
+/// program, which checks tables and looks after the rest.
 #include <atomic>
 
 #include "cortex_m7/board.hpp"
 #include "cortex_m7/fault_report.hpp"
 #include "cortex_m7/stack.hpp"
-#include "messages/table_trailer.hpp"
 
 namespace {
 
 using flexcomp::NodeSettings;
-using flexcomp::Result;
 using flexcomp::SlcanNode;
-using flexcomp::Table;
-using flexcomp::TableHeader;
 using flexcomp::TableSlot;
-using flexcomp::TableStore;
 using flexcomp::cortex_m7::FaultReport;
 namespace board = flexcomp::cortex_m7::board;
 
 constexpr std::uint32_t kStepsASecond = 1000;
-constexpr std::uint32_t kWatchdogTime = 500;   // ms: longer than a check of the largest table
-constexpr std::uint32_t kErased = 0xFFFFFFFF;  // as flash is
+constexpr std::uint32_t kWatchdogTime = 500;  // ms
+// The main program may be busy with a table for so many steps: 512 KiB with a signature are some
+// forty million instructions, 1.6 s at 25 MHz.
+constexpr std::uint32_t kLongestCheck = 4000;
 
 SlcanNode::Bytes received;
 SlcanNode::Bytes to_send;
 SlcanNode* node = nullptr;
 std::atomic<std::uint32_t> steps{0};
+std::atomic<std::uint32_t> seen{0};  ///< steps, when the main program last looked
 
 /// What survives a reset of the processor.
 struct LastWords {
@@ -57,7 +56,11 @@ void tick() {
   now += board::elapsed();
   node->step(now);
   board::wake_sender();
-  steps.store(steps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  const std::uint32_t done = steps.load(std::memory_order_relaxed) + 1;
+  steps.store(done, std::memory_order_relaxed);
+  if (done - seen.load(std::memory_order_relaxed) <= kLongestCheck) {
+    board::feed_watchdog();
+  }
 }
 
 /// Armv7-M Architecture Reference Manual, B3.2.6: a reset by software.
@@ -83,18 +86,8 @@ TableSlot slot(std::uint32_t* begin, const std::uint32_t* end) {
   return {begin, static_cast<std::size_t>(end - begin)};
 }
 
-/// Puts the table in flash to use, if there is one.
-void use_table_in_flash() {
-  const auto* const header = reinterpret_cast<const TableHeader*>(__table_start);
-  if (header->magic == kErased || header->magic == 0) {
-    return;
-  }
-  const std::size_t room =
-      static_cast<std::size_t>(__table_end - __table_start) * sizeof(std::uint32_t);
-  Table table;
-  const Result opened = header->size <= room ? Table::open(header, header->size, &table)
-                                             : Table::open(header, room, &table);
-  node->node()->start_with(TableStore::kFixed, table, opened);
+std::size_t bytes_between(const std::uint32_t* begin, const std::uint32_t* end) {
+  return static_cast<std::size_t>(end - begin) * sizeof(std::uint32_t);
 }
 
 void report_last_words() {
@@ -114,38 +107,26 @@ void start_steps() {
   system_control(0xE000E010) = kEnableInterruptProcessorClock;
 }
 
-void check_table() {
-  const void* data = nullptr;
-  std::size_t size = 0;
-  if (node->table_to_check(&data, &size)) {
-    Table table;
-    const Result opened = Table::open(data, flexcomp::bytes_of_table(data, size), &table);
-    node->table_checked(opened, table);
-  }
-}
-
 }  // namespace
 
 int main() {
   flexcomp::cortex_m7::prepare_stack();
   NodeSettings settings;
-  const std::size_t room =
-      static_cast<std::size_t>(__settings_end - __settings_start) * sizeof(std::uint32_t);
-  read_record(__settings_start, room, &settings);  // else they stay such that no node takes them
+  read_record(__settings_start, bytes_between(__settings_start, __settings_end),
+              &settings);  // else they stay such that no node takes them
   static SlcanNode the_node(settings, &received, &to_send, slot(__first_slot, __second_slot),
                             slot(__second_slot, __slots_end));
   node = &the_node;
-  use_table_in_flash();
+  node->start_with(__table_start, bytes_between(__table_start, __table_end));
   report_last_words();
   board::start(&received, &to_send);
   start_steps();
   board::start_watchdog(kWatchdogTime);
-  for (std::uint32_t seen = 0;;) {
+  for (;;) {
     const std::uint32_t done = steps.load(std::memory_order_relaxed);
-    if (done != seen) {
-      board::feed_watchdog();
-      seen = done;
-      check_table();
+    if (done != seen.load(std::memory_order_relaxed)) {
+      seen.store(done, std::memory_order_relaxed);
+      node->check_table();
       node->set_stack_used(flexcomp::cortex_m7::stack_used());
     }
     asm volatile("wfi");

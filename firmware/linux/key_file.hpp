@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "messages/cmac.hpp"
+#include "messages/authentication_key.hpp"
 
 namespace flexcomp {
 

@@ -116,13 +116,20 @@ void load_table(const Options& options, const InitialTable& initial, Slots* slot
   }
 }
 
-/// The settings as a microcontroller has them in its flash.
+/// The settings as a microcontroller has them in its flash, its key for tables among them.
 int write_settings(const Options& options) {
   if (!is_usable(options.settings.node)) {
     throw std::runtime_error(describe(Result::bad_config));
   }
-  const SettingsRecord record = to_record(options.settings);
-  write_whole(options.settings_out, &record, sizeof record);
+  NodeSettings settings = options.settings;
+  if (!options.key.empty()) {
+    settings.table_key = read_key(options.key);
+    complain(options.settings_out +
+             ": holds the key, for tables; the microcontroller's messages are not authenticated");
+  }
+  const SettingsRecord record = to_record(settings);
+  write_whole(options.settings_out, &record, sizeof record,
+              settings.table_key ? Readers::owner : Readers::all);
   return kDone;
 }
 

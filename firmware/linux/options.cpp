@@ -200,9 +200,6 @@ void check_together(const Options& options) {
   if (!is_usable(options.settings.node)) {
     throw CLI::ValidationError("configuration", describe(Result::bad_config));
   }
-  if (!options.key.empty() && !options.settings_out.empty()) {
-    throw CLI::ValidationError("--key", "a microcontroller has none: not with --settings-out");
-  }
   if (!options.settings_out.empty()) {
     return;  // the microcontroller has its own bus
   }

@@ -9,7 +9,7 @@
 #include "linux/lcm_link.hpp"
 #include "linux/options.hpp"
 #include "linux/slot_files.hpp"
-#include "linux/table_admission.hpp"
+#include "node/table_admission.hpp"
 
 namespace flexcomp {
 

@@ -92,12 +92,13 @@ std::optional<std::vector<char>> read_whole(const std::string& path, std::size_t
   return bytes;
 }
 
-void write_whole(const std::string& path, const void* data, std::size_t size) {
+void write_whole(const std::string& path, const void* data, std::size_t size, Readers readers) {
+  const mode_t mode = readers == Readers::owner ? 0600 : 0644;
   const std::string aside = path + ".new";
   {
     // A FIFO or a device must not keep us waiting, and a link not lead elsewhere.
     const FileDescriptor file(open(
-        aside.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY, 0644));
+        aside.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY, mode));
     if (!file.is_open() && (errno == ENXIO || errno == ELOOP)) {
       throw std::runtime_error(aside + ": not an ordinary file");
     }
@@ -105,6 +106,9 @@ void write_whole(const std::string& path, const void* data, std::size_t size) {
       fail(aside);
     }
     ordinary(file, aside);
+    if (readers == Readers::owner && fchmod(file.number(), mode) != 0) {
+      fail(aside);
+    }
     if (ftruncate(file.number(), 0) != 0) {
       fail(aside);
     }

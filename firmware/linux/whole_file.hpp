@@ -16,6 +16,10 @@ std::optional<std::vector<char>> read_whole(const std::string& path, std::size_t
 /// Written aside (path + ".new") and renamed, so that who reads it never sees half, also after a
 /// loss of power. What stands aside already is written over if it is an ordinary file. Never waits
 /// for another process, but for the disk. Throws std::runtime_error, naming the file.
-void write_whole(const std::string& path, const void* data, std::size_t size);
+///
+/// `readers`: a secret is for its owner alone, also where a file stood aside that others may read.
+enum class Readers { all, owner };
+void write_whole(const std::string& path, const void* data, std::size_t size,
+                 Readers readers = Readers::all);
 
 }  // namespace flexcomp

@@ -24,7 +24,6 @@ struct SealedFrames {
 /// Fixed memory after construction, constant time.
 class MessageAuthentication {
  public:
-  /// Throws std::runtime_error as Cmac does.
   MessageAuthentication(const AuthenticationKey& key, FreshnessClock clock);
 
   /// The frames of a message as the encoder made them, with its authentication. What is returned is

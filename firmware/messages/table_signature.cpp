@@ -1,20 +1,18 @@
 #include "messages/table_signature.hpp"
 
-#include <stdexcept>
-#include <vector>
-
 namespace flexcomp {
 namespace {
 
 constexpr std::size_t kTagPlace = offsetof(TableTrailer, tag);
 
-Cmac::Code tag_of(const AuthenticationKey& key, const std::uint8_t* data, std::size_t size) {
+/// The tag of a table and of what stands before the tag in its trailer. False if mbedTLS fails.
+bool compute_tag(const AuthenticationKey& key, const std::uint8_t* table, std::size_t size,
+                 const TableTrailer& trailer, Cmac::Code* tag) {
   Cmac cmac(key);
-  Cmac::Code tag{};
-  if (!cmac.compute(data, size, &tag)) {
-    throw std::runtime_error("mbedTLS does not compute a table's tag");
-  }
-  return tag;
+  cmac.begin();
+  cmac.add(table, size);
+  cmac.add(reinterpret_cast<const std::uint8_t*>(&trailer), kTagPlace);
+  return cmac.end(tag);
 }
 
 /// In the same time whatever they are, so that nobody learns a tag byte by byte.
@@ -28,14 +26,12 @@ bool are_equal(const Cmac::Code& a, const Cmac::Code& b) {
 
 }  // namespace
 
-TableTrailer sign_table(const AuthenticationKey& key, const void* table, std::size_t size,
-                        std::uint32_t counter) {
+std::optional<TableTrailer> sign_table(const AuthenticationKey& key, const void* table,
+                                       std::size_t size, std::uint32_t counter) {
   TableTrailer trailer{kTableTrailerMagic, counter, {}};
-  const auto* bytes = static_cast<const std::uint8_t*>(table);
-  const auto* words = reinterpret_cast<const std::uint8_t*>(&trailer);
-  std::vector<std::uint8_t> content(bytes, bytes + size);
-  content.insert(content.end(), words, words + kTagPlace);
-  trailer.tag = tag_of(key, content.data(), content.size());
+  if (!compute_tag(key, static_cast<const std::uint8_t*>(table), size, trailer, &trailer.tag)) {
+    return std::nullopt;
+  }
   return trailer;
 }
 
@@ -48,7 +44,8 @@ Signature check_signature(const AuthenticationKey& key, const void* data, std::s
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   TableTrailer trailer{};
   std::memcpy(&trailer, bytes + table, sizeof trailer);
-  if (!are_equal(trailer.tag, tag_of(key, bytes, table + kTagPlace))) {
+  Cmac::Code tag{};
+  if (!compute_tag(key, bytes, table, trailer, &tag) || !are_equal(trailer.tag, tag)) {
     return Signature::wrong;
   }
   *counter = trailer.counter;

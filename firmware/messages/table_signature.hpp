@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "messages/cmac.hpp"
 #include "messages/table_trailer.hpp"
 
@@ -11,13 +13,13 @@ enum class Signature : std::uint8_t {
   wrong,  ///< of another key, or something was changed after it was made
 };
 
-/// The trailer of a table of `size` bytes. Throws std::runtime_error if mbedTLS fails.
-TableTrailer sign_table(const AuthenticationKey& key, const void* table, std::size_t size,
-                        std::uint32_t counter);
+/// The trailer of a table of `size` bytes; none if mbedTLS fails.
+std::optional<TableTrailer> sign_table(const AuthenticationKey& key, const void* table,
+                                       std::size_t size, std::uint32_t counter);
 
 /// Is a table with its trailer, `size` bytes together, as it was signed with this key? `counter` is
 /// set where it is. Says nothing of the table's own fields: `Table::open`. Cost: a pass over the
-/// bytes. Throws std::runtime_error if mbedTLS fails.
+/// bytes. If mbedTLS fails the signature counts as wrong.
 Signature check_signature(const AuthenticationKey& key, const void* data, std::size_t size,
                           std::uint32_t* counter);
 

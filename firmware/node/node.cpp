@@ -113,6 +113,11 @@ Result Node::conclude_transfer(Result opened, const Table& table) {
   return result;
 }
 
+void Node::refuse_start(Reply reason) {
+  table_result_ = number(reason);
+  announce(kTableRefusedCode, number(reason));
+}
+
 void Node::refuse_transfer(Reply reason) { end_transfer(number(reason), 0); }
 
 void Node::end_transfer(std::uint8_t result, std::size_t size) {

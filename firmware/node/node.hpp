@@ -64,7 +64,9 @@ class Node {
   /// completed transfer: put to use between two ticks, or refused with a reason that `arm` repeats.
   Result start_with(std::size_t place, const Table& table, Result opened = Result::ok);
   Result conclude_transfer(Result opened, const Table& table);
-  /// Ends a completed transfer without its table, for a reason that is not the table's content.
+  /// Goes without the table at start, or ends a completed transfer without its table, for a reason
+  /// that is not the table's content.
+  void refuse_start(Reply reason);
   void refuse_transfer(Reply reason);
   const void* received_table(std::size_t* size) const { return store_.received(size); }
 

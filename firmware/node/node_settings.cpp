@@ -8,12 +8,13 @@ namespace flexcomp {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x31534346;  // "FCS1"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;         // 1 had no key
 constexpr std::uint32_t kRequireIdentity = 1;
 constexpr std::uint32_t kUseTimestamps = 2;
+constexpr std::uint32_t kHasKey = 4;
 constexpr std::uint32_t kMostToleratedLosses = 6;
 
-static_assert(sizeof(SettingsRecord) == 4 * 52, "the record is written to files: no padding");
+static_assert(sizeof(SettingsRecord) == 4 * 56, "the record is written to files: no padding");
 
 float single(double value) { return static_cast<float>(value); }
 
@@ -34,8 +35,9 @@ SettingsRecord to_record(const NodeSettings& settings) {
   record.model_hash_low = static_cast<std::uint32_t>(core.model_hash & 0xFFFFFFFFU);
   record.model_hash_high = static_cast<std::uint32_t>(core.model_hash >> 32);
   record.trigger = static_cast<std::uint32_t>(settings.trigger);
-  record.flags =
-      (node.require_identity ? kRequireIdentity : 0U) | (node.use_timestamps ? kUseTimestamps : 0U);
+  record.flags = (node.require_identity ? kRequireIdentity : 0U) |
+                 (node.use_timestamps ? kUseTimestamps : 0U) | (settings.table_key ? kHasKey : 0U);
+  record.table_key = settings.table_key.value_or(AuthenticationKey{});
   record.ready_ticks = core.ready_ticks;
   record.late_ticks = node.late_ticks;
   record.tolerated_losses = settings.tolerated_losses;
@@ -85,6 +87,9 @@ Result read_record(const void* data, std::size_t size, NodeSettings* settings) {
   read.trigger = static_cast<Trigger>(record.trigger);
   node.require_identity = (record.flags & kRequireIdentity) != 0;
   node.use_timestamps = (record.flags & kUseTimestamps) != 0;
+  if ((record.flags & kHasKey) != 0) {
+    read.table_key = record.table_key;
+  }
   core.ready_ticks = record.ready_ticks;
   node.late_ticks = record.late_ticks;
   read.tolerated_losses = record.tolerated_losses;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
+#include "messages/authentication_key.hpp"
 #include "node/node.hpp"
 
 namespace flexcomp {
@@ -18,6 +20,7 @@ struct NodeSettings {
   NodeConfig node;
   Trigger trigger = Trigger::setpoint;
   std::uint32_t tolerated_losses = 3;  ///< messages in a row that may be lost without a break
+  std::optional<AuthenticationKey> table_key = std::nullopt;  ///< takes only tables signed with it
 };
 
 /// The settings as they stand in a microcontroller's flash: little-endian 32-bit words and floats.
@@ -30,7 +33,7 @@ struct SettingsRecord {
   std::uint32_t model_hash_low;
   std::uint32_t model_hash_high;
   std::uint32_t trigger;
-  std::uint32_t flags;  ///< bits: 1 identity required, 2 time stamps are used
+  std::uint32_t flags;  ///< bits: 1 identity required, 2 time stamps are used, 4 has a key
   std::uint32_t ready_ticks;
   std::uint32_t late_ticks;
   std::uint32_t tolerated_losses;
@@ -55,6 +58,7 @@ struct SettingsRecord {
   float force_rate;
   float moment_rate;
   float stuck_time;
+  AuthenticationKey table_key;  ///< zero without one
 };
 
 SettingsRecord to_record(const NodeSettings& settings);

@@ -1,8 +1,10 @@
 #include "node/slcan_node.hpp"
 
 #include <cmath>
+#include <cstring>
 
 #include "node/default_config.hpp"
+#include "node/table_admission.hpp"
 
 namespace flexcomp {
 namespace {
@@ -12,6 +14,7 @@ constexpr int kMessagesATick = 4;  // beside the corrected setpoint
 constexpr std::uint32_t kLinesToRecover = 64;
 constexpr std::uint8_t kDone = '\r';
 constexpr std::uint8_t kError = '\a';
+constexpr std::uint32_t kErased = 0xFFFFFFFF;  // as flash is
 
 std::int64_t in_nanoseconds(float period) {
   constexpr float kLongest = 2000.0F;  // s, in microseconds less than the target's `long` holds
@@ -27,7 +30,8 @@ SlcanNode::SlcanNode(const NodeSettings& settings, Bytes* received, Bytes* to_se
       to_send_(to_send),
       link_(false, settings.tolerated_losses),
       trigger_(settings.trigger),
-      period_(in_nanoseconds(settings.node.compensator.period)) {
+      period_(in_nanoseconds(settings.node.compensator.period)),
+      table_key_(settings.table_key) {
   node_.use_memory(first, second);
   if (node_.configure(settings.node) != Result::ok) {
     const NodeConfig config = default_node_config();  // without a model hash: it takes no table
@@ -104,7 +108,12 @@ void SlcanNode::tick(std::int64_t now) {
     link_.forget_conflicts();
   }
   node_.set_link(link_state());
-  send(node_.tick(now));
+  const CorrectedMessage corrected = node_.tick(now);
+  send(corrected);
+  trial_.observe(corrected);
+  if (trial_.has_run() && counter_in_use_ > counter_run_.load(std::memory_order_relaxed)) {
+    counter_run_.store(counter_in_use_, std::memory_order_relaxed);
+  }
   Message message;
   for (int i = 0; i < kMessagesATick && node_.next_message(&message); ++i) {
     send(message);
@@ -134,7 +143,11 @@ void SlcanNode::send(const SlcanLine& line) {
 void SlcanNode::exchange_tables() {
   const Check check = check_.load(std::memory_order_acquire);
   if (check == Check::done) {
-    node_.conclude_transfer(opened_, checked_);
+    if (checked_.refused != Reply::ok) {
+      node_.refuse_transfer(checked_.refused);
+    } else if (node_.conclude_transfer(checked_.opened, checked_.table) == Result::ok) {
+      has_in_use(checked_.counter);
+    }
     check_.store(Check::none, std::memory_order_relaxed);
   } else if (check == Check::none) {
     unchecked_ = node_.received_table(&unchecked_size_);
@@ -144,19 +157,50 @@ void SlcanNode::exchange_tables() {
   }
 }
 
-bool SlcanNode::table_to_check(const void** data, std::size_t* size) const {
-  if (check_.load(std::memory_order_acquire) != Check::wanted) {
-    return false;
+void SlcanNode::check_table() {
+  if (check_.load(std::memory_order_acquire) == Check::wanted) {
+    checked_ = checked(unchecked_, unchecked_size_);
+    check_.store(Check::done, std::memory_order_release);
   }
-  *data = unchecked_;
-  *size = unchecked_size_;
-  return true;
 }
 
-void SlcanNode::table_checked(Result opened, const Table& table) {
-  opened_ = opened;
-  checked_ = table;
-  check_.store(Check::done, std::memory_order_release);
+SlcanNode::Checked SlcanNode::checked(const void* data, std::size_t size) const {
+  Checked result;
+  if (table_key_) {
+    const TableAdmission admission(*table_key_, counter_run_.load(std::memory_order_relaxed));
+    result.refused = admission.judge(data, size, &result.counter);
+  }
+  if (result.refused == Reply::ok) {
+    result.opened = Table::open(data, bytes_of_table(data, size), &result.table);
+  }
+  return result;
+}
+
+void SlcanNode::has_in_use(std::uint32_t counter) {
+  counter_in_use_ = counter;
+  trial_.begin();
+}
+
+void SlcanNode::start_with(const void* memory, std::size_t size) {
+  TableHeader header;
+  if (size < sizeof header) {
+    return;
+  }
+  std::memcpy(&header, memory, sizeof header);
+  if (header.magic == kErased || header.magic == 0) {
+    return;
+  }
+  const std::size_t room = size - sizeof(TableTrailer);
+  const bool has_room = header.size <= room;
+  // What follows the table is its signature or nothing of it.
+  const std::size_t whole = has_room ? header.size + sizeof(TableTrailer) : size;
+  const bool is_signed = bytes_of_table(memory, whole) < whole;
+  const Checked table = checked(memory, is_signed || !has_room ? whole : header.size);
+  if (table.refused != Reply::ok) {
+    node_.refuse_start(table.refused);
+  } else if (node_.start_with(TableStore::kFixed, table.table, table.opened) == Result::ok) {
+    has_in_use(table.counter);
+  }
 }
 
 }  // namespace flexcomp

@@ -6,6 +6,7 @@
 #include "node/can_link.hpp"
 #include "node/node_settings.hpp"
 #include "node/ring.hpp"
+#include "node/table_trial.hpp"
 
 namespace flexcomp {
 
@@ -26,19 +27,33 @@ class SlcanNode {
 
   Node* node() { return &node_; }
 
+  /// Takes the table at the beginning of fixed memory of `size` bytes (flash), or says on the bus
+  /// why not. Once, before the first step.
+  void start_with(const void* memory, std::size_t size);
+
   /// One look at the line, and a tick if one is due; `now` in ns. Several times a period.
   void step(std::int64_t now);
 
   /// What the main program found of the stack, for the statistics; bytes.
   void set_stack_used(std::uint32_t bytes) { stack_used_.store(bytes, std::memory_order_relaxed); }
 
-  /// Is there a table to be checked (`Table::open`)? To be answered by `table_checked`.
-  bool table_to_check(const void** data, std::size_t* size) const;
-  void table_checked(Result opened, const Table& table);
+  /// For the main program, after each step: checks a table that has come over the bus, if there is
+  /// one. With a key, tables are taken as TableAdmission says; the counter that never goes back
+  /// lives in memory and begins anew with a reset, at that of the table in flash once it has run.
+  void check_table();
 
  private:
   enum class Check : std::uint8_t { none, wanted, done };
 
+  struct Checked {
+    Reply refused = Reply::ok;  ///< by its signature; then it was not opened
+    Result opened = Result::ok;
+    Table table;
+    std::uint32_t counter = 0;
+  };
+
+  Checked checked(const void* data, std::size_t size) const;
+  void has_in_use(std::uint32_t counter);
   void take_bytes(std::int64_t now);
   void on_setpoint(std::int64_t now);
   void tick(std::int64_t now);
@@ -65,8 +80,12 @@ class SlcanNode {
   std::atomic<Check> check_{Check::none};
   const void* unchecked_ = nullptr;
   std::size_t unchecked_size_ = 0;
-  Result opened_ = Result::ok;
-  Table checked_;
+  Checked checked_;
+
+  std::optional<AuthenticationKey> table_key_;
+  TableTrial trial_;
+  std::uint32_t counter_in_use_ = 0;
+  std::atomic<std::uint32_t> counter_run_{0};  ///< the highest of a table that has run
 };
 
 }  // namespace flexcomp

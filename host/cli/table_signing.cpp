@@ -71,9 +71,12 @@ std::string trailer_for(const std::string& table, const SigningOptions& options)
   if (options.key.empty()) {
     return {};
   }
-  const TableTrailer trailer =
+  const std::optional<TableTrailer> trailer =
       sign_table(key_in(options.key), table.data(), table.size(), options.counter);
-  return {reinterpret_cast<const char*>(&trailer), sizeof trailer};
+  if (!trailer) {
+    throw std::runtime_error("mbedTLS does not sign");
+  }
+  return {reinterpret_cast<const char*>(&*trailer), sizeof *trailer};
 }
 
 std::uint32_t signed_version(const std::string& table_file, const std::string& key_file) {

@@ -17,6 +17,7 @@ from circle_on_a_bus import LARGEST_SHARE, mill
 HERE = pathlib.Path(__file__).parent
 OUTSIDE = pathlib.Path(os.environ["FLEXCOMP_BOARD"])
 IN_FIXED_MEMORY = 3
+NOT_SIGNED, FORGED = 40, 41
 
 
 def ask(order, **values):
@@ -70,7 +71,7 @@ class InLockstep(Firmware):
         self.assertLessEqual(after / before, LARGEST_SHARE)
 
 
-class InRealTime(Firmware):
+class Fed(Firmware):
     """Periods of 20 ms: the line goes through a guest and back."""
 
     PERIOD = 0.02
@@ -93,6 +94,8 @@ class InRealTime(Firmware):
         self.assertEqual(STATES["active"], states(received)[-1])
         return received
 
+
+class InRealTime(Fed):
     def test_it_speaks_as_flexcompd_does_with_its_table_in_flash(self):
         received = self.bring_up()
         self.peer.command("report")
@@ -159,6 +162,39 @@ class InRealTime(Firmware):
         self.assertEqual({STATES["off"]}, set(states(received)))
         self.assertEqual({0.0}, {round(value, 9) for row in corrections(received) for value in row})
         self.bring_up()
+
+
+class WithAKey(Fed):
+    """Only tables signed with the key in its settings are taken."""
+
+    KEY = "3a7f0c9d51e2b8460f1d2c3b4a596877"
+
+    def start(self, job, *options):
+        self.key = self.folder / "key"
+        self.key.touch(0o600)
+        self.key.write_text(self.KEY + "\n")
+        other_table(job)
+        self.sign(job.table, 5)
+        super().start(job, "--key", self.key, *options)
+        self.assertEqual(0o600, (self.folder / "settings.bin").stat().st_mode & 0o777)
+
+    def sign(self, table, version):
+        flexcomp("table", "sign", table, "--key", self.key, "--counter", version)
+
+    def answer(self, table):
+        _, replies = transfer(self.feeder, table_frames(self.peer, table))
+        return replies[-1]["result"]
+
+    def test_a_table_over_the_bus_must_be_signed(self):
+        other = self.folder / "other.fct"
+        unsigned = other.read_bytes()
+        self.sign(other, 6)
+        self.bring_up()
+        self.assertEqual(NOT_SIGNED, self.answer(unsigned))
+        forged = bytearray(other.read_bytes())
+        forged[-20] = 9  # its version
+        self.assertEqual(FORGED, self.answer(bytes(forged)))
+        self.assertEqual(0, self.answer(other.read_bytes()))
 
 
 class ThePlant(Firmware):

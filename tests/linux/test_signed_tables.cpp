@@ -5,7 +5,7 @@
 #include "flexcomp/table_builder.hpp"
 #include "host/scratch_folder.hpp"
 #include "linux/slot_files.hpp"
-#include "linux/table_admission.hpp"
+#include "node/table_admission.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
@@ -35,7 +35,7 @@ const Bytes& table() {
 }
 
 Bytes version(std::uint32_t counter, const AuthenticationKey& key = kKey) {
-  const TableTrailer trailer = sign_table(key, table().data(), table().size(), counter);
+  const TableTrailer trailer = sign_table(key, table().data(), table().size(), counter).value();
   const auto* begin = reinterpret_cast<const char*>(&trailer);
   Bytes bytes = table();
   bytes.insert(bytes.end(), begin, begin + sizeof trailer);

@@ -1,6 +1,10 @@
 // Published vectors: RFC 4493, section 4, which are also those of NIST SP 800-38B for AES-128
 // (which has 20 bytes where the RFC has 40).
+#include <mbedtls/cipher.h>
+#include <mbedtls/cmac.h>
+
 #include <algorithm>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -63,10 +67,35 @@ void another_key_gives_another_code() {
   TEST_ASSERT_FALSE(code[0] == 0x51 && code[1] == 0xf0);
 }
 
+void pieces_give_the_code_of_mbedtls_for_the_whole() {
+  std::mt19937 random(4493);
+  const AuthenticationKey secret = key(kKey);
+  const mbedtls_cipher_info_t* aes = mbedtls_cipher_info_from_type(MBEDTLS_CIPHER_AES_128_ECB);
+  Cmac cmac(secret);
+  for (std::size_t size = 0; size < 200; ++size) {
+    std::vector<std::uint8_t> message(size + 1);
+    std::generate(message.begin(), message.end(),
+                  [&random] { return static_cast<std::uint8_t>(random()); });
+    Cmac::Code expected{};
+    TEST_ASSERT_EQUAL(0, mbedtls_cipher_cmac(aes, secret.data(), 8 * secret.size(), message.data(),
+                                             size, expected.data()));
+    cmac.begin();
+    for (std::size_t done = 0; done < size;) {
+      const std::size_t piece = std::min<std::size_t>(random() % 40, size - done);
+      cmac.add(message.data() + done, piece);
+      done += piece;
+    }
+    Cmac::Code code{};
+    TEST_ASSERT_TRUE(cmac.end(&code));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected.data(), code.data(), code.size());
+  }
+}
+
 }  // namespace
 
 int main() {
   UNITY_BEGIN();
+  RUN_TEST(pieces_give_the_code_of_mbedtls_for_the_whole);
   RUN_TEST(published_vectors_are_met);
   RUN_TEST(a_code_depends_on_nothing_that_came_before);
   RUN_TEST(another_key_gives_another_code);

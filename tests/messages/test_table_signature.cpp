@@ -26,7 +26,7 @@ Bytes table() {
 
 Bytes signed_table(const AuthenticationKey& key = kKey) {
   Bytes bytes = table();
-  const TableTrailer trailer = sign_table(key, bytes.data(), bytes.size(), kCounter);
+  const TableTrailer trailer = sign_table(key, bytes.data(), bytes.size(), kCounter).value();
   const auto* begin = reinterpret_cast<const std::uint8_t*>(&trailer);
   bytes.insert(bytes.end(), begin, begin + sizeof trailer);
   return bytes;

@@ -23,6 +23,7 @@ NodeSettings some_settings() {
   settings.node.heartbeat_period = 0.25;
   settings.trigger = Trigger::lockstep;
   settings.tolerated_losses = 2;
+  settings.table_key = AuthenticationKey{1, 2, 3};
   return settings;
 }
 
@@ -42,6 +43,7 @@ void what_is_written_is_read() {
   TEST_ASSERT_EQUAL_DOUBLE(0.25, read.node.heartbeat_period);
   TEST_ASSERT_EQUAL(Trigger::lockstep, read.trigger);
   TEST_ASSERT_EQUAL(2, read.tolerated_losses);
+  TEST_ASSERT_TRUE(read.table_key == (AuthenticationKey{1, 2, 3}));
   const SettingsRecord again = to_record(read);
   TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&record, &again, sizeof record, "no field is left out");
 }

@@ -1,6 +1,10 @@
+#include <cstring>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "core/crc32.hpp"
+#include "messages/table_signature.hpp"
 #include "node/node_on_a_bus.hpp"
 #include "node/slcan_node.hpp"
 
@@ -234,31 +238,126 @@ void a_line_that_takes_nothing_is_a_bus_fault_that_ends() {
   TEST_ASSERT_EQUAL(State::active, bench.inner()->state());
 }
 
+using Words = std::vector<std::uint32_t>;
+
+/// The answer at the end of a transfer, and once the main program has looked.
+std::uint8_t transfer(SerialBench* bench, const Words& table) {
+  const std::uint32_t crc = crc32(table.data(), 4 * table.size());
+  bench->send(TransferBeginMessage{static_cast<std::uint32_t>(4 * table.size()), crc});
+  bench->step(1);
+  for (std::uint32_t i = 0; i < table.size(); ++i) {
+    bench->send(TransferDataMessage{i, 1, {table[i]}});
+    bench->step(1);
+  }
+  bench->send(TransferEndMessage{crc});
+  bench->step(2);
+  TEST_ASSERT_EQUAL(TransferStage::begin, bench->transfer_reply.stage);
+  bench->node.check_table();
+  bench->machine(60);
+  TEST_ASSERT_EQUAL(TransferStage::end, bench->transfer_reply.stage);
+  return bench->transfer_reply.result;
+}
+
 void a_table_that_comes_over_the_line_is_checked_by_the_main_program_and_used() {
   SerialBench bench(settings(Trigger::setpoint));
   bench.machine(20);
-  const std::vector<std::uint32_t> table = test::loop_table(test::kr270<float>());
-  const std::uint32_t crc = crc32(table.data(), 4 * table.size());
-  bench.send(TransferBeginMessage{static_cast<std::uint32_t>(4 * table.size()), crc});
-  bench.step(1);
-  for (std::uint32_t i = 0; i < table.size(); ++i) {
-    bench.send(TransferDataMessage{i, 1, {table[i]}});
-    bench.step(1);
-  }
-  bench.send(TransferEndMessage{crc});
-  bench.step(2);
-  const void* data = nullptr;
-  std::size_t size = 0;
-  TEST_ASSERT_TRUE(bench.node.table_to_check(&data, &size));
-  TEST_ASSERT_EQUAL(4 * table.size(), size);
-  Table opened;
-  const Result result = Table::open(data, size, &opened);
-  bench.node.table_checked(result, opened);
-  bench.machine(60);
-  TEST_ASSERT_FALSE(bench.node.table_to_check(&data, &size));
-  TEST_ASSERT_EQUAL(TransferStage::end, bench.transfer_reply.stage);
-  TEST_ASSERT_EQUAL(0, bench.transfer_reply.result);
+  TEST_ASSERT_EQUAL(0, transfer(&bench, test::loop_table(test::kr270<float>())));
   TEST_ASSERT_EQUAL(1, bench.heartbeat.slot);
+}
+
+constexpr AuthenticationKey kKey = {1, 2, 3};
+
+NodeSettings settings_with_key() {
+  NodeSettings result = settings(Trigger::setpoint);
+  result.table_key = kKey;
+  return result;
+}
+
+Words signed_table(std::uint32_t version, const AuthenticationKey& key = kKey) {
+  Words table = test::loop_table(test::kr270<float>());
+  const TableTrailer trailer = sign_table(key, table.data(), 4 * table.size(), version).value();
+  Words words(sizeof trailer / 4);
+  std::memcpy(words.data(), &trailer, sizeof trailer);
+  table.insert(table.end(), words.begin(), words.end());
+  return table;
+}
+
+std::uint8_t number(Reply reply) { return static_cast<std::uint8_t>(reply); }
+
+void with_a_key_only_signed_tables_are_taken() {
+  SerialBench bench(settings_with_key());
+  bench.machine(20);
+  TEST_ASSERT_EQUAL(number(Reply::table_not_signed),
+                    transfer(&bench, test::loop_table(test::kr270<float>())));
+  TEST_ASSERT_EQUAL(number(Reply::table_forged), transfer(&bench, signed_table(7, {9})));
+  TEST_ASSERT_EQUAL(TableStore::kFixed + 1, bench.heartbeat.slot);
+  TEST_ASSERT_EQUAL(0, transfer(&bench, signed_table(7)));
+  TEST_ASSERT_EQUAL(1, bench.heartbeat.slot);
+}
+
+void with_a_key_no_table_is_taken_that_is_older_than_one_that_has_run() {
+  SerialBench bench(settings_with_key());
+  bench.machine(20);
+  TEST_ASSERT_EQUAL(0, transfer(&bench, signed_table(7)));
+  TEST_ASSERT_EQUAL(0, transfer(&bench, signed_table(5)));
+  bench.bring_up();
+  bench.machine(TableTrial::kTicks + 10);
+  TEST_ASSERT_EQUAL(number(Reply::table_older), transfer(&bench, signed_table(4)));
+  TEST_ASSERT_EQUAL(0, transfer(&bench, signed_table(5)));
+}
+
+struct Start {
+  std::uint32_t refused = 0;  ///< as announced; 0 if nothing was
+  std::size_t slot = 0;       ///< of the first heartbeat; 0 without a table
+};
+
+Start start_with(const NodeSettings& settings, Words memory) {
+  SlcanNode::Bytes received;
+  SlcanNode::Bytes to_send;
+  SlcanNode node(settings, &received, &to_send, {}, {});
+  memory.resize(memory.size() + 20, 0xFFFFFFFF);  // flash is larger
+  node.start_with(memory.data(), 4 * memory.size());
+  node.node()->tick(0);
+  Start start;
+  Message message;
+  while (node.node()->next_message(&message)) {
+    const auto* fault = std::get_if<FaultMessage>(&message);
+    if (fault != nullptr && fault->code == kTableRefusedCode) {
+      start.refused = fault->detail;
+    } else if (const auto* beat = std::get_if<HeartbeatMessage>(&message)) {
+      start.slot = beat->slot;
+    }
+  }
+  return start;
+}
+
+void expect_refused(std::uint32_t reason, const Start& start) {
+  TEST_ASSERT_EQUAL(reason, start.refused);
+  TEST_ASSERT_EQUAL(0, start.slot);
+}
+
+void expect_taken(const Start& start) {
+  TEST_ASSERT_EQUAL(0, start.refused);
+  TEST_ASSERT_EQUAL(TableStore::kFixed + 1, start.slot);
+}
+
+void the_table_in_flash_is_judged_like_any_other() {
+  const Words plain = test::loop_table(test::kr270<float>());
+  const NodeSettings without = settings(Trigger::setpoint);
+  expect_taken(start_with(without, plain));
+  expect_taken(start_with(without, signed_table(3)));
+  expect_taken(start_with(settings_with_key(), signed_table(3)));
+  expect_refused(number(Reply::table_not_signed), start_with(settings_with_key(), plain));
+  expect_refused(number(Reply::table_forged),
+                 start_with(settings_with_key(), signed_table(3, {9})));
+}
+
+void a_table_larger_than_the_flash_is_refused_and_an_empty_flash_holds_none() {
+  const NodeSettings without = settings(Trigger::setpoint);
+  Words endless = test::loop_table(test::kr270<float>());
+  endless[2] = 0xFFFFFFF0;  // its size
+  expect_refused(static_cast<std::uint32_t>(Result::table_truncated), start_with(without, endless));
+  expect_refused(0, start_with(without, Words(200, 0xFFFFFFFF)));
 }
 
 void commands_to_an_adapter_are_answered() {
@@ -301,6 +400,10 @@ int main() {
   RUN_TEST(spoilt_text_counts_and_makes_it_fade_out_and_latch);
   RUN_TEST(a_line_that_takes_nothing_is_a_bus_fault_that_ends);
   RUN_TEST(a_table_that_comes_over_the_line_is_checked_by_the_main_program_and_used);
+  RUN_TEST(with_a_key_only_signed_tables_are_taken);
+  RUN_TEST(with_a_key_no_table_is_taken_that_is_older_than_one_that_has_run);
+  RUN_TEST(the_table_in_flash_is_judged_like_any_other);
+  RUN_TEST(a_table_larger_than_the_flash_is_refused_and_an_empty_flash_holds_none);
   RUN_TEST(commands_to_an_adapter_are_answered);
   RUN_TEST(without_usable_settings_it_says_so_and_cannot_be_armed);
   return UNITY_END();

@@ -1,4 +1,4 @@
-#include "linux/table_admission.hpp"
+#include "node/table_admission.hpp"
 
 namespace flexcomp {
 

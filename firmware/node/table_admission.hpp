@@ -14,7 +14,7 @@ class TableAdmission {
       : key_(key), highest_(highest) {}
 
   /// ok, with the table's counter, or table_not_signed, table_forged, table_older. A pass over the
-  /// bytes: not for the real-time thread. Throws std::runtime_error if mbedTLS fails.
+  /// bytes: not for the real-time thread.
   Reply judge(const void* data, std::size_t size, std::uint32_t* counter) const;
 
   void has_run(std::uint32_t counter) { highest_ = counter > highest_ ? counter : highest_; }
