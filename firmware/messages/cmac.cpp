@@ -19,8 +19,9 @@ Cmac::Code doubled(const Cmac::Code& block) {
   Cmac::Code result{};
   unsigned carry = 0;
   for (std::size_t i = block.size(); i-- > 0;) {
-    result[i] = static_cast<std::uint8_t>(block[i] << 1U | carry);
-    carry = block[i] >> 7U;
+    const unsigned byte = block[i];
+    result[i] = static_cast<std::uint8_t>(byte << 1U | carry);
+    carry = byte >> 7U;
   }
   result.back() = static_cast<std::uint8_t>(result.back() ^ carry * kReduction);
   return result;
