@@ -24,6 +24,7 @@ void add_plan(CLI::App* app, Action* action);
 void add_table(CLI::App* app, Action* action);
 void add_compensate(CLI::App* app, Action* action);
 void add_simulate(CLI::App* app, Action* action);
+void add_check(CLI::App* app, Action* action);
 void add_circularity(CLI::App* app, Action* action);
 void add_force(CLI::App* app, Action* action);
 void add_form(CLI::App* app, Action* action);

@@ -51,6 +51,7 @@ int run(const Action& action) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
+      "  flexcomp check …         what is wrong or suspicious in model, path, table or recording\n\n"
       "From model to corrected path:\n"
       "  flexcomp plan circle …   a path with its cutting force, or bring your own recording\n"
       "  flexcomp table …         the compliance along that path, with a certified error\n"
@@ -81,6 +82,7 @@ int parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   app.option_defaults()->always_capture_default();
   Action action;
+  flexcomp::cli::add_check(&app, &action);
   flexcomp::cli::add_plan(&app, &action);
   flexcomp::cli::add_table(&app, &action);
   flexcomp::cli::add_compensate(&app, &action);

@@ -19,7 +19,7 @@ namespace {
 
 }  // namespace
 
-TableFile read_unproven_table(const std::filesystem::path& path, const model::Robot& robot) {
+TableFile read_any_table(const std::filesystem::path& path) {
   const std::string bytes = files::read_file(path, std::size_t{1} << 30);
   TableFile file;
   file.words.resize((bytes.size() + 3) / 4);
@@ -29,6 +29,11 @@ TableFile read_unproven_table(const std::filesystem::path& path, const model::Ro
   if (opened != Result::ok) {
     refuse(path, describe(opened));
   }
+  return file;
+}
+
+TableFile read_unproven_table(const std::filesystem::path& path, const model::Robot& robot) {
+  TableFile file = read_any_table(path);
   if (file.table.model_hash() != model_hash(robot.elastic)) {
     refuse(path, describe(Result::table_other_model));
   }

@@ -20,6 +20,9 @@ struct Certificate {
   bool holds = false;  ///< Does the header state no less?
 };
 
+/// Reads a table, whatever robot it is of; throws InputError for what is no table, or damaged.
+TableFile read_any_table(const std::filesystem::path& path);
+
 /// Reads a table and checks its header against the model; throws InputError saying what is wrong
 /// with the file, or that it was made for another robot.
 TableFile read_unproven_table(const std::filesystem::path& path, const model::Robot& robot);

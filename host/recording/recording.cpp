@@ -153,8 +153,9 @@ std::string Recording::place(Eigen::Index row) const {
                               : fmt::format("{}: row {}", file, row + 1);
 }
 
-Recording read_recording(const std::filesystem::path& path) {
-  const NumberTable table = read_csv(path);
+Recording read_recording(const std::filesystem::path& path) { return recording_of(read_csv(path)); }
+
+Recording recording_of(const NumberTable& table) {
   refuse_unknown_columns(table);
   Recording recording;
   recording.file = table.file;

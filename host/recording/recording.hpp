@@ -37,6 +37,9 @@ struct Recording {
 /// time is missing or does not increase, a column is unknown, or a group is there only in part.
 Recording read_recording(const std::filesystem::path& path);
 
+/// The same of a table that was read already.
+Recording recording_of(const NumberTable& table);
+
 /// Writes a recording, whole or not at all, with numbers that read back to the same bits. Throws
 /// InputError where the file cannot be written, std::invalid_argument for a recording that
 /// `read_recording` would refuse: times that do not increase, a group of the wrong size,

@@ -1,0 +1,46 @@
+#include "check/arm.hpp"
+
+#include <algorithm>
+
+#include "flexcomp/chain.hpp"
+#include "simulation/inverse_dynamics.hpp"
+
+namespace flexcomp::check {
+
+Eigen::Index joint_count(const model::Robot& robot) {
+  return static_cast<Eigen::Index>(robot.elastic.joints.size());
+}
+
+const Joint<double>& joint_of(const model::Robot& robot, Eigen::Index joint) {
+  return robot.elastic.joints[static_cast<std::size_t>(joint)];
+}
+
+bool turns(const model::Robot&, Eigen::Index) { return true; }
+
+Pose<double> tcp_at(const model::Robot& robot, const Eigen::RowVectorXd& q) {
+  return forward_kinematics<double, 6>(robot.elastic, q.transpose()).tcp;
+}
+
+Eigen::MatrixXd jacobian_at(const model::Robot& robot, const Eigen::RowVectorXd& q) {
+  return geometric_jacobian<double, 6>(forward_kinematics<double, 6>(robot.elastic, q.transpose()));
+}
+
+Eigen::RowVectorXd torque_at(const model::Robot& robot, const Eigen::RowVectorXd& q,
+                             const Eigen::RowVectorXd& velocity,
+                             const Eigen::RowVectorXd& acceleration) {
+  return simulation::inverse_dynamics(robot, q.transpose(), velocity.transpose(),
+                                      acceleration.transpose())
+      .transpose();
+}
+
+model::Robot with_gravity(model::Robot robot, const Vector3<double>& gravity) {
+  robot.elastic.gravity = gravity;
+  return robot;
+}
+
+bool has_masses(const model::Robot& robot) {
+  return std::any_of(robot.elastic.joints.begin(), robot.elastic.joints.end(),
+                     [](const Joint<double>& joint) { return joint.mass > 0; });
+}
+
+}  // namespace flexcomp::check

@@ -1,0 +1,84 @@
+#include "check/config_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "check/arm.hpp"
+
+namespace flexcomp::check {
+namespace {
+
+using Config = CompensatorConfig<float, 6>;
+
+Checks check_against_robot(const std::string& file, const Config& config,
+                           const model::Robot& robot) {
+  constexpr double kLoose = 3;  // times the limit: a jump of a setpoint passes
+  Checks checks;
+  if (config.model_hash != model_hash(robot.elastic)) {
+    checks.push_back(
+        {Severity::error, "config", "config.model",
+         fmt::format("{}: model-hash {:016x} is of another robot, tool or payload than "
+                     "the model ({:016x})",
+                     file, config.model_hash, model_hash(robot.elastic)),
+         "make the configuration anew: flexcomp configure"});
+  }
+  for (Eigen::Index joint = 0; joint < joint_count(robot); ++joint) {
+    const double limit = robot.dynamics[static_cast<std::size_t>(joint)].velocity;
+    const auto speed = static_cast<double>(config.joint_speed[joint]);
+    if (limit > 0 && (speed < limit || speed > kLoose * limit)) {
+      checks.push_back({Severity::warning, "config", "config.speed",
+                        fmt::format("{}: joint-speed of joint {} is {:.4g} rad/s, where the robot "
+                                    "comes up to {:.4g}: {}",
+                                    file, joint + 1, speed, limit,
+                                    speed < limit ? "its own motion would count as implausible"
+                                                  : "jumps of the setpoint would pass"),
+                        "set it a little above the robot's limit; flexcomp configure does"});
+    }
+  }
+  return checks;
+}
+
+Checks check_against_table(const std::string& file, const Config& config, const Table& table) {
+  Checks checks;
+  const TableHeader& header = table.header();
+  if (header.largest_gain > 0 && config.gain > 1.0001F * header.largest_gain) {
+    checks.push_back(
+        {Severity::error, "config", "config.gain",
+         fmt::format("{}: gain {:.4g} is above the largest that is safe with the table's "
+                     "process, {:.4g}: flexcompd will not take the table",
+                     file, config.gain, header.largest_gain),
+         "lower the gain; flexcomp configure writes the largest safe one"});
+  }
+  if (config.force_range < header.force_bound || config.moment_range < header.moment_bound) {
+    checks.push_back(
+        {Severity::warning, "config", "config.range",
+         fmt::format("{}: forces above {:.4g} N and moments above {:.4g} N·m count as implausible, "
+                     "but the table is for up to {:.4g} N and {:.4g} N·m",
+                     file, config.force_range, config.moment_range, header.force_bound,
+                     header.moment_bound),
+         "set force-range and moment-range to the sensor's range, above the table's wrench"});
+  }
+  return checks;
+}
+
+}  // namespace
+
+Checks check_config(const std::string& file, const Options& options, const model::Robot* robot,
+                    const Table* table) {
+  const Config& config = options.settings.node.compensator;
+  Checks checks;
+  if (robot != nullptr && joint_count(*robot) == 6) {
+    add(check_against_robot(file, config, *robot), &checks);
+  }
+  if (table != nullptr) {
+    if (config.model_hash != table->model_hash()) {
+      checks.push_back({Severity::error, "config", "config.model",
+                        fmt::format("{}: model-hash {:016x} is not that of the table ({:016x})",
+                                    file, config.model_hash, table->model_hash()),
+                        "make configuration and table from the same model"});
+    }
+    add(check_against_table(file, config, *table), &checks);
+  }
+  return checks;
+}
+
+}  // namespace flexcomp::check

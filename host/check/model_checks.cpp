@@ -1,0 +1,94 @@
+#include "check/model_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "check/arm.hpp"
+#include "effects/machine_size.hpp"
+
+namespace flexcomp::check {
+namespace {
+
+constexpr double kLeastWindup = 1e-4;  // rad, under the largest torque
+constexpr double kMostWindup = 0.15;
+
+Check said_of_model(Severity severity, const char* name, const model::Robot& robot,
+                    const std::string& what, const char* fix) {
+  return {severity, "model", name, robot.yaml.string() + ": " + what, fix};
+}
+
+Checks check_springs(const model::Robot& robot) {
+  Checks checks;
+  for (Eigen::Index joint = 0; joint < joint_count(robot); ++joint) {
+    const auto at = static_cast<std::size_t>(joint);
+    const double effort = robot.dynamics[at].effort;
+    const double compliance = joint_of(robot, joint).compliance;
+    const double windup = compliance * effort;
+    // A joint that does not give at all is a choice, not a slip.
+    if (!turns(robot, joint) || compliance == 0 || effort <= 0 ||
+        (windup >= kLeastWindup && windup <= kMostWindup)) {
+      continue;
+    }
+    checks.push_back(said_of_model(
+        Severity::warning, "compliance.size", robot,
+        fmt::format(
+            "joints.{}.compliance: {:g} rad/(N·m) is unusually {}: under its largest torque "
+            "of {:g} N·m the joint would give {:.2g} mrad, where robots of any size give "
+            "0.1 to 150",
+            robot.joint_names[at], compliance, windup > kMostWindup ? "soft" : "stiff", effort,
+            1e3 * windup),
+        "give compliance (not stiffness) in rad/(N·m) on the joint side, and effort in the URDF in "
+        "N·m"));
+  }
+  return checks;
+}
+
+/// Base and tool under the weight of the arm.
+Checks check_structure(const model::Robot& robot) {
+  constexpr double kMostSag = 0.05;  // m
+  const double weight = effects::size_of(robot).weight;
+  const std::pair<const char*, double> springs[] = {
+      {"base_compliance", robot.elastic.base_compliance.head<3>().maxCoeff()},
+      {"tool_compliance", robot.elastic.tool_compliance.head<3>().maxCoeff()}};
+  Checks checks;
+  for (const auto& [key, compliance] : springs) {
+    if (compliance * weight > kMostSag) {
+      checks.push_back(said_of_model(
+          Severity::warning, "compliance.size", robot,
+          fmt::format(
+              "{}: {:g} m/N is unusually soft: the arm's own weight would move it by {:.2g} "
+              "mm",
+              key, compliance, 1e3 * compliance * weight),
+          "give compliance in m/N, three numbers, then in rad/(N·m), three"));
+    }
+  }
+  return checks;
+}
+
+}  // namespace
+
+Checks check_model(const model::Robot& robot) {
+  constexpr double kLeastGravity = 9.7;  // m/s², on earth
+  constexpr double kMostGravity = 9.9;
+  Checks checks = check_springs(robot);
+  add(check_structure(robot), &checks);
+  const double gravity = robot.elastic.gravity.norm();
+  if (gravity > 0 && (gravity < kLeastGravity || gravity > kMostGravity)) {
+    checks.push_back(
+        said_of_model(Severity::warning, "gravity.size", robot,
+                      fmt::format("gravity: {:g} m/s² is not that of the earth", gravity),
+                      "give gravity in m/s², 9.81 in all, or zero to leave weight out"));
+  }
+  const effects::MachineSize size = effects::size_of(robot);
+  if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
+    checks.push_back(
+        said_of_model(Severity::warning, "payload.size", robot,
+                      fmt::format("payload.mass: {:g} kg is more than the arm's own {:g} kg",
+                                  robot.elastic.payload_mass, size.weight / 9.81),
+                      "give the payload's mass in kg; masses of the links stand in the URDF"));
+  }
+  return checks;
+}
+
+}  // namespace flexcomp::check

@@ -1,0 +1,90 @@
+#include "check/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace flexcomp::check {
+namespace {
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) {
+    return 0;
+  }
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+}  // namespace
+
+const recording::Samples* angles_of(const recording::Recording& recording) {
+  return recording.q_meas ? &*recording.q_meas : recording.q_cmd ? &*recording.q_cmd : nullptr;
+}
+
+bool moves_smoothly(const recording::Samples& q) {
+  constexpr Eigen::Index kMost = 1500;  // rows that are looked at
+  constexpr double kSmooth = 0.35;      // of a step, by which the next one differs
+  constexpr double kMoves = 1e-4;       // of the range, a row
+  constexpr double kMoving = 0.2;       // of the quick steps
+  const Eigen::Index stride = std::max<Eigen::Index>(1, q.rows() / kMost);
+  const Eigen::RowVectorXd range = ranges(q);
+  for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
+    std::vector<double> first;
+    std::vector<double> second;
+    for (Eigen::Index row = 2 * stride; row < q.rows(); row += stride) {
+      const double step = q(row, joint) - q(row - stride, joint);
+      const double before = q(row - stride, joint) - q(row - 2 * stride, joint);
+      if (std::isfinite(step) && std::isfinite(before)) {
+        first.push_back(std::abs(step));
+        second.push_back(std::abs(step - before));
+      }
+    }
+    const double quick = quantile(first, 0.95);
+    std::vector<double> change;  // of the step, over it, where the joint moves
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (first[i] > kMoving * quick) {
+        change.push_back(second[i] / first[i]);
+      }
+    }
+    if (change.size() > 20 && quick > kMoves * range[joint] && quantile(change, 0.5) < kSmooth) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Eigen::RowVectorXd usual_top_speed(const Eigen::VectorXd& time, const recording::Samples& q) {
+  const Eigen::Index window = std::clamp<Eigen::Index>(q.rows() / 200, 1, 20);
+  Eigen::RowVectorXd speeds = Eigen::RowVectorXd::Zero(q.cols());
+  for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
+    std::vector<double> all;
+    for (Eigen::Index row = window; row < q.rows(); ++row) {
+      const double speed =
+          std::abs(q(row, joint) - q(row - window, joint)) / (time[row] - time[row - window]);
+      if (std::isfinite(speed)) {
+        all.push_back(speed);
+      }
+    }
+    speeds[joint] = quantile(std::move(all), 0.95);
+  }
+  return speeds;
+}
+
+Eigen::RowVectorXd ranges(const recording::Samples& samples) {
+  Eigen::RowVectorXd range = Eigen::RowVectorXd::Zero(samples.cols());
+  for (Eigen::Index column = 0; column < samples.cols(); ++column) {
+    double least = INFINITY;
+    double most = -INFINITY;
+    for (Eigen::Index row = 0; row < samples.rows(); ++row) {
+      if (std::isfinite(samples(row, column))) {
+        least = std::min(least, samples(row, column));
+        most = std::max(most, samples(row, column));
+      }
+    }
+    range[column] = most >= least ? most - least : 0;
+  }
+  return range;
+}
+
+}  // namespace flexcomp::check

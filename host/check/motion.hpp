@@ -1,0 +1,21 @@
+#pragma once
+
+#include "recording/recording.hpp"
+
+/// How the joints of a recording move, before anything is known of units.
+namespace flexcomp::check {
+
+/// Motor-side angles, else commanded ones; null where there are none.
+const recording::Samples* angles_of(const recording::Recording& recording);
+
+/// Does any joint move from row to row as a sampled motion does, rather than from pose to pose?
+bool moves_smoothly(const recording::Samples& q);
+
+/// Speed that each joint comes up to in a twentieth of the rows, over windows that are long enough
+/// for encoders' steps not to matter.
+Eigen::RowVectorXd usual_top_speed(const Eigen::VectorXd& time, const recording::Samples& q);
+
+/// Largest less smallest value of each column; zero without any.
+Eigen::RowVectorXd ranges(const recording::Samples& samples);
+
+}  // namespace flexcomp::check

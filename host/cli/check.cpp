@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "check/config_checks.hpp"
+#include "check/model_checks.hpp"
+#include "check/path_checks.hpp"
+#include "check/recording_checks.hpp"
+#include "check/times.hpp"
+#include "cli/command.hpp"
+#include "cli/process_options.hpp"
+#include "cli/table_file.hpp"
+#include "error.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+struct CheckOptions {
+  std::string model;
+  std::vector<std::string> recordings;
+  std::string path;
+  std::string table;
+  std::string config;
+  ProcessOptions process;
+  bool json = false;
+};
+
+/// A recording whose times need not increase: what does not is told, and left out.
+recording::Recording read_with_times(const std::string& file, const char* about,
+                                     check::Checks* checks) {
+  recording::NumberTable table = recording::read_csv(file);
+  check::Checks order = check::check_order_of_times(&table);
+  for (check::Check& each : order) {
+    each.about = about;
+  }
+  check::add(std::move(order), checks);
+  return recording::recording_of(table);
+}
+
+bool holds(const check::Checks& checks) {
+  return std::none_of(checks.begin(), checks.end(), [](const check::Check& each) {
+    return each.severity == check::Severity::error;
+  });
+}
+
+/// flexcompd's own reading of its configuration, which makes its own complaints.
+Options read_config(const std::string& file) {
+  const char* const words[] = {"flexcompd", "--config", file.c_str(), "--can", "none"};
+  int exit_code = 0;
+  const std::optional<Options> options = read_options(5, words, &exit_code);
+  if (!options) {
+    throw InputError(file + ": no configuration of flexcompd, as said above");
+  }
+  return *options;
+}
+
+check::Checks check_all(const CheckOptions& options) {
+  check::Checks checks;
+  std::optional<model::Robot> robot;
+  if (!options.model.empty()) {
+    robot = model::load_robot(options.model);
+    check::add(check::check_model(*robot), &checks);
+  }
+  const model::Robot* known = robot ? &*robot : nullptr;
+  for (const std::string& file : options.recordings) {
+    check::add(check::check_recording(known, read_with_times(file, "recording", &checks)), &checks);
+  }
+  std::optional<TableFile> table;
+  bool is_of_robot = false;
+  if (!options.table.empty()) {
+    table = read_any_table(options.table);
+    const check::Checks found =
+        robot ? check::check_table(*robot, options.table, table->table) : check::Checks{};
+    is_of_robot = robot.has_value() && holds(found);
+    check::add(found, &checks);
+  }
+  if (!options.path.empty()) {
+    const recording::Recording path = read_with_times(options.path, "path", &checks);
+    const check::Checks found = robot ? check::check_path(*robot, path) : check::Checks{};
+    const bool is_usable = robot.has_value() && holds(found);
+    check::add(found, &checks);
+    if (is_usable && !options.process.is_none) {
+      check::add(check::check_process(*robot, path, options.process.process, options.process.loop),
+                 &checks);
+    }
+    if (is_usable && is_of_robot) {
+      check::add(check::check_coverage(*robot, table->table, path), &checks);
+    }
+  }
+  if (!options.config.empty()) {
+    check::add(check::check_config(options.config, read_config(options.config), known,
+                                   table ? &table->table : nullptr),
+               &checks);
+  }
+  return check::worst_first(std::move(checks));
+}
+
+void print_json(const check::Checks& checks) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const check::Check& each : checks) {
+    list.push_back({{"severity", check::word(each.severity)},
+                    {"about", each.about},
+                    {"name", each.name},
+                    {"what", each.what},
+                    {"fix", each.fix}});
+  }
+  fmt::print("{}\n", nlohmann::ordered_json{{"checks", list}}.dump(2));
+}
+
+void print_for_a_person(const check::Checks& checks) {
+  for (const check::Check& each : checks) {
+    fmt::print("{} ({}): {}.\n  {}.\n", check::word(each.severity), each.name, each.what, each.fix);
+  }
+  if (checks.empty()) {
+    fmt::print("nothing is wrong\n");
+  }
+}
+
+int run(const CheckOptions& options) {
+  if (options.model.empty() && options.recordings.empty() && options.path.empty() &&
+      options.table.empty() && options.config.empty()) {
+    throw InputError(
+        "nothing to check: expected --model, --recording, --path, --table or --config");
+  }
+  const check::Checks checks = check_all(options);
+  options.json ? print_json(checks) : print_for_a_person(checks);
+  return check::is_something_wrong(checks) ? kDoesNotHold : kDone;
+}
+
+}  // namespace
+
+void add_check(CLI::App* app, Action* action) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app->add_subcommand(
+      "check",
+      "What is wrong or suspicious in a model, recordings, a path, a table, a configuration of\n"
+      "flexcompd, in any combination: units, signs, axes, frames, limits, springs, stability, "
+      "coverage.\n"
+      "Most needs the model beside it. Exit code 0: nothing is wrong; 1: something is (an error or "
+      "a\n"
+      "warning; notes do not count); 2: a file cannot be read.\n"
+      "Example: flexcomp check --model robot.yaml --recording a.csv");
+  command->add_option("--model", options->model, "robot.yaml");
+  command->add_option("--recording", options->recordings, "recording; may be given again")
+      ->take_all();
+  command->add_option("--path", options->path, "recording with t, q_cmd and the wrench, to be run");
+  command->add_option("--table", options->table, "made by flexcomp table");
+  command->add_option("--config", options->config, "configuration of flexcompd");
+  add_process(command, &options->process);
+  command->add_flag("--json", options->json, "print the checks as JSON");
+  command->callback([=] { *action = [=] { return run(*options); }; });
+}
+
+}  // namespace flexcomp::cli

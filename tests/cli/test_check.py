@@ -1,0 +1,130 @@
+"""flexcomp check as a person and a program use it."""
+
+import csv
+import json
+import unittest
+
+from command import KR270, Command, flexcomp
+
+KEYS = ["severity", "about", "name", "what", "fix"]
+
+
+class Check(Command):
+    def setUp(self):
+        super().setUp()
+        self.path = self.folder / "path.csv"
+        self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz",
+                      "--points", "400", "--out", self.path)
+
+    def check(self, *arguments, exit_code):
+        """The checks of --json, whose exit code is as expected."""
+        done = flexcomp("check", *arguments, "--json")
+        self.assertEqual(exit_code, done.returncode, done.stderr + done.stdout)
+        self.assertEqual("", done.stderr)
+        answer = json.loads(done.stdout)
+        self.assertEqual(["checks"], list(answer))
+        for each in answer["checks"]:
+            self.assertEqual(KEYS, list(each))
+            self.assertIn(each["severity"], ("error", "warning", "note"))
+        return answer["checks"]
+
+    def wrong(self, *arguments):
+        return [each["name"] for each in self.check(*arguments, exit_code=1)
+                if each["severity"] != "note"]
+
+    def changed(self, source, name, **columns):
+        """A copy of a recording whose columns are changed by functions of their value."""
+        with source.open() as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            for column, change in columns.items():
+                row[column] = repr(change(float(row[column])))
+        target = self.folder / name
+        with target.open("w", newline="") as file:
+            writer = csv.DictWriter(file, rows[0])
+            writer.writeheader()
+            writer.writerows(rows)
+        return target
+
+    def recorded(self):
+        recording = self.folder / "recording.csv"
+        self.run_well("simulate", "--model", KR270, "--path", self.path, "--out", recording)
+        return recording
+
+    def table(self):
+        table = self.folder / "t.fct"
+        self.run_well("table", "--model", KR270, "--path", self.path, "--tolerance", "1e-5", "--out", table)
+        return table
+
+    def test_what_goes_together_is_in_order(self):
+        recording, table = self.recorded(), self.table()
+        config = self.folder / "node.toml"
+        self.run_well("configure", "--model", KR270, "--table", table, "--out", config)
+        said = self.check("--model", KR270, "--recording", recording, "--path", self.path, "--table",
+                          table, "--config", config, exit_code=0)
+        self.assertEqual([], [each for each in said if each["severity"] != "note"])
+
+    def test_a_person_reads_what_is_wrong_and_what_to_do(self):
+        in_mm = self.changed(self.recorded(), "mm.csv", **{axis: lambda v: 1000 * v for axis in "xyz"})
+        done = flexcomp("check", "--model", KR270, "--recording", in_mm)
+        self.assertEqual(1, done.returncode)
+        self.assertIn("error (units.position)", done.stdout)
+        self.assertIn("millimetres", done.stdout)
+        self.assertIn("divide them by 1000", done.stdout)
+
+    def test_several_recordings_are_told_apart(self):
+        good = self.recorded()
+        down = self.changed(good, "down.csv", z=lambda v: -v)
+        said = self.check("--model", KR270, "--recording", good, "--recording", down, exit_code=1)
+        wrong = [each for each in said if each["severity"] != "note"]
+        self.assertEqual(["frame.base"], [each["name"] for each in wrong])
+        self.assertIn("down.csv", wrong[0]["what"])
+
+    def test_times_that_repeat_are_a_finding_not_a_refusal(self):
+        lines = self.path.read_text().splitlines()
+        twice = self.file("twice.csv", "\n".join([*lines[:5], lines[4], *lines[5:]]) + "\n")
+        self.assertEqual(["units.time"], self.wrong("--model", KR270, "--path", twice))
+
+    def test_a_path_beyond_limits_or_table_or_in_degrees(self):
+        table = self.table()
+        beyond = self.changed(self.path, "beyond.csv", q_cmd_2=lambda v: v + 2)
+        self.assertIn("limits", self.wrong("--model", KR270, "--path", beyond))
+        degrees = self.changed(self.path, "degrees.csv",
+                               **{f"q_cmd_{k}": lambda v: 57.29577951 * v for k in range(1, 7)})
+        self.assertEqual(["units.angle"], self.wrong("--model", KR270, "--path", degrees))
+        other = self.folder / "other.csv"
+        self.run_well("plan", "circle", "--model", KR270, "--center", "1.8,0,1.4", "--plane", "xz",
+                      "--points", "60", "--out", other)
+        self.assertEqual(["table.coverage"],
+                         self.wrong("--model", KR270, "--path", other, "--table", table))
+        hard = self.changed(self.path, "hard.csv", fx=lambda v: 10 * v)
+        self.assertIn("table.coverage", self.wrong("--model", KR270, "--path", hard, "--table", table,
+                                                   "--no-process"))
+
+    def test_a_cut_that_digs_in(self):
+        self.assertEqual(["process.unstable"],
+                         self.wrong("--model", KR270, "--path", self.path, "--depth-of-cut", "1e-4"))
+
+    def test_a_table_and_a_configuration_of_another_robot(self):
+        table = self.table()
+        config = self.folder / "node.toml"
+        self.run_well("configure", "--model", KR270, "--table", table, "--out", config)
+        other = KR270.parent.parent / "kr500" / "robot.yaml"
+        self.assertEqual(["table.other", "config.model"],
+                         self.wrong("--model", other, "--table", table, "--config", config)[:2])
+
+    def test_a_spring_out_of_the_usual_range(self):
+        (self.folder / "kr270.urdf").write_text((KR270.parent / "kr270.urdf").read_text())
+        soft = self.file("robot.yaml", KR270.read_text().replace("0.54e-6", "0.54e-3"))
+        self.assertEqual(["compliance.size"], self.wrong("--model", soft))
+
+    def test_what_cannot_be_read_is_refused(self):
+        self.assert_refused("check", saying="nothing to check")
+        self.assert_refused("check", "--model", KR270, "--recording", self.file("a.csv", "t,x\n0,b\n"),
+                            saying="a.csv:2")
+        self.assert_refused("check", "--model", KR270, "--table", self.file("t.fct", b"nothing"),
+                            saying="t.fct")
+
+
+if __name__ == "__main__":
+    unittest.main()
