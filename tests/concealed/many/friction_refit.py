@@ -9,24 +9,27 @@ recorded.
 import dataclasses
 
 import numpy as np
-from scipy.signal import butter, filtfilt
+from scipy.signal import butter, sosfiltfilt
 
 from . import arm
 
 CREEPING = 0.02  # of a joint's largest speed
-CUTOFFS = 3.0, 6.0, 12.0  # Hz
+CUTOFFS = 2.5, 3.5, 5.0, 7.0, 10.0  # Hz
+ORDER = 4  # of the Butterworth filter, which passes twice
 JUDGED_AT = 6.0  # Hz: the filter by which rows count as moving, whoever predicts
 ROWS = 1500  # of a recording, evenly
 LAST = 0.25  # of a recording, on which a choice is made
-MASS_TOLERANCE = 0.3
-ROUNDS = 10
-SETTLED = 2e-3  # change of what is left, at which the rounds end
+FIT_RATE = 125.0  # Hz
+MASS_TOLERANCE, GAIN_TOLERANCE = 0.3, 0.15
+ROUNDS, LINEAR_ROUNDS = 25, 2
+GAIN_STEP = 0.1  # in a round
+SETTLED = 3e-3  # change of what is left and of gains, at which the rounds end
 
 
 def smooth(values, rate, cutoff):
     """Without delay."""
     cutoff = min(cutoff, 0.4 * rate)
-    return filtfilt(*butter(2, cutoff / (rate / 2)), values, axis=0)
+    return sosfiltfilt(butter(ORDER, cutoff / (rate / 2), output="sos"), values, axis=0)
 
 
 @dataclasses.dataclass
@@ -48,13 +51,12 @@ class Motion:
         return cls(q, velocity, np.gradient(velocity, 1 / rate, axis=0), recording.groups["tau"],
                    rate, cutoff)
 
-    def rows(self, chosen):
-        """Some of them."""
-        return Motion(self.q[chosen], self.velocity[chosen], self.acceleration[chosen],
-                      self.tau[chosen], self.rate, self.cutoff)
-
-    def smoothed(self):
-        return smooth(self.tau, self.rate, self.cutoff)
+    def thinned(self, rate):
+        """Rows at about a lower rate (Hz), the torques filtered as well."""
+        every = max(1, round(self.rate / rate))
+        tau = smooth(self.tau, self.rate, self.cutoff)
+        return Motion(self.q[::every], self.velocity[::every], self.acceleration[::every],
+                      tau[::every], self.rate / every, self.cutoff)
 
 
 def moving(recording):
@@ -95,8 +97,9 @@ class Model:
         self._effort = description.column("effort")
         self._speed = description.column("speed")
         self.stribeck = 0.06 * self._speed
-        self.gains = np.ones(6)
-        self.load = None
+        self.stribeck_range = 0.01 * self._speed, 0.3 * self._speed
+        self.gains, self.offsets = np.ones(6), np.zeros(6)
+        self.bodies, self.drives = self.nominal.copy(), None
 
     def body_tolerance(self):
         """(60,) how far a link's numbers may be off: by a share of what it and its size make."""
@@ -113,47 +116,45 @@ class Model:
         return MASS_TOLERANCE * share.ravel()
 
     def drive_columns(self, motion, joint_load):
-        """(n, 6 torques, columns) of all drives, and for the Stribeck speeds the derivatives."""
+        """(n, 6, columns): what each motor's numbers do by its own motion.
+
+        joint_load: (n, 6) N·m of the bodies."""
+        turn, structure = self.structure.transmission, self.structure
+        v, push = motion.velocity @ turn.T, motion.acceleration @ turn.T
+        sign, forward = np.sign(v), v > 0
+        columns = ([sign * forward, sign * ~forward, v * forward, v * ~forward]
+                   if structure.both_ways else [sign, v])
+        columns.append(push)
+        if structure.stribeck:
+            columns.append(sign * np.exp(-(v / self.stribeck) ** 2))
+        if structure.load:
+            motor_load = np.abs(joint_load @ np.linalg.inv(turn)) / self._effort
+            columns.append(sign * motor_load)
+        return np.stack(columns, -1)
+
+    def stribeck_slopes(self, motion):
+        """(n, 6): change of each motor's friction by its Stribeck speed."""
+        v = motion.velocity @ self.structure.transmission.T
+        column = np.sign(v) * np.exp(-(v / self.stribeck) ** 2) * 2 * v**2 / self.stribeck**3
+        place = 5 if self.structure.both_ways else 3
+        return column * self.drives[:, place]
+
+    def on_joints(self, columns):
+        """(n, 6 motors, c) -> (n, 6 joints, 6·c): a motor pushes on every joint that turns it."""
         turn = self.structure.transmission
-        velocity, push = motion.velocity @ turn.T, motion.acceleration @ turn.T
-        motor_load = np.abs(joint_load @ np.linalg.inv(turn)) / self._effort
-        n = len(velocity)
-        found = []
-        for k in range(6):
-            v, sign = velocity[:, k], np.sign(velocity[:, k])
-            forward = v > 0
-            if self.structure.both_ways:
-                columns = [sign * forward, sign * ~forward, v * forward, v * ~forward]
-            else:
-                columns = [sign, v]
-            columns.append(push[:, k])
-            if self.structure.stribeck:
-                columns.append(sign * np.exp(-(v / self.stribeck[k]) ** 2))
-            if self.structure.load:
-                columns.append(sign * motor_load[:, k])
-            spread = np.zeros((n, 6, len(columns)))
-            # A motor pushes on every joint that turns it.
-            for joint in range(6):
-                if turn[k, joint]:
-                    spread[:, joint] = turn[k, joint] * np.stack(columns, -1)
-            found.append(spread)
-        return np.concatenate(found, axis=2)
+        spread = turn.T[:, :, None] * columns[:, None]
+        return spread.reshape(len(columns), 6, -1)
 
     def body_columns(self, motion):
         """(n, 6, 60)."""
         return arm.regressor(self.description.chain, self.description.gravity, motion.q,
                              motion.velocity, motion.acceleration)
 
-    def design(self, motion, bodies=None):
-        """(n, 6, 60) of the bodies, which may be given, and (n, 6, columns) of the drives."""
-        bodies = self.body_columns(motion) if bodies is None else bodies
-        load = bodies @ (self.bodies if self.load is not None else self.nominal)
-        return bodies, self.drive_columns(motion, load)
-
-    def predict(self, motion, bodies=None):
+    def predict(self, motion):
         """(n, 6) N·m."""
-        bodies, drives = self.design(motion, bodies)
-        return self.gains * (bodies @ self.bodies + drives @ self.drives) + self.offsets
+        bodies = self.body_columns(motion)
+        drives = self.on_joints(self.drive_columns(motion, bodies @ self.bodies))
+        return self.gains * (bodies @ self.bodies + drives @ self.drives.ravel()) + self.offsets
 
 
 def _ridge(design, target, tolerance, expected, noise):
@@ -168,83 +169,100 @@ def _ridge(design, target, tolerance, expected, noise):
     return expected + scale * np.linalg.solve(normal, weighted.T @ left)
 
 
+class _Fit:
+    """The rows of a fit: every column has passed the filter that the torques have."""
+
+    def __init__(self, model, motion):
+        self.model, self._motion = model, motion.thinned(FIT_RATE)
+        motion = self._motion
+        end = max(2, int(motion.rate / motion.cutoff))  # the filter's ends are worth less
+        count = len(motion.tau)
+        self._rows = np.arange(end, count - end, max(1, count // ROWS))
+        self._full_bodies = model.body_columns(motion)
+        self.bodies = self._full_bodies[self._rows]
+        self.moving = edges(motion.velocity)[self._rows]
+        self.tau = motion.tau[self._rows]
+        step = (self._rows[1] - self._rows[0]) / motion.rate
+        self.repeated = np.sqrt(max(1.0, 1 / step / (2 * motion.cutoff)))
+
+    def _filtered(self, columns):
+        motion = self._motion
+        return smooth(columns, motion.rate, motion.cutoff)[self._rows]
+
+    def drives(self):
+        load = self._full_bodies @ self.model.bodies
+        return self.model.on_joints(self._filtered(self.model.drive_columns(self._motion, load)))
+
+    def stribeck_slopes(self):
+        return self.model.on_joints(self._filtered(self.model.stribeck_slopes(self._motion))[:, :, None])
+
+
+def _blocks(model, rows, body_tolerance, is_last):
+    """[(name, columns (n, 6, c), expected (c,), tolerance (c,)), …] of what is fitted in a round: in
+    the first and the last only what is linear."""
+    drives = rows.drives()
+    n, count, free = len(drives), drives.shape[2], np.full
+    blocks = []
+    if model.structure.bodies:
+        blocks.append(("bodies", model.gains[:, None] * rows.bodies, model.nominal, body_tolerance))
+    blocks.append(("drives", model.gains[:, None] * drives, np.zeros(count), free(count, np.inf)))
+    blocks.append(("offsets", np.broadcast_to(np.eye(6), (n, 6, 6)), np.zeros(6), free(6, np.inf)))
+    if model.drives is None or is_last:
+        return blocks
+    if model.structure.gains:
+        # Together with the rest, so that the two do not creep towards each other.
+        raw = rows.bodies @ model.bodies + drives @ model.drives.ravel()
+        blocks.append(("gains", raw[:, :, None] * np.eye(6), 1 - model.gains,
+                       free(6, GAIN_TOLERANCE)))
+    if model.structure.stribeck:
+        blocks.append(("stribeck", model.gains[:, None] * rows.stribeck_slopes(), np.zeros(6),
+                       0.5 * model.stribeck))
+    return blocks
+
+
+def _take(model, found):
+    """The numbers of a round, {block: values}, into the model."""
+    model.bodies = found.get("bodies", model.bodies)
+    model.drives = found["drives"].reshape(6, -1)
+    model.offsets = found["offsets"]
+    if "gains" in found:
+        model.gains = model.gains + np.clip(found["gains"], -GAIN_STEP, GAIN_STEP)
+    if "stribeck" in found:
+        model.stribeck = np.clip(model.stribeck + found["stribeck"], *model.stribeck_range)
+
+
 def fit(model, motion, *, hold=1.0):
-    """Fits a Model to a Motion, whose rows are filtered and thinned. hold: how firmly bodies are held
-    to the nominal ones; 0: not at all (base parameters)."""
-    tau = motion.smoothed()
-    end = max(2, int(motion.rate / motion.cutoff))  # the filter's ends are worth less
-    rows = np.arange(end, len(tau) - end, max(1, len(tau) // ROWS))
-    is_moving = edges(motion.velocity)[rows]
-    some, tau = motion.rows(rows), tau[rows]
-    structure = model.structure
-    model.bodies, model.load, model.offsets = model.nominal.copy(), None, np.zeros(6)
-    noise = np.maximum(tau.std(0), 1e-9) * 0.1
+    """Fits a Model to a Motion. hold: how firmly bodies are held to the nominal ones; 0: not at all
+    (base parameters)."""
+    rows = _Fit(model, motion)
+    noise = 0.1 * np.maximum(rows.tau.std(0), 1e-9)
     body_tolerance = model.body_tolerance() / hold if hold else np.full(60, np.inf)
-    rounds = ROUNDS if structure.gains or structure.stribeck or structure.load else 3
-    bodies = model.body_columns(some)
-    for _ in range(rounds):
-        drives = model.design(some, bodies)[1]
-        count = drives.shape[2]
-        blocks, expected = [], []
-        tolerance = []
-        if structure.bodies:
-            blocks.append(model.gains[:, None] * bodies)
-            expected.append(model.nominal)
-            tolerance.append(body_tolerance)
-        blocks.append(model.gains[:, None] * drives)
-        expected.append(np.zeros(count))
-        tolerance.append(np.full(count, np.inf))
-        blocks.append(np.broadcast_to(np.eye(6), (len(tau), 6, 6)))
-        expected.append(np.zeros(6))
-        tolerance.append(np.full(6, np.inf))
-        target = tau
-        if not structure.bodies:
-            target = tau - bodies @ model.nominal
-        if structure.gains and hasattr(model, "drives"):
-            # Together with the rest, so that the two do not creep towards each other.
-            raw = bodies @ model.bodies + drives @ model.drives
-            blocks.append(raw[:, :, None] * np.eye(6))
-            expected.append(1 - model.gains)
-            tolerance.append(np.full(6, 0.15))
-        if structure.stribeck and hasattr(model, "drives"):
-            slopes = model.gains[:, None] * _stribeck_slopes(model, some, drives)
-            blocks.append(slopes)
-            expected.append(np.zeros(6))
-            tolerance.append(0.5 * model.stribeck)
-        design = np.concatenate(blocks, axis=2)
-        weight = np.broadcast_to(noise, tau.shape)[is_moving]
-        found = _ridge(design[is_moving], target[is_moving], np.concatenate(tolerance),
-                       np.concatenate(expected), weight)
-        if structure.bodies:
-            model.bodies, found = found[:60], found[60:]
-            model.load = True
-        model.drives, found = found[:count], found[count:]
-        model.offsets, found = found[:6], found[6:]
-        if structure.gains and len(found) >= 6:
-            model.gains, found = model.gains + found[:6], found[6:]
-        if structure.stribeck and len(found) >= 6:
-            low, high = 0.01 * model._speed, 0.3 * model._speed
-            model.stribeck = np.clip(model.stribeck + found[:6], low, high)
-        left = tau - model.predict(some, bodies)
-        before, noise = noise, np.array([max(np.sqrt(np.mean(left[is_moving[:, k], k] ** 2)), 1e-9)
-                                         for k in range(6)])
-        if np.abs(noise / before - 1).max() < SETTLED:
+    is_nonlinear = model.structure.gains or model.structure.stribeck or model.structure.load
+    for number in range(ROUNDS if is_nonlinear else LINEAR_ROUNDS):
+        before, gains = noise, model.gains
+        noise = _round(model, rows, body_tolerance, noise, False)
+        is_quiet = np.abs(noise / before - 1).max() < SETTLED
+        if number > 2 and is_quiet and np.abs(model.gains - gains).max() < SETTLED:
             break
+    _round(model, rows, body_tolerance, noise, True)
     return model
 
 
-def _stribeck_slopes(model, motion, drives):
-    """(n, 6, 6): change of torque by each Stribeck speed."""
-    turn = model.structure.transmission
-    velocity = motion.velocity @ turn.T
-    each = drives.shape[2] // 6
-    place = each - 1 - int(model.structure.load)
-    found = np.zeros((len(velocity), 6, 6))
-    for k in range(6):
-        column = drives[:, :, k * each + place] * model.drives[k * each + place]
-        change = 2 * velocity[:, k] ** 2 / model.stribeck[k] ** 3
-        found[:, :, k] = column * change[:, None]
-    return found
+def _round(model, rows, body_tolerance, noise, is_last):
+    """Fits once, given each torque's noise (6,); returns what noise is left."""
+    tau, is_moving = rows.tau, rows.moving
+    blocks = _blocks(model, rows, body_tolerance, is_last)
+    target = tau if model.structure.bodies else tau - rows.bodies @ model.nominal
+    design = np.concatenate([block[1] for block in blocks], axis=2)
+    # Filtered rows are not independent of one another.
+    weight = np.broadcast_to(noise * rows.repeated, tau.shape)[is_moving]
+    numbers = _ridge(design[is_moving], target[is_moving],
+                     np.concatenate([block[3] for block in blocks]),
+                     np.concatenate([block[2] for block in blocks]), weight)
+    ends = np.cumsum([block[1].shape[2] for block in blocks])[:-1]
+    left = target - design @ numbers
+    _take(model, dict(zip((block[0] for block in blocks), np.split(numbers, ends))))
+    return np.array([max(np.sqrt(np.mean(left[is_moving[:, k], k] ** 2)), 1e-9) for k in range(6)])
 
 
 def _rms(model, motion, chosen):
