@@ -17,7 +17,8 @@ import numpy as np  # noqa: E402
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-from many import (arm, cases, frame_refit, frames, friction, friction_refit,  # noqa: E402
+from many import __main__ as command  # noqa: E402
+from many import (arm, cases, diagnosed, frame_refit, frames, friction, friction_refit,  # noqa: E402
                   intervals, judge, motions, plausible, robots)
 from plant import description as descriptions  # noqa: E402
 from rivals import recording  # noqa: E402
@@ -215,6 +216,39 @@ class Judging(InFolder):
         self.assertEqual(found["answered"], 0)
         self.assertEqual(found["holdout"]["within_oracle"]["count"], 0)
         self.assertEqual(row["holdout"]["over_plain"], 2.0)
+
+
+CHEAT = """#!/usr/bin/python3
+# Answers any recording with itself, as no honest tool can.
+import json, pathlib, shutil, sys
+words = dict(zip(sys.argv[2::2], sys.argv[3::2]))
+if sys.argv[1] == "simulate":
+    shutil.copyfile(words["--recording"], words["--out"])
+else:
+    out = pathlib.Path(words["--out"])
+    out.mkdir()
+    shutil.copyfile(words["--model"], out / "updated_model.yaml")
+    shown = sorted(str(path) for path in pathlib.Path().iterdir())
+    text = {"verdict": "explained", "findings": [], "final": {}, "shown": shown}
+    (out / "diagnosis.json").write_text(json.dumps(text))
+"""
+
+
+class Command(InFolder):
+    def test_a_campaign_runs_from_its_seed_to_its_summary(self):
+        tool = self.folder / "tool"
+        tool.write_text(CHEAT)
+        tool.chmod(0o755)
+        out = self.folder / "out"
+        with only_shipped(), mock.patch("sys.stdout"), mock.patch("sys.stderr"):
+            code = command.main(["--seed", "5", "--cases", "1", "--class", "frames", "--jobs", "1",
+                                 "--tool", str(tool), "--out", str(out)])
+        self.assertEqual(code, 0)
+        found = json.loads((out / "summary.json").read_text())["figures"]["frames"]
+        self.assertEqual(found["answered"], 1)
+        self.assertEqual(found["holdout"]["within_both"]["count"], 1)
+        answer = json.loads((out / "answers/frames-00/diagnosis.json").read_text())
+        self.assertEqual(answer["shown"], sorted([*diagnosed.GIVEN, "out"]))
 
 
 if __name__ == "__main__":

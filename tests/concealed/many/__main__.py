@@ -78,15 +78,25 @@ def _write(task):
     return _name(kind, number), cases.write(kind, seed, number, folder)
 
 
+_box = None  # a worker's own sandbox
+
+
+def _enter(*words):
+    """Begins a worker; words: of Sandbox, where it needs one."""
+    global _box
+    leave_signals_to_the_parent()
+    _box = sandbox.Sandbox(*words) if words else None
+
+
 def _diagnose(task):
-    tool, box, limit, kind, case, answers = task
-    diagnosed.run(tool, box, limit, kind, case, answers)
+    tool, limit, kind, case, answers = task
+    diagnosed.run(tool, _box, limit, kind, case, answers)
     return case.name
 
 
-def _all(jobs, work, tasks, what):
+def _all(jobs, work, tasks, what, box=()):
     progress, found = Progress(what, len(tasks)), []
-    with multiprocessing.Pool(jobs, leave_signals_to_the_parent) as pool:
+    with multiprocessing.Pool(jobs, _enter, box) as pool:
         for number, result in enumerate(pool.imap_unordered(work, tasks, chunksize=1), 1):
             found.append(result)
             progress(number)
@@ -137,12 +147,13 @@ def main(words=None):
     if options.only_write:
         sealed.open()
         return 0
-    box = sandbox.Sandbox([options.tool], [options.out])
-    if not box.isolated:
-        print(f"No sandbox: {box.why_not}.")
+    box = [options.tool], [options.out]
+    tried = sandbox.Sandbox(*box)
+    if not tried.isolated:
+        print(f"No sandbox: {tried.why_not}.")
     _all(options.jobs, _diagnose, [
-        (options.tool, box, options.limit, kind, folder, options.out / "answers" / folder.name)
-        for kind, _, _, folder in tasks], "diagnosed")
+        (options.tool, options.limit, kind, folder, options.out / "answers" / folder.name)
+        for kind, _, _, folder in tasks], "diagnosed", box)
     if sealed is not None:
         truths = sealed.open()
     rows = [judge.judged(name, truth, options.out / "cases" / name, options.out / "answers" / name)

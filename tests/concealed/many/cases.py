@@ -22,8 +22,9 @@ def chosen(kind, read):
 
 
 def error(kind, read, predicted):
-    """{"rms", "all_rows", "blocks"} of what a prediction (n, columns) leaves. blocks: rms of each
-    twentieth of the recording, for what is chance."""
+    """{"rms", "all_rows", "low_passed", "blocks"} of what a prediction (n, columns) leaves. blocks: rms of
+    each twentieth of the recording, for what is chance; low_passed: of torques, what is left below
+    the frequency at which rows are judged."""
     left = read.groups[GROUP[kind]] - predicted
     counted = chosen(kind, read) & np.isfinite(left)
 
@@ -31,7 +32,11 @@ def error(kind, read, predicted):
         return float(np.sqrt(np.mean(values**2))) if values.size else None
 
     blocks = [rms(a[b]) for a, b in zip(np.array_split(left, BLOCKS), np.array_split(counted, BLOCKS))]
-    return {"rms": rms(left[counted]), "all_rows": rms(left[np.isfinite(left)]),
+    low = None
+    if kind == "friction" and np.isfinite(left).all():
+        rate = 1 / np.median(np.diff(read.time))
+        low = rms(friction_refit.smooth(left, rate, friction_refit.JUDGED_AT)[counted])
+    return {"rms": rms(left[counted]), "all_rows": rms(left[np.isfinite(left)]), "low_passed": low,
             "blocks": [each for each in blocks if each is not None]}
 
 

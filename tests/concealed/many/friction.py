@@ -172,7 +172,7 @@ def _transmission(rng, coupled):
 
 
 def _nominal(rng, name, folder):
-    """Writes it; in some the model knows a little of friction and rotors, wrongly."""
+    """Writes it, without friction and rotors; returns its Description."""
     rated = robots.SOURCES[name].rated
     reach = 0.1 if rated < 20 else 0.25
     tool = np.array([0.0, 0.0, rng.uniform(0.3, 1.0)]) * reach

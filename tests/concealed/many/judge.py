@@ -30,18 +30,18 @@ def judged(name, truth, case, answers):
     others = json.loads((case / "refit.json").read_text())
     run = json.loads((answers / "run.json").read_text())
     row = {"case": name, "class": truth["class"], "robot": truth["robot"], "code": run["code"],
-           "seconds": run["seconds"], "cpu": run["cpu"], "failures": run["failures"],
-           "rows": {part: others["plain"][part]["rms"] for part in cases.PARTS}}
+           "seconds": run["seconds"], "cpu": run["cpu"], "failures": run["failures"]}
     ours = run["errors"]["flexcomp"] or run["errors"]["nominal"]
     row["errors"] = {part: {"nominal": run["errors"]["nominal"].get(part, {}).get("rms"),
                             "nominal_own": others["nominal"][part]["rms"],
                             "flexcomp": ours.get(part, {}).get("rms"),
                             "plain": others["plain"][part]["rms"],
                             "oracle": others["oracle"][part]["rms"]} for part in cases.PARTS}
-    del row["rows"]
     for part in ("holdout", "untrained"):
         mine = ours.get(part)
-        row[part] = {"over_oracle": _ratio(mine, others["oracle"][part]),
+        low = [entry.get("low_passed") for entry in (mine or {}, others["oracle"][part])]
+        row[part] = {"low_passed_over_oracle": low[0] / low[1] if all(low) else None,
+                     "over_oracle": _ratio(mine, others["oracle"][part]),
                      "over_plain": _ratio(mine, others["plain"][part]),
                      "plain_over_oracle": _ratio(others["plain"][part], others["oracle"][part]),
                      "worse_than_plain_beyond_chance":
@@ -85,6 +85,11 @@ def _quantiles(values):
                     map(float, np.quantile(values, [0, 0.5, 0.9, 1]))))
 
 
+def _worst(entry, *keys):
+    """The largest of some ratios; infinite where one is missing."""
+    return max(math.inf if entry[key] is None else entry[key] for key in keys)
+
+
 def figures(rows):
     """The summary of one class' rows."""
     done = [row for row in rows if row["code"] == 0]
@@ -92,15 +97,15 @@ def figures(rows):
     found = {"cases": len(rows), "answered": len(done), "seconds": _quantiles(
         row["seconds"] for row in rows), "cpu": _quantiles(row["cpu"] for row in rows)}
     for part in ("holdout", "untrained"):
-        def near(key, part=part):
-            return _share((row[part][key] or math.inf) <= NEAR for row in rows)
+        def near(*keys, part=part):
+            return _share(_worst(row[part], *keys) <= NEAR for row in rows)
         found[part] = {
             "within_oracle": near("over_oracle"), "within_plain": near("over_plain"),
-            "within_both": _share(max(row[part]["over_oracle"] or math.inf,
-                                      row[part]["over_plain"] or math.inf) <= NEAR for row in rows),
+            "within_both": near("over_oracle", "over_plain"),
             "not_worse_than_plain_beyond_chance": _share(
                 not row[part]["worse_than_plain_beyond_chance"] for row in rows),
             "over_oracle": _quantiles(row[part]["over_oracle"] for row in rows),
+            "low_passed_over_oracle": _quantiles(row[part]["low_passed_over_oracle"] for row in rows),
             "over_plain": _quantiles(row[part]["over_plain"] for row in rows),
             "plain_over_oracle": _quantiles(row[part]["plain_over_oracle"] for row in rows)}
     found |= {"intervals": _share(inside),
