@@ -71,6 +71,47 @@ void PathCertificate<Scalar, Joints>::check_chord(const float* from, const float
   check_move(from, to, start, read<Scalar, Joints>(to + layout_.angles) - start, check);
 }
 
+template <typename Scalar, int Joints>
+TableError<Scalar> PathCertificate<Scalar, Joints>::inside_error(const float* from,
+                                                                 const float* to) const {
+  constexpr std::uint32_t kSteps = 4;
+  constexpr std::uint32_t kCorners = 1U << static_cast<unsigned>(Joints);
+  constexpr Scalar kRounding = Scalar(1e-6);  // rad, of the lookup's own distance
+  const Angles zero = Angles::Zero();
+  const Angles start = read<Scalar, Joints>(from + layout_.angles);
+  const Angles motion = read<Scalar, Joints>(to + layout_.angles) - start;
+  const Scalar width = static_cast<Scalar>(from[layout_.width]) + kRounding;
+  TableError<Scalar> worst;
+  for (std::uint32_t i = 0; i <= kSteps; ++i) {
+    const Scalar t = static_cast<Scalar>(i) / Scalar(kSteps);
+    const TableEntry<Scalar, Joints> entry =
+        blend_segment<Scalar, Joints>(from, to, layout_, t, zero);
+    for (std::uint32_t corner = 0; corner < kCorners; ++corner) {
+      Angles q = start + t * motion;
+      for (Eigen::Index joint = 0; joint < Joints; ++joint) {
+        q[joint] += (corner >> static_cast<unsigned>(joint) & 1U) != 0 ? width : -width;
+      }
+      worst = larger(worst, entry_error(model_, exact_entry(model_, q), entry, bound_));
+    }
+  }
+  // Between the corners the errors of the corners can be blended; what bends away from that is at
+  // most half of width² times the second derivative, for each joint. Along the chord likewise.
+  const TableEntry<Scalar, Joints> first =
+      blend_segment<Scalar, Joints>(from, to, layout_, Scalar(0), zero);
+  const TableEntry<Scalar, Joints> last =
+      blend_segment<Scalar, Joints>(from, to, layout_, Scalar(1), zero);
+  const TableError<Scalar> across =
+      segment_curvature(bounds_, first, last, bound_, SegmentMotion<Scalar>{1, 0, 0});
+  const TableError<Scalar> along = segment_curvature(
+      bounds_, first, last, bound_, SegmentMotion<Scalar>{motion.cwiseAbs().sum(), 1, 0});
+  const Scalar of_across = Scalar(Joints) * width * width / Scalar(2);
+  const Scalar of_along = Scalar(1) / Scalar(8 * kSteps * kSteps);
+  return {worst.position + of_across * across.position + of_along * along.position +
+              bounds_.rounding.position,
+          worst.orientation + of_across * across.orientation + of_along * along.orientation +
+              bounds_.rounding.orientation};
+}
+
 /// Smallest distance between the segment's two planes along a move; zero if the move leaves the
 /// room between them or the planes lean too far towards each other for the blend to be smooth.
 template <typename Scalar, int Joints>

@@ -4,7 +4,7 @@
 
 namespace flexcomp {
 
-/// What the check of a path segment came to.
+/// Result of the check of a path segment.
 template <typename Scalar>
 struct SegmentCheck {
   bool holds = true;
@@ -34,7 +34,7 @@ class PathCertificate {
         layout_(layout),
         share_(share) {}
 
-  /// What float arithmetic in a lookup can add; no certificate can be below it.
+  /// The error that float arithmetic in a lookup can add; no certificate can be below it.
   const TableError<Scalar>& rounding() const { return bounds_.rounding; }
 
   /// Checks a straight move in joint space that lies between the planes of the two nodes.
@@ -43,6 +43,11 @@ class PathCertificate {
 
   /// Checks the chord between two nodes: what can be looked at without the program.
   void check_chord(const float* from, const float* to, SegmentCheck<Scalar>* check) const;
+
+  /// Bound on the error at all joint angles that a lookup on this segment takes for inside: those
+  /// that in no joint are off a place of the chord by more than the record's width, read with the
+  /// blend of that place. Which place it is the planes decide, and the bound is for all of them.
+  TableError<Scalar> inside_error(const float* from, const float* to) const;
 
  private:
   Scalar smallest_span(const float* from, const float* to, const Angles& start,

@@ -12,6 +12,10 @@ namespace {
 /// Share of the tolerance that may go to what happens between the checked points.
 constexpr double kCurvatureShare = 0.1;
 
+/// The bound stated for all angles inside is above the one found by this factor, so that it also
+/// holds where it is derived again with another precision.
+constexpr double kInsideMargin = 1.01;
+
 /// Shortest segment (1-norm, rad) that is tried before the tolerance is given up.
 constexpr double kShortestSegment = 1e-6;
 
@@ -56,6 +60,7 @@ class PathTableBuilder {
           static_cast<float>(Scalar(1.01) * check.width + Scalar(1e-6));
       if (check.holds && is_plausible_width(record, writer_.record(node + 1), writer_.layout())) {
         error_ = larger(error_, check.error);
+        inside_ = larger(inside_, certificate_.inside_error(record, writer_.record(node + 1)));
         place = next;
         ++node;
         length *= Scalar(1.5);
@@ -67,6 +72,8 @@ class PathTableBuilder {
       }
     }
     writer_.header().closed = path_.is_closed() ? 1 : 0;
+    writer_.state_inside_error(TableError<Scalar>{Scalar(kInsideMargin) * inside_.position,
+                                                  Scalar(kInsideMargin) * inside_.orientation});
     writer_.finish(node + 1, error_);
     return Result::ok;
   }
@@ -109,6 +116,7 @@ class PathTableBuilder {
   PathCertificate<Scalar, Joints> certificate_;
   TableWriter& writer_;
   TableError<Scalar> error_;
+  TableError<Scalar> inside_;  ///< at all angles that a lookup takes for inside
 };
 
 }  // namespace

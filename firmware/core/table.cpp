@@ -11,6 +11,38 @@ std::uint64_t Table::model_hash() const {
   return (std::uint64_t{header_->model_hash_high} << 32) | header_->model_hash_low;
 }
 
+namespace {
+
+bool is_path(const TableHeader& header) {
+  return header.chart == static_cast<std::uint32_t>(Chart::path);
+}
+
+}  // namespace
+
+GainBasis gain_basis(const TableHeader& header) {
+  const float* const at = header.fixed_angle;
+  return is_path(header) ? GainBasis{at[0], at[1], at[2], at[3], at[4], at[5]} : GainBasis{};
+}
+
+void set_gain_basis(const GainBasis& basis, TableHeader* header) {
+  float* const at = header->fixed_angle;
+  at[0] = basis.least_push;
+  at[1] = basis.most_push;
+  at[2] = basis.depth_of_cut;
+  at[3] = basis.period;
+  at[4] = basis.filter_cutoff;
+  at[5] = basis.delay;
+}
+
+InsideError inside_error(const TableHeader& header) {
+  return is_path(header) ? InsideError{header.grid_lower[0], header.grid_lower[1]} : InsideError{};
+}
+
+void set_inside_error(const InsideError& error, TableHeader* header) {
+  header->grid_lower[0] = error.position;
+  header->grid_lower[1] = error.orientation;
+}
+
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up(const Table& table, const JointVector<Scalar, Joints>& q,
                                    TableCursor* cursor) {

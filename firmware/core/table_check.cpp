@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flexcomp/loop_gain.hpp"
 #include "flexcomp/table_builder.hpp"
 #include "grid_certificate.hpp"
 #include "instantiate.hpp"
@@ -17,6 +18,9 @@ constexpr double kCloserShare = 0.0005;
 
 /// A certificate is at most this many times what is found again without the program.
 constexpr double kMostAbove = 100;
+
+/// The certificate for all angles inside needs no program, and is found again to a hundredth.
+constexpr double kMostInside = 2;
 
 bool are_zero(const float* numbers, std::size_t count) {
   return std::all_of(numbers, numbers + count, [](float number) { return number == 0.0F; });
@@ -44,7 +48,7 @@ bool says_the_same(const TableHeader& header, const RobotModel<Scalar, Joints>& 
   return same && header.contents == contents;
 }
 
-/// Of a robot that gives nowhere, nothing is wrong: its table is exact.
+/// The table of a robot that gives nowhere is exact.
 bool is_rigid(const TableHeader& header) {
   return are_zero(header.compliance, kTableJoints) &&
          are_zero(header.cubic_compliance, kTableJoints) &&
@@ -57,7 +61,8 @@ bool bounds_are_in_order(const TableHeader& header) {
       header.position_error == 0 && header.orientation_error == 0 && is_rigid(header);
   return header.force_bound >= 0 && header.moment_bound >= 0 &&
          header.force_bound + header.moment_bound > 0 && (are_errors || are_none) &&
-         header.largest_gain >= 0;
+         header.largest_gain >= 0 &&
+         follows_from(static_cast<double>(header.largest_gain), gain_basis(header));
 }
 
 /// The ends of the program, which are both nodes, meet if and only if the header says so.
@@ -77,12 +82,20 @@ bool is_closed_as_stated(const Table& table) {
                             : header.closed == 0 && gap > kGap - std::min(rounding, 0.5 * kGap);
 }
 
+/// Both errors or none: an older table does not state them.
+bool is_in_order(const InsideError& error) {
+  return (error.position > 0.0F && error.orientation > 0.0F) ||
+         (error.position == 0.0F && error.orientation == 0.0F);
+}
+
 bool is_path_header(const Table& table) {
+  constexpr std::size_t kStated = 2;  // `inside_error`
   const TableHeader& header = table.header();
   return header.grid_axes == 0 && are_zero(header.grid_joint, kMaxGridAxes) &&
-         are_zero(header.grid_nodes, kMaxGridAxes) && are_zero(header.grid_lower, kMaxGridAxes) &&
-         are_zero(header.grid_step, kMaxGridAxes) && are_zero(header.fixed_angle, kTableJoints) &&
-         are_zero(header.first_axis, 3) && is_closed_as_stated(table);
+         are_zero(header.grid_nodes, kMaxGridAxes) &&
+         are_zero(header.grid_lower + kStated, kMaxGridAxes - kStated) &&
+         are_zero(header.grid_step, kMaxGridAxes) && are_zero(header.first_axis, 3) &&
+         is_in_order(inside_error(header)) && is_closed_as_stated(table);
 }
 
 /// Axes in the order of the joints, steps that angles in `float` can resolve, and nothing behind
@@ -135,6 +148,17 @@ bool has_planes_of_a_builder(const float* record, const RecordLayout& layout) {
       length > 5e-4 && (switching - (in + out) / length).norm() <= kRounding + kRounding / length;
   return is_nearly(in.norm(), 1, kRounding) && is_nearly(out.norm(), 1, kRounding) &&
          (is_one || in.dot(out) < kSharp) && (turns_back || is_between);
+}
+
+template <typename Scalar>
+WrenchBound<Scalar> wrench_bound(const TableHeader& header) {
+  return {static_cast<Scalar>(header.force_bound), static_cast<Scalar>(header.moment_bound)};
+}
+
+template <typename Scalar>
+TableError<Scalar> stated_error(const TableHeader& header) {
+  return {static_cast<Scalar>(header.position_error),
+          static_cast<Scalar>(header.orientation_error)};
 }
 
 template <typename Scalar>
@@ -233,10 +257,8 @@ Result derive_certificate(const RobotModel<Scalar, Joints>& model, const Table& 
   if (is_rigid(header)) {
     return Result::ok;  // a tick multiplies all that is in the records by springs of zero
   }
-  const WrenchBound<Scalar> bound{static_cast<Scalar>(header.force_bound),
-                                  static_cast<Scalar>(header.moment_bound)};
-  const TableError<Scalar> stated{static_cast<Scalar>(header.position_error),
-                                  static_cast<Scalar>(header.orientation_error)};
+  const WrenchBound<Scalar> bound = wrench_bound<Scalar>(header);
+  const TableError<Scalar> stated = stated_error<Scalar>(header);
   const Result derived = table.chart() == Chart::path
                              ? derive_path_certificate(model, table, bound, stated, error)
                              : derive_grid_certificate(model, table, bound, stated, error);
@@ -245,10 +267,43 @@ Result derive_certificate(const RobotModel<Scalar, Joints>& model, const Table& 
   return derived == Result::ok && is_absurd ? Result::table_corrupt : derived;
 }
 
+template <typename Scalar, int Joints>
+Result derive_inside_error(const RobotModel<Scalar, Joints>& model, const Table& table,
+                           TableError<Scalar>* error) {
+  *error = TableError<Scalar>{};
+  if (table.is_open() && table.chart() == Chart::joint_grid) {
+    return derive_certificate(model, table, error);
+  }
+  const Result checked = check_against_model(model, table);
+  if (checked != Result::ok || is_rigid(table.header())) {
+    return checked;
+  }
+  const PathCertificate<Scalar, Joints> certificate(model, wrench_bound<Scalar>(table.header()),
+                                                    stated_error<Scalar>(table.header()),
+                                                    record_layout(table), Scalar(kShare));
+  const InsideError inside = inside_error(table.header());
+  const TableError<Scalar> stated{static_cast<Scalar>(inside.position),
+                                  static_cast<Scalar>(inside.orientation)};
+  const bool is_stated = stated.position > Scalar(0);
+  for (std::uint32_t node = 0; node + 1 < table.shape().node_count; ++node) {
+    const auto found = certificate.inside_error(table.record(node), table.record(node + 1));
+    *error = larger(*error, found);
+    if (is_stated && is_above(found, stated)) {
+      *error = found;
+      return Result::ok;
+    }
+  }
+  const bool is_absurd = stated.position > Scalar(kMostInside) * error->position ||
+                         stated.orientation > Scalar(kMostInside) * error->orientation;
+  return is_absurd ? Result::table_corrupt : Result::ok;
+}
+
 #define FLEXCOMP_TABLE_CHECK(Scalar, Joints)                                            \
   template Result check_against_model(const RobotModel<Scalar, Joints>&, const Table&); \
   template Result derive_certificate(const RobotModel<Scalar, Joints>&, const Table&,   \
-                                     TableError<Scalar>*);
+                                     TableError<Scalar>*);                              \
+  template Result derive_inside_error(const RobotModel<Scalar, Joints>&, const Table&,  \
+                                      TableError<Scalar>*);
 FLEXCOMP_INSTANTIATE(FLEXCOMP_TABLE_CHECK)
 
 }  // namespace flexcomp

@@ -5,6 +5,7 @@
 
 #include "checked_number.hpp"
 #include "crc32.hpp"
+#include "flexcomp/loop_gain.hpp"
 #include "instantiate.hpp"
 
 namespace flexcomp {
@@ -47,6 +48,14 @@ TableWriter::TableWriter(const RobotModel<Scalar, Joints>& model,
   header_->force_bound = static_cast<float>(requirements.force_bound);
   header_->moment_bound = static_cast<float>(requirements.moment_bound);
   header_->largest_gain = static_cast<float>(requirements.largest_gain);
+  if (chart == Chart::path) {
+    set_gain_basis(requirements.gain_basis, header_);
+  }
+}
+
+template <typename Scalar>
+void TableWriter::state_inside_error(const TableError<Scalar>& error) {
+  set_inside_error({rounded_up(error.position), rounded_up(error.orientation)}, header_);
 }
 
 bool TableWriter::fits(std::uint64_t nodes) const {
@@ -78,7 +87,8 @@ Result check_build_arguments(const RobotModel<Scalar, Joints>& model,
       is_positive(requirements.force_bound + requirements.moment_bound) &&
       is_positive(requirements.position_tolerance) &&
       is_positive(requirements.orientation_tolerance) && std::isfinite(requirements.largest_gain) &&
-      requirements.largest_gain >= Scalar(0);
+      requirements.largest_gain >= Scalar(0) &&
+      follows_from(static_cast<double>(requirements.largest_gain), requirements.gain_basis);
   if (!valid) {
     return Result::bad_argument;
   }
@@ -88,6 +98,8 @@ Result check_build_arguments(const RobotModel<Scalar, Joints>& model,
   return validate(model);
 }
 
+template void TableWriter::state_inside_error(const TableError<float>&);
+template void TableWriter::state_inside_error(const TableError<double>&);
 template void TableWriter::finish(std::uint32_t, const TableError<float>&);
 template void TableWriter::finish(std::uint32_t, const TableError<double>&);
 

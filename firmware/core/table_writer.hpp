@@ -29,6 +29,10 @@ class TableWriter {
     return records_ + static_cast<std::size_t>(node) * layout_.size;
   }
 
+  /// Path: the error at all angles that a lookup takes for inside.
+  template <typename Scalar>
+  void state_inside_error(const TableError<Scalar>& error);
+
   /// Sets sizes, the certificate (rounded up to float) and the CRC; the buffer now holds a table.
   template <typename Scalar>
   void finish(std::uint32_t nodes, const TableError<Scalar>& error);

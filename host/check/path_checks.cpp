@@ -144,12 +144,12 @@ Checks check_path(const model::Robot& robot, recording::Recording path) {
 }
 
 Checks check_process(const model::Robot& robot, const recording::Recording& path,
-                     const simulation::Process& process, const control::CorrectionLoop& loop) {
+                     const simulation::Process& process, const CorrectionLoop& loop) {
   if (!path.q_cmd || !path.wrench || path.wrench->isZero(0) || !path.wrench->allFinite() ||
       !path.q_cmd->allFinite() || joint_count(robot) != 6) {
     return {};
   }
-  const control::GainLimit limit = control::gain_limit_along(robot.elastic, path, process, loop);
+  const GainLimit limit = gain_limit(control::feedback_along(robot.elastic, path, process), loop);
   if (!limit.digs_in()) {
     return {};
   }
@@ -171,7 +171,7 @@ Checks check_table(const model::Robot& robot, const std::string& file, const Tab
              "make the table from this model: flexcomp table"}};
   }
   const auto largest = static_cast<double>(table.header().largest_gain);
-  if (largest > 0 && largest <= 1.01 * control::GainLimit::kNone) {
+  if (largest > 0 && largest <= 1.01 * GainLimit::kNone) {
     return {{Severity::error, "table", "process.unstable",
              file + ": no gain is safe with the process that the table was made for",
              "take a deeper cut (flexcomp table --depth-of-cut) or less force"}};

@@ -15,7 +15,7 @@ Checks check_path(const model::Robot& robot, recording::Recording path);
 /// Does a cut along a path stay stable while it is corrected: process.unstable. For paths with
 /// angles and a wrench within what the model can do; nothing is said of others.
 Checks check_process(const model::Robot& robot, const recording::Recording& path,
-                     const simulation::Process& process, const control::CorrectionLoop& loop);
+                     const simulation::Process& process, const CorrectionLoop& loop);
 
 /// Is a table of this robot (table.other), with a gain that is safe (process.unstable)?
 Checks check_table(const model::Robot& robot, const std::string& file, const Table& table);

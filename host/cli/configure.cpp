@@ -8,9 +8,9 @@
 
 #include "cli/command.hpp"
 #include "cli/table_file.hpp"
-#include "control/path_gain.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "flexcomp/loop_gain.hpp"
 #include "model/robot.hpp"
 
 namespace flexcomp::cli {
@@ -75,7 +75,7 @@ int run(const ConfigureOptions& options) {
     largest_gain =
         static_cast<double>(read_table(options.table, robot).table.header().largest_gain);
   }
-  if (largest_gain > 0 && largest_gain <= 1.01 * control::GainLimit::kNone) {
+  if (largest_gain > 0 && largest_gain <= 1.01 * GainLimit::kNone) {
     fmt::print(
         stderr,
         "flexcomp: {}: no gain is safe with the process it was made for: it takes a deeper cut "

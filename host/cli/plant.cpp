@@ -14,6 +14,7 @@
 #include "control/arc_parameters.hpp"
 #include "control/arc_request.hpp"
 #include "control/dynamic_milling.hpp"
+#include "control/path_gain.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "node/default_config.hpp"
@@ -51,19 +52,20 @@ NodeConfig node_config(const PlantOptions& options, const model::Robot& robot) {
   return config;
 }
 
-/// Of the loop through the process that the plant cuts with, for the robot as it is.
-control::GainLimit gain_limit(const PlantOptions& options, const model::Robot& known,
-                              const recording::Recording& path) {
-  control::CorrectionLoop loop = options.process.loop;
+/// Limit of the loop through the process that the plant cuts with, for the robot as it is.
+GainLimit gain_limit_of(const PlantOptions& options, const model::Robot& known,
+                        const recording::Recording& path) {
+  CorrectionLoop loop = options.process.loop;
   loop.period = loop.delay = options.plant.period;
   loop.filter_cutoff = options.filter_cutoff;
-  return control::gain_limit_along(
+  const FeedbackRange feedback = control::feedback_along(
       simulation::with_scaled_compliance(known.elastic, options.compliance_scale), path,
-      options.process.process, loop, options.compliance_scale);
+      options.process.process);
+  return gain_limit(feedback, loop, options.compliance_scale);
 }
 
 /// One line that says what would be stable, and how to have it.
-std::string unstable_text(const control::GainLimit& limit) {
+std::string unstable_text(const GainLimit& limit) {
   return limit.digs_in()
              ? fmt::format("no stable gain is safe: {}; --allow-unstable mills all the same",
                            describe_digging_in(limit))
@@ -86,8 +88,7 @@ std::string faults_of(std::uint32_t status) {
 }
 
 /// Warns of what went on but should not have.
-void warn(const PlantOptions& options, const control::GainLimit& limit,
-          const simulation::PlantRun& run) {
+void warn(const PlantOptions& options, const GainLimit& limit, const simulation::PlantRun& run) {
   if (run.gain > limit.safe * (1 + 1e-6)) {
     fmt::print(stderr, "flexcomp: {}: the gain {:.4g} is {} above the largest safe one, {:.4g}\n",
                options.path, run.gain, run.gain > limit.stable ? "unstable," : "stable but",
@@ -113,7 +114,7 @@ nlohmann::ordered_json summary(const simulation::PlantRun& run) {
           {"most_engagement", run.most_engagement}};
 }
 
-/// What the compensator has to know: with link encoders the joint springs are the controller's.
+/// The model that the compensator needs: with link encoders the joint springs are the controller's.
 RobotModel<double, 6> compensated_model(const PlantOptions& options, const model::Robot& robot) {
   return options.arc ? simulation::without_joint_springs(robot.elastic) : robot.elastic;
 }
@@ -175,7 +176,7 @@ int run(const PlantOptions& options) {
     bus = simulation::open_plant_bus(options.bus, options.key);
   }
   const recording::Recording path = recording::read_recording(options.path);
-  const control::GainLimit limit = gain_limit(options, known, path);
+  const GainLimit limit = gain_limit_of(options, known, path);
   simulation::Contour contour(robot.elastic, path, options.process.process.side);
   if (!options.allow_unstable && limit.digs_in()) {
     fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));

@@ -34,6 +34,27 @@ void add_process(CLI::App* command, ProcessOptions* options) {
                     "the force does not answer where the tool is (no cut): any gain is stable");
 }
 
+void add_loop(CLI::App* command, CorrectionLoop* loop) {
+  command->add_option("--loop-period", loop->period, "s, of the controller")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--loop-filter-cutoff", loop->filter_cutoff,
+                   "Hz, of the controller's filter on the wrench; 0: none")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--loop-delay", loop->delay,
+                   "s, from the wrench to the robot standing corrected")
+      ->check(CLI::NonNegativeNumber);
+}
+
+std::string describe(const GainBasis& basis) {
+  return fmt::format(
+      "a cut {:g} mm deep, into which its force moves the TCP by {:.3g} to {:.3g} mm; ticks every "
+      "{:g} ms, filter {:g} Hz, delay {:g} ms",
+      1e3F * basis.depth_of_cut, 1e3F * basis.least_push, 1e3F * basis.most_push,
+      1e3F * basis.period, basis.filter_cutoff, 1e3F * basis.delay);
+}
+
 std::string describe(const ProcessOptions& options) {
   return fmt::format(
       "a cut {:g} mm deep, material {}; ticks every {:g} ms, filter {:g} Hz, delay {:g} ms",
@@ -41,7 +62,7 @@ std::string describe(const ProcessOptions& options) {
       1e3 * options.loop.period, options.loop.filter_cutoff, 1e3 * options.loop.delay);
 }
 
-std::string describe_digging_in(const control::GainLimit& limit) {
+std::string describe_digging_in(const GainLimit& limit) {
   constexpr const char* kRemedy = "it takes a deeper cut (--depth-of-cut) or less force";
   return std::isfinite(limit.engagement)
              ? fmt::format("with it the cut would become {:.2g} times as deep; {}",
@@ -49,7 +70,7 @@ std::string describe_digging_in(const control::GainLimit& limit) {
              : fmt::format("the tool digs in by itself; {}", kRemedy);
 }
 
-std::string describe_fading(const control::GainLimit& limit) {
+std::string describe_fading(const GainLimit& limit) {
   return fmt::format("should the correction fade out, the cut becomes {:.2g} times as deep",
                      limit.engagement_without);
 }

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "control/path_gain.hpp"
+#include "flexcomp/loop_gain.hpp"
+#include "simulation/milling.hpp"
 
 namespace flexcomp::cli {
 
@@ -13,7 +14,7 @@ namespace flexcomp::cli {
 /// say which one they assumed.
 struct ProcessOptions {
   simulation::Process process;
-  control::CorrectionLoop loop;
+  CorrectionLoop loop;
   bool is_none = false;  ///< the force does not answer the depth: nothing to analyse
 
   ProcessOptions();
@@ -22,14 +23,20 @@ struct ProcessOptions {
 /// --depth-of-cut, --material and --no-process.
 void add_process(CLI::App* command, ProcessOptions* options);
 
+/// --loop-period, --loop-filter-cutoff and --loop-delay, of the controller that a gain is for.
+void add_loop(CLI::App* command, CorrectionLoop* loop);
+
+/// "a cut 2 mm deep, …": what a table states.
+std::string describe(const GainBasis& basis);
+
 /// "a cut 2 mm deep, material outside, …"; what the loop assumes too.
 std::string describe(const ProcessOptions& options);
 
 /// Why no gain is safe, and what to do: "the tool digs in by itself, …".
-std::string describe_digging_in(const control::GainLimit& limit);
+std::string describe_digging_in(const GainLimit& limit);
 
-/// What happens to the cut without the correction.
-std::string describe_fading(const control::GainLimit& limit);
+/// Says how deep the cut becomes without the correction.
+std::string describe_fading(const GainLimit& limit);
 
 /// depth_of_cut, material, loop_period, loop_filter_cutoff, loop_delay; null without a process.
 nlohmann::ordered_json to_json(const ProcessOptions& options);

@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "flexcomp/loop_gain.hpp"
 #include "messages/table_trailer.hpp"
 
 namespace flexcomp::cli {
@@ -45,7 +46,9 @@ TableFile read_unproven_table(const std::filesystem::path& path, const model::Ro
              "bears the model's fingerprint, but its springs, joint limits, contents or first axis "
              "are not the model's");
     default:
-      refuse(path, "no table: its header holds what flexcomp never writes");
+      refuse(path,
+             "no table: its header holds what flexcomp never writes, or a largest gain that does "
+             "not follow from the process beside it");
   }
 }
 
@@ -57,9 +60,42 @@ Certificate derive_certificate(const std::filesystem::path& path, const model::R
   if (derived != Result::ok) {
     refuse(path, fmt::format("no table of this model: {}", describe(derived)));
   }
-  certificate.holds = certificate.error.position <= table.header().position_error &&
+  const InsideError stated = inside_error(table.header());
+  certificate.states_inside = stated.position > 0 || table.header().position_error == 0;
+  if (table.chart() == Chart::path &&
+      derive_inside_error<double, 6>(robot.elastic, table, &certificate.inside) != Result::ok) {
+    refuse(path, "no table of this model: its bound for angles off the program is no builder's");
+  }
+  certificate.inside_holds =
+      !certificate.states_inside || (certificate.inside.position <= stated.position &&
+                                     certificate.inside.orientation <= stated.orientation);
+  certificate.holds = certificate.inside_holds &&
+                      certificate.error.position <= table.header().position_error &&
                       certificate.error.orientation <= table.header().orientation_error;
   return certificate;
+}
+
+nlohmann::ordered_json to_json(const Table& table) {
+  const TableHeader& header = table.header();
+  const InsideError inside = inside_error(header);
+  const GainBasis basis = gain_basis(header);
+  nlohmann::ordered_json json = {{"chart", table.chart() == Chart::path ? "path" : "joint_grid"},
+                                 {"nodes", header.node_count},
+                                 {"bytes", header.size},
+                                 {"model_hash", fmt::format("{:016x}", table.model_hash())},
+                                 {"force_bound", header.force_bound},
+                                 {"moment_bound", header.moment_bound},
+                                 {"certified_position_error", header.position_error},
+                                 {"certified_orientation_error", header.orientation_error},
+                                 {"certified_inside_position_error", inside.position},
+                                 {"certified_inside_orientation_error", inside.orientation},
+                                 {"largest_gain", header.largest_gain}};
+  if (!is_empty(basis)) {
+    json["gain_basis"] = {{"least_push", basis.least_push},       {"most_push", basis.most_push},
+                          {"depth_of_cut", basis.depth_of_cut},   {"period", basis.period},
+                          {"filter_cutoff", basis.filter_cutoff}, {"delay", basis.delay}};
+  }
+  return json;
 }
 
 TableFile read_table(const std::filesystem::path& path, const model::Robot& robot) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "flexcomp/table_builder.hpp"
@@ -16,8 +17,11 @@ struct TableFile {
 
 /// A certificate, derived again from a table's own content.
 struct Certificate {
-  TableError<double> error;
-  bool holds = false;  ///< Does the header state no less?
+  TableError<double> error;    ///< on the chords between the nodes; of a grid everywhere
+  TableError<double> inside;   ///< path: at all angles that a tick takes for inside
+  bool states_inside = false;  ///< Does the header state the second? Older tables do not.
+  bool inside_holds = false;   ///< Does it state no less than was found, or nothing?
+  bool holds = false;          ///< Does the header state no less in all that it states?
 };
 
 /// Reads a table, whatever robot it is of; throws InputError for what is no table, or damaged.
@@ -30,6 +34,9 @@ TableFile read_unproven_table(const std::filesystem::path& path, const model::Ro
 /// Throws InputError, naming `path`, for records that no builder writes.
 Certificate derive_certificate(const std::filesystem::path& path, const model::Robot& robot,
                                const Table& table);
+
+/// Chart, sizes, model hash, bounds, certificates and the largest gain with what it follows from.
+nlohmann::ordered_json to_json(const Table& table);
 
 /// Same as the first, and refuses a table whose certificate does not hold: what every command that
 /// corrects with a table reads it by.

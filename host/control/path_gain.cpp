@@ -2,23 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "flexcomp/compliance.hpp"
 
 namespace flexcomp::control {
 namespace {
-
-/// Of the feedback λ (cut_feedback), along a path.
-struct FeedbackRange {
-  double least = 0;
-  double most = 0;
-
-  void include(double feedback) {
-    least = std::min(least, feedback);
-    most = std::max(most, feedback);
-  }
-};
 
 /// The part of a displacement that is at right angles to the feed at a row.
 double across_feed(const Vector3<double>& displacement, const recording::Samples& position,
@@ -29,6 +17,8 @@ double across_feed(const Vector3<double>& displacement, const recording::Samples
   const Vector3<double> along = feed.norm() > 0 ? feed.normalized() : Vector3<double>::Zero();
   return (displacement - along * along.dot(displacement)).norm();
 }
+
+}  // namespace
 
 FeedbackRange feedback_along(const RobotModel<double, 6>& model, const recording::Recording& path,
                              const simulation::Process& process) {
@@ -60,32 +50,15 @@ FeedbackRange feedback_along(const RobotModel<double, 6>& model, const recording
   return range;
 }
 
-}  // namespace
-
-GainLimit gain_limit_along(const RobotModel<double, 6>& model, const recording::Recording& path,
-                           const simulation::Process& process, const CorrectionLoop& loop,
-                           double softer) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const FeedbackRange range = feedback_along(model, path, process);
-  const auto deepened = [&](double gain) {
-    const double left = 1 - range.most * (1 - gain / softer);
-    return left > 0 ? 1 / left : kInfinite;
-  };
-  GainLimit limit;
-  limit.engagement_without = deepened(0);
-  if (range.most < 1) {
-    // λ/(1−λ) grows with λ: only the ends of the range can be the worst.
-    const auto critical = [&](double feedback) {
-      return critical_gain(feedback / softer / (1 - feedback), loop);
-    };
-    limit.stable = std::min(critical(range.least), critical(range.most));
-  }
-  limit.safe = std::clamp(limit.stable / GainLimit::kMargin, GainLimit::kNone, 1.0);
-  limit.engagement = range.most < 1 ? deepened(limit.safe) : kInfinite;
-  if (limit.digs_in()) {
-    limit.safe = GainLimit::kNone;
-  }
-  return limit;
+GainBasis gain_basis(const FeedbackRange& feedback, const simulation::Process& process,
+                     const CorrectionLoop& loop) {
+  const double depth = process.depth_of_cut;
+  return {static_cast<float>(feedback.least * depth),
+          static_cast<float>(feedback.most * depth),
+          static_cast<float>(depth),
+          static_cast<float>(loop.period),
+          static_cast<float>(loop.filter_cutoff),
+          static_cast<float>(loop.delay)};
 }
 
 }  // namespace flexcomp::control

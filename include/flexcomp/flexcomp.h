@@ -21,7 +21,7 @@ extern "C" {
 
 #define FLEXCOMP_JOINTS 6
 
-/// What a call came to. Stable numbers.
+/// Result of a call. Stable numbers.
 typedef enum flexcomp_result {
   FLEXCOMP_OK = 0,
   FLEXCOMP_BAD_ARGUMENT = 1,       ///< a null pointer, a size of zero, or an unknown option
@@ -42,7 +42,7 @@ typedef enum flexcomp_result {
   FLEXCOMP_NO_TABLE = 16             ///< no table yet
 } flexcomp_result_t;
 
-/// What a compensator is doing. Stable numbers.
+/// State of a compensator. Stable numbers.
 typedef enum flexcomp_state {
   FLEXCOMP_STATE_OFF = 0,         ///< no correction
   FLEXCOMP_STATE_FADING_IN = 1,   ///< the correction grows to its full size
@@ -130,7 +130,7 @@ flexcomp_result_t flexcomp_model_respond(const flexcomp_model_t* model,
                                          const float q[FLEXCOMP_JOINTS], const float wrench[6],
                                          float deflection[6], float correction[FLEXCOMP_JOINTS]);
 
-/// What a table must hold up to.
+/// Loads and tolerances that a table is built for.
 typedef struct flexcomp_table_requirements {
   float force_bound;            ///< N, largest force that will act
   float moment_bound;           ///< N·m
@@ -185,9 +185,10 @@ flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_ta
 /// using a table from elsewhere: the fingerprint that a compensator compares is a claim of the
 /// table, while this compares the springs, joint limits and all else that a tick reads of its
 /// header. FLEXCOMP_OK, or BAD_ARGUMENT, NO_TABLE (not opened), BAD_MODEL, TABLE_OTHER_MODEL (its
-/// header says something else of the robot), TABLE_CORRUPT (a header that no builder writes). Cost:
-/// about 5,000 operations. The records are looked at by `flexcomp table verify`, which derives the
-/// certificate again.
+/// header says something else of the robot), TABLE_CORRUPT (a header that no builder writes, or a
+/// largest gain that does not follow from the process beside it). Cost: about 5,000 operations, and
+/// a million where the table states a process. The records are looked at by `flexcomp table
+/// verify`, which derives the certificates again.
 flexcomp_result_t flexcomp_table_check_model(const flexcomp_table_t* table,
                                              const flexcomp_model_t* model);
 
@@ -294,8 +295,8 @@ enum {
 /// A few words for a person; never null. `bit`: one bit of the status word.
 const char* flexcomp_describe_arc_status_bit(uint32_t bit);
 
-/// What is tuned in adaptive robust control, joint side of the gears; flexcomp design-arc writes it
-/// as a header. What each is stands in flexcomp/arc.hpp.
+/// Gains of adaptive robust control, joint side of the gears; flexcomp design-arc writes them as a
+/// header. flexcomp/arc.hpp says what each is.
 typedef struct flexcomp_arc_gains {
   float period;                               ///< s
   float rotor_inertia[FLEXCOMP_JOINTS];       ///< kg·m²

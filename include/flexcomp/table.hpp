@@ -7,7 +7,7 @@
 
 namespace flexcomp {
 
-/// What joint angles a table covers.
+/// Set of joint angles that a table covers.
 enum class Chart : std::uint32_t {
   path = 1,        ///< the neighbourhood of a known program
   joint_grid = 2,  ///< boxes over the middle joints; joints 1 and 6 enter as exact rotations
@@ -40,9 +40,10 @@ struct TableHeader {
   std::uint32_t grid_axes;
   std::uint32_t grid_joint[kMaxGridAxes];  ///< index of the joint along each axis, from 0
   std::uint32_t grid_nodes[kMaxGridAxes];
-  float grid_lower[kMaxGridAxes];   ///< rad
-  float grid_step[kMaxGridAxes];    ///< rad
-  float fixed_angle[kTableJoints];  ///< grid: rad, where the middle joints off the axes must stand
+  float grid_lower[kMaxGridAxes];   ///< grid: rad; path: `inside_error`
+  float grid_step[kMaxGridAxes];    ///< grid: rad
+  float fixed_angle[kTableJoints];  ///< grid: rad, where the middle joints off the axes must stand;
+                                    ///< path: `gain_basis`
   float first_axis[3];              ///< grid: axis of joint 1, base frame
   float joint_lower[kTableJoints];  ///< rad, limits of the robot
   float joint_upper[kTableJoints];
@@ -50,13 +51,43 @@ struct TableHeader {
   float cubic_compliance[kTableJoints];  ///< rad/(N·m)³
   float force_bound;                     ///< N, the certificate holds for forces up to this
   float moment_bound;                    ///< N·m
-  float position_error;     ///< m, certified largest error of deflection and of correction
+  float position_error;     ///< m, certified largest error of deflection and of correction: of a
+                            ///< path table on its program, of a grid everywhere in it
   float orientation_error;  ///< rad
   float largest_gain;       ///< largest safe correction gain; 0 where it was not analysed
 };
 
-/// What of a table's header sizes, indices and branches are taken from, in narrow types that hold
-/// any a table can have.
+/// The cut, and the loop that corrects it, from which the largest gain of a path table follows
+/// (`gain_limit` in flexcomp/loop_gain.hpp). All zero where no process was analysed.
+struct GainBasis {
+  float least_push = 0;  ///< m, zero or below: along the program, the least displacement of the TCP
+                         ///< into the material under the nominal wrench
+  float most_push = 0;   ///< m, zero or above: the largest
+  float depth_of_cut = 0;   ///< m, nominal
+  float period = 0;         ///< s, of a tick
+  float filter_cutoff = 0;  ///< Hz, of the low-pass on the wrench; 0: none
+  float delay = 0;          ///< s, from the wrench to the robot standing corrected
+};
+
+/// Largest errors, for any wrench within the bounds.
+struct InsideError {
+  float position = 0;     ///< m
+  float orientation = 0;  ///< rad
+};
+
+/// A path table's fields lie in words of the header that only a grid uses otherwise. Tables of
+/// before they were stated have zeros there; so has a grid for those who ask.
+GainBasis gain_basis(const TableHeader& header);
+void set_gain_basis(const GainBasis& basis, TableHeader* header);
+
+/// The certificate for all joint angles that a tick takes for inside a path table, which may be off
+/// the chord between two nodes by the width that stands in the record: more than the error on the
+/// program itself, for which the table was made. Zero where it is not stated.
+InsideError inside_error(const TableHeader& header);
+void set_inside_error(const InsideError& error, TableHeader* header);
+
+/// The fields of a header that sizes, indices and branches come from, in narrow types that hold any
+/// value a table can have.
 struct TableShape {
   std::uint8_t chart = 0;
   std::uint8_t contents = 0;
@@ -121,7 +152,7 @@ struct TableCursor {
   std::uint32_t searched = 0;  ///< segments looked at since the program was lost
 };
 
-/// What a table says at one set of joint angles; base frame.
+/// Content of a table at one set of joint angles; base frame.
 template <typename Scalar, int Joints>
 struct TableEntry {
   Jacobian<Scalar, Joints> jacobian;

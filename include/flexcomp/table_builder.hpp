@@ -4,7 +4,7 @@
 
 namespace flexcomp {
 
-/// What a table must hold up to.
+/// Loads and tolerances that a table is built for.
 template <typename Scalar>
 struct TableRequirements {
   Scalar force_bound;            ///< N, largest force that will act
@@ -12,9 +12,10 @@ struct TableRequirements {
   Scalar position_tolerance;     ///< m, largest allowed error at the TCP
   Scalar orientation_tolerance;  ///< rad
   Scalar largest_gain = 0;       ///< largest safe correction gain, 0 if not analysed
+  GainBasis gain_basis = {};  ///< path: what that gain follows from; all zero if not to be stated
 };
 
-/// What is certified: over the whole chart, for any wrench within the bounds, neither the predicted
+/// A certificate: over the whole chart, for any wrench within the bounds, neither the predicted
 /// deflection nor the TCP after correction is further from the model's than this.
 template <typename Scalar>
 struct TableError {
@@ -35,7 +36,8 @@ struct GridRange {
 /// as the tolerance allows, and at its corners. The certificate is not a sample: between the points
 /// where the error is computed, the second derivative of error along the program is bounded in
 /// closed form from the robot's link lengths and springs, and what it can add is part of the bound,
-/// as is the rounding of `float` arithmetic in the lookup.
+/// as is the rounding of `float` arithmetic in the lookup. Beside it stands a second certificate,
+/// for all angles that a lookup takes for inside (`inside_error`).
 ///
 /// Cost: some thousand evaluations of the model a node; no memory but the buffer and about 4 KiB of
 /// stack. Returns ok, bad_argument, bad_model, bad_path, buffer_too_small or tolerance_not_met
@@ -59,12 +61,15 @@ Result build_grid_table(const RobotModel<Scalar, Joints>& model,
 
 /// Does a table's header say of the robot what the model says? All that a tick reads of it is
 /// looked at: fingerprint, springs, joint limits, contents, first axis, whether the program is
-/// closed, and that bounds and unused fields are as a builder writes them. `Table::open` cannot
-/// know this, and the fingerprint alone is a claim that anyone can copy into a table.
+/// closed, that the largest gain follows from the process that is stated with it, and that bounds
+/// and unused fields are as a builder writes them. `Table::open` cannot know this, and the
+/// fingerprint alone is a claim that anyone can copy into a table.
 ///
-/// Exact: a table of another robot is refused, however little it differs. Cost: some thousand
-/// operations. Returns ok, bad_argument (no table), bad_model, table_other_model (the header says
-/// something else of the robot) or table_corrupt (no builder writes such a header).
+/// Exact: a table of another robot is refused, however little it differs. A largest gain without a
+/// process (of an older table, or given by who built it) is taken as it is. Cost: some thousand
+/// operations, and a millisecond on a PC where a process is stated. Returns ok, bad_argument (no
+/// table), bad_model, table_other_model (the header says something else of the robot) or
+/// table_corrupt (no builder writes such a header).
 template <typename Scalar, int Joints>
 Result check_against_model(const RobotModel<Scalar, Joints>& model, const Table& table);
 
@@ -74,13 +79,24 @@ Result check_against_model(const RobotModel<Scalar, Joints>& model, const Table&
 /// derivation ends where it is.
 ///
 /// Not seen are the program's deviations from the chords, which the builder looks at too: a path
-/// table does not hold its program. Returns ok, or what `check_against_model` returns, or
-/// table_corrupt: planes or widths that no builder writes, or an error stated a hundred times above
-/// what is found. Cost: as for building the table, without the attempts. For tables that were built
-/// in `float` and in `double`; to be run in `double`.
+/// table does not hold its program. `derive_inside_error` bounds what they can do. Returns ok, or
+/// what `check_against_model` returns, or table_corrupt: planes or widths that no builder writes,
+/// or an error stated a hundred times above what is found. Cost: as for building the table, without
+/// the attempts. For tables that were built in `float` and in `double`; to be run in `double`.
 template <typename Scalar, int Joints>
 Result derive_certificate(const RobotModel<Scalar, Joints>& model, const Table& table,
                           TableError<Scalar>* error);
+
+/// Derives again, from nodes, widths and model, the largest error at any joint angles that a tick
+/// takes for inside a path table (of a grid: `derive_certificate`). The planes in the records need
+/// not be believed for it: wherever they put the angles along a chord, a tick takes them only if
+/// they lie within the width of that place. Holds if `error` is not above what `inside_error` of
+/// the header states, where it does; the derivation ends where it is. Returns ok, or what
+/// `check_against_model` returns, or table_corrupt: an error stated more than twice what is found.
+/// Cost: some hundred evaluations of the model a node.
+template <typename Scalar, int Joints>
+Result derive_inside_error(const RobotModel<Scalar, Joints>& model, const Table& table,
+                           TableError<Scalar>* error);
 
 /// Largest error of the table against the model at joint angles `q`, for the worst wrench within
 /// the table's bounds: the second look at a certificate.

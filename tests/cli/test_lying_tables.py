@@ -53,8 +53,9 @@ class LyingTables(Command):
     def test_a_true_table_holds(self):
         told = self.verify(self.true)
         self.assertEqual(0, told.returncode, told.stderr)
-        self.assertIn("largest safe gain", told.stdout)
-        self.assertIn("NOT CHECKED", told.stdout)
+        self.assertRegex(told.stdout, r"largest safe gain: +\S+, as follows from a cut 2 mm deep, .*ticks every 4 ms")
+        self.assertIn("holds on the chords", told.stdout)
+        self.assertNotIn("NOT", told.stdout)
         told = self.verify(self.true, "--path", self.path, *PROCESS)
         self.assertEqual(0, told.returncode, told.stdout + told.stderr)
         self.assertNotIn("NOT", told.stdout)
@@ -82,11 +83,40 @@ class LyingTables(Command):
                     self.assertIn("DOES NOT HOLD", told.stdout)
                 self.assertEqual(2, self.compensate(lie).returncode)
 
-    def test_a_largest_gain_that_the_process_does_not_give_does_not_hold(self):
+    def test_a_largest_gain_that_does_not_follow_from_the_process_beside_it_is_refused(self):
         for change in (lambda gain: 5 * gain, lambda gain: 0, lambda gain: 1000.0, lambda gain: 0.9 * gain):
-            told = self.verify(self.lie(largest_gain=change), "--path", self.path, *PROCESS)
-            self.assertEqual(1, told.returncode, told.stdout + told.stderr)
-            self.assertIn("NOT THE SAME", told.stdout)
+            lie = self.lie(largest_gain=change)
+            for told in (self.verify(lie), self.compensate(lie),
+                         flexcomp("configure", "--model", KR270, "--table", lie, "--out", self.folder / "node.toml")):
+                self.assertEqual(2, told.returncode, told.stdout + told.stderr)
+                self.assertIn("does not follow from the process beside it", told.stderr)
+
+    def test_a_process_that_is_not_yours_does_not_hold(self):
+        told = self.verify(self.true, "--path", self.path, "--depth-of-cut", "1e-3")
+        self.assertEqual(1, told.returncode, told.stdout + told.stderr)
+        self.assertIn("NOT THE SAME", told.stdout)
+
+    def test_widths_that_let_in_more_than_is_stated_do_not_hold(self):
+        content = self.true.read_bytes()
+        (size,) = struct.unpack_from("<I", content, FIELDS["record_size"])
+        (nodes,) = struct.unpack_from("<I", content, FIELDS["node_count"])
+        widths = {f"width_{node}": HEADER_BYTES + 4 * (node * size + 24) for node in range(nodes)}
+        FIELDS.update(widths)
+        lie = self.lie(**{name: lambda width: 1.3 * width for name in widths})
+        told = self.verify(lie)
+        self.assertEqual(1, told.returncode, told.stdout + told.stderr)
+        self.assertRegex(told.stdout, r"bound at all angles it takes: .*DOES NOT HOLD")
+        self.assertEqual(2, self.compensate(lie).returncode)
+
+    def test_an_older_table_is_used_but_not_vouched_for_without_its_program(self):
+        nothing = {name: lambda _: 0 for name in [f"fixed_angle_{i}" for i in range(6)] + ["grid_lower_0", "grid_lower_1"]}
+        older = self.lie(**nothing)
+        told = self.verify(older)
+        self.assertEqual(1, told.returncode, told.stdout + told.stderr)
+        self.assertEqual(2, told.stdout.count("NOT CHECKED: an older flexcomp made the table"))
+        told = self.verify(older, "--path", self.path, *PROCESS)
+        self.assertEqual(0, told.returncode, told.stdout + told.stderr)
+        self.assertEqual(0, self.compensate(older).returncode)
 
     def test_records_that_lie_do_not_hold(self):
         content = self.true.read_bytes()
@@ -111,7 +141,11 @@ class LyingTables(Command):
     def test_json_tells_what_was_derived_and_what_was_checked(self):
         told = json.loads(self.run_well("table", "verify", self.true, "--model", KR270, "--json", "--samples", "200"))
         self.assertTrue(told["holds"])
-        self.assertFalse(told["gain_checked"])
+        self.assertTrue(told["gain_checked"])
+        self.assertTrue(told["inside_checked"])
+        self.assertFalse(told["program_checked"])
+        self.assertEqual(0.002, round(told["gain_basis"]["depth_of_cut"], 9))
+        self.assertLessEqual(told["derived_inside_position_error"], told["certified_inside_position_error"])
         self.assertLessEqual(told["derived_position_error"], told["certified_position_error"])
 
 

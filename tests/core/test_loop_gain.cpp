@@ -3,11 +3,10 @@
 #include <random>
 #include <vector>
 
-#include "control/loop_gain.hpp"
+#include "flexcomp/loop_gain.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
-using namespace flexcomp::control;
 
 namespace {
 
@@ -47,7 +46,7 @@ void with_delay_alone_the_limit_is_a_loop_of_one() {
 void below_the_critical_gain_the_loop_dies_out_and_above_it_grows() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < (FLEXCOMP_FEW_CASES ? 20 : 200); ++i) {
     const CorrectionLoop loop = {0.004, uniform(random) < 0.3 ? 0 : 1 + 60 * uniform(random),
                                  0.004 * (1 + static_cast<int>(5 * uniform(random)))};
     const double factor = (0.1 + 5 * uniform(random)) * (uniform(random) < 0.5 ? -1 : 1);
@@ -57,31 +56,71 @@ void below_the_critical_gain_the_loop_dies_out_and_above_it_grows() {
   }
 }
 
+/// The least and the largest feedback the same.
+GainLimit limit_of(double feedback, const CorrectionLoop& loop) {
+  FeedbackRange range;
+  range.include(feedback);
+  return gain_limit(range, loop);
+}
+
 void a_tool_pushed_out_of_the_cut_may_be_corrected_in_full() {
-  const Compliance<double> compliance = Compliance<double>::Identity() * 1e-6;
-  Wrench<double> wrench;
-  wrench << 1000, 0, 0, 0, 0, 0;
-  // The force pushes away from the material, and weakens as the tool gives way.
-  const double feedback = cut_feedback(compliance, wrench, {-1, 0, 0}, 0.002);
-  TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.5, feedback);
-  TEST_ASSERT_EQUAL_DOUBLE(1, largest_safe_gain(feedback, {0.004, 0, 0.004}, 1));
+  // L is −g/3: the correction meets a force that weakens as the tool gives way.
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 3, limit_of(-0.5, {0.004, 0, 0.004}).stable);
+  TEST_ASSERT_EQUAL_DOUBLE(1, limit_of(-0.5, {0.004, 0, 0.004}).safe);
 }
 
 void a_tool_pulled_into_the_cut_is_limited_by_the_closed_form() {
   // Without a filter L is g λ/(1−λ), which may be one; half of that with the margin.
-  for (const double feedback : {0.4, 0.6, 0.8, 0.95}) {
+  for (const double feedback : {0.3, 0.4, 0.6}) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, std::fmin(1.0, (1 - feedback) / feedback / 2),
-                              largest_safe_gain(feedback, {0.004, 0, 0.004}));
+                              limit_of(feedback, {0.004, 0, 0.004}).safe);
   }
 }
 
+void where_no_stable_gain_keeps_the_cut_shallow_none_is_safe() {
+  // 2/(3 (1 − λ)) times as deep with half of the stable gain: twice at λ = 2/3.
+  TEST_ASSERT_FALSE(limit_of(0.66, {0.004, 0, 0.004}).digs_in());
+  TEST_ASSERT_TRUE(limit_of(0.67, {0.004, 0, 0.004}).digs_in());
+  TEST_ASSERT_EQUAL_DOUBLE(GainLimit::kNone, limit_of(0.67, {0.004, 0, 0.004}).safe);
+}
+
 void a_process_that_digs_in_by_itself_allows_no_correction() {
-  TEST_ASSERT_EQUAL_DOUBLE(0, largest_safe_gain(1.0, {0.004, 20, 0.004}));
-  TEST_ASSERT_EQUAL_DOUBLE(0, largest_safe_gain(1.7, {0.004, 20, 0.004}));
+  for (const double feedback : {1.0, 1.7}) {
+    TEST_ASSERT_EQUAL_DOUBLE(0, limit_of(feedback, {0.004, 20, 0.004}).stable);
+    TEST_ASSERT_EQUAL_DOUBLE(GainLimit::kNone, limit_of(feedback, {0.004, 20, 0.004}).safe);
+  }
 }
 
 void no_feedback_allows_every_gain() {
-  TEST_ASSERT_EQUAL_DOUBLE(1, largest_safe_gain(0, {0.004, 20, 0.004}));
+  TEST_ASSERT_EQUAL_DOUBLE(1, limit_of(0, {0.004, 20, 0.004}).safe);
+}
+
+void a_gain_follows_from_its_own_process_only() {
+  const GainBasis basis{-0.0002F, 0.0012F, 0.002F, 0.004F, 60, 0.004F};
+  const double safe = gain_limit(basis).safe;
+  TEST_ASSERT_TRUE(safe > 0.1 && safe < 1);
+  TEST_ASSERT_TRUE(follows_from(safe, basis));
+  for (const double other : {0.0, -safe, 1.001 * safe, 0.999 * safe, 1000.0, std::nan("")}) {
+    TEST_ASSERT_FALSE(follows_from(other, basis));
+  }
+  for (float GainBasis::*const number : {&GainBasis::most_push, &GainBasis::depth_of_cut,
+                                         &GainBasis::period, &GainBasis::filter_cutoff}) {
+    GainBasis altered = basis;
+    altered.*number *= 1.1F;
+    TEST_ASSERT_FALSE(follows_from(safe, altered));
+  }
+  TEST_ASSERT_TRUE(follows_from(0.7, GainBasis{}));
+}
+
+void a_process_that_cannot_be_allows_no_gain() {
+  const GainBasis basis{-0.0002F, 0.0012F, 0.002F, 0.004F, 60, 0.004F};
+  for (float GainBasis::*const number :
+       {&GainBasis::least_push, &GainBasis::most_push, &GainBasis::depth_of_cut, &GainBasis::period,
+        &GainBasis::filter_cutoff, &GainBasis::delay}) {
+    GainBasis altered = basis;
+    altered.*number *= -1;
+    TEST_ASSERT_FALSE(follows_from(gain_limit(basis).safe, altered));
+  }
 }
 
 }  // namespace
@@ -92,7 +131,10 @@ int main() {
   RUN_TEST(below_the_critical_gain_the_loop_dies_out_and_above_it_grows);
   RUN_TEST(a_tool_pushed_out_of_the_cut_may_be_corrected_in_full);
   RUN_TEST(a_tool_pulled_into_the_cut_is_limited_by_the_closed_form);
+  RUN_TEST(where_no_stable_gain_keeps_the_cut_shallow_none_is_safe);
   RUN_TEST(a_process_that_digs_in_by_itself_allows_no_correction);
   RUN_TEST(no_feedback_allows_every_gain);
+  RUN_TEST(a_gain_follows_from_its_own_process_only);
+  RUN_TEST(a_process_that_cannot_be_allows_no_gain);
   return UNITY_END();
 }
