@@ -20,14 +20,14 @@ class OptionList {
 
   /// May change: `Node::configure` takes its new value.
   template <typename Value>
-  CLI::Option* add_changeable(const char* name, Value* value, const char* help) {
+  CLI::Option* add_changeable(const std::string& name, Value* value, const std::string& help) {
     return add(name, value, help)->group("Options, read again on SIGHUP");
   }
 
   /// Read at start only. `value` outlives this.
   template <typename Value>
-  CLI::Option* add_fixed(const char* name, Value* value, const char* help) {
-    texts_.push_back({name + 2, [value] { return text(*value); }});  // without the dashes
+  CLI::Option* add_fixed(const std::string& name, Value* value, const std::string& help) {
+    texts_.push_back({name.substr(2), [value] { return text(*value); }});  // without the dashes
     return add(name, value, help)->group("Options, read at start only");
   }
 
@@ -47,7 +47,7 @@ class OptionList {
   };
 
   template <typename Value>
-  CLI::Option* add(const char* name, Value* value, const char* help) {
+  CLI::Option* add(const std::string& name, Value* value, const std::string& help) {
     if constexpr (std::is_same_v<Value, bool>) {
       return app_->add_flag(name, *value, help);
     } else {

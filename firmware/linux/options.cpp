@@ -1,6 +1,7 @@
 #include "linux/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <set>
 
 #include "linux/build_info.hpp"
@@ -9,6 +10,7 @@
 #include "linux/option_list.hpp"
 #include "linux/whole_file.hpp"
 #include "node/default_config.hpp"
+#include "node/settings_numbers.hpp"
 
 namespace flexcomp {
 namespace {
@@ -32,48 +34,35 @@ constexpr const char* kDescription =
 struct Typed {
   std::string model_hash;
   std::string trigger = "setpoint";
-  std::vector<float> joint_speed = {1.5F};
-  std::vector<float> value = {0.01F};
-  std::vector<float> rate = {0.1F};
-  std::vector<float> acceleration = {5.0F};
+  std::map<std::string, std::vector<float>> of_joints;  ///< by the option's name
   bool without_identity = false;
 };
 
-/// A number that `is_good`; CLI11's own ranges name their far end too.
-CLI::Validator number(const char* expected, bool (*is_good)(double)) {
+const char* described(SettingRange range) {
+  switch (range) {
+    case SettingRange::above_zero:
+      return "a number above zero";
+    case SettingRange::zero_or_above:
+      return "a number of zero or above";
+    case SettingRange::zero_to_one:
+      return "a number from 0 to 1";
+    default:
+      return "a number";
+  }
+}
+
+/// CLI11's own ranges name their far end too, which is none for most numbers.
+CLI::Validator in_range(SettingRange range) {
+  if (range == SettingRange::up_to_six) {
+    return CLI::Range(0, 6);
+  }
   return {[=](std::string& text) {
             double value = 0;
-            return CLI::detail::lexical_cast(text, value) && is_good(value)
+            return CLI::detail::lexical_cast(text, value) && is_in_range(value, range)
                        ? std::string()
-                       : std::string("expected ") + expected + ", not " + text;
+                       : std::string("expected ") + described(range) + ", not " + text;
           },
           ""};
-}
-
-CLI::Validator above_zero() {
-  return number("a number above zero", [](double value) { return value > 0; });
-}
-
-CLI::Validator zero_or_above() {
-  return number("a number of zero or above", [](double value) { return value >= 0; });
-}
-
-CLI::Validator zero_to_one() {
-  return number("a number from 0 to 1", [](double value) { return value >= 0 && value <= 1; });
-}
-
-template <typename Number>
-void positive(OptionList* app, const char* name, Number* value, const char* help) {
-  app->add_changeable(name, value, help)->check(above_zero());
-}
-
-template <typename Number>
-void not_negative(OptionList* app, const char* name, Number* value, const char* help) {
-  app->add_changeable(name, value, help)->check(zero_or_above());
-}
-
-void one_or_six(OptionList* app, const char* name, std::vector<float>* values, const char* help) {
-  app->add_changeable(name, values, help)->check(above_zero())->expected(1, 6)->delimiter(',');
 }
 
 void add_links(OptionList* app, Options* options, Typed* typed) {
@@ -87,11 +76,6 @@ void add_links(OptionList* app, Options* options, Typed* typed) {
   app->add_fixed("--trigger", &typed->trigger, "what makes a tick: setpoint, clock or lockstep")
       ->transform(
           CLI::IsMember(std::set<std::string>{"setpoint", "clock", "lockstep"}, CLI::ignore_case));
-  app->add_fixed("--tolerated-losses", &options->settings.tolerated_losses,
-                 "messages in a row that may be lost without a break")
-      ->check(CLI::Range(0, 6));
-  positive(app, "--heartbeat", &options->settings.node.heartbeat_period,
-           "s, from one heartbeat to the next");
 }
 
 void add_table(OptionList* app, Options* options, Typed* typed) {
@@ -105,45 +89,32 @@ void add_table(OptionList* app, Options* options, Typed* typed) {
                       "arm even if the sender has not said which robot it works with");
 }
 
-void add_correction(OptionList* app, Options* options, Typed* typed) {
-  auto& core = options->settings.node.compensator;
-  app->add_fixed("--period", &core.period, "s, from one tick to the next")->check(above_zero());
-  app->add_changeable("--gain", &core.gain, "share of the deflection that is corrected")
-      ->check(zero_to_one());
-  not_negative(app, "--filter-cutoff", &core.filter_cutoff, "Hz, low-pass on the wrench; 0: none");
-  one_or_six(app, "--correction-limit", &typed->value,
-             "rad, largest correction; one or a joint each");
-  one_or_six(app, "--correction-rate", &typed->rate, "rad/s, of the correction");
-  one_or_six(app, "--correction-acceleration", &typed->acceleration, "rad/s^2, of the correction");
-  positive(app, "--deflection-limit", &core.deflection_limit, "m, largest correction at the TCP");
-  positive(app, "--deflection-warning", &options->settings.node.deflection_warning,
-           "m, predicted: remark");
-  positive(app, "--deflection-error", &options->settings.node.deflection_error,
-           "m, predicted: fault");
-  positive(app, "--chart-margin", &core.chart_margin,
-           "rad, outside the table, over which the correction fades");
-  not_negative(app, "--hold-time", &core.hold_time,
-               "s, a fault may last before fading out; bad ticks count up, good ones down");
-  not_negative(app, "--fade-time", &core.fade_time, "s, from nothing to full correction and back");
-  app->add_changeable("--ready-ticks", &core.ready_ticks, "good inputs in a row before arming");
-}
+/// Adds an option for each number of the settings.
+class NumberOptions {
+ public:
+  NumberOptions(OptionList* list, Typed* typed) : list_(list), typed_(typed) {}
 
-void add_plausibility(OptionList* app, Options* options, Typed* typed) {
-  auto& core = options->settings.node.compensator;
-  positive(app, "--force-range", &core.force_range, "N, largest plausible");
-  positive(app, "--moment-range", &core.moment_range, "N m, largest plausible");
-  positive(app, "--force-rate", &options->settings.node.wrench.force_rate,
-           "N/s, largest plausible change");
-  positive(app, "--moment-rate", &options->settings.node.wrench.moment_rate,
-           "N m/s, largest plausible");
-  not_negative(app, "--wrench-stuck-time", &options->settings.node.wrench.stuck_time,
-               "s, the same wrench while the robot moves; 0: not checked");
-  positive(app, "--setpoint-age-limit", &core.setpoint_age_limit, "s, beyond it one is stale");
-  positive(app, "--wrench-age-limit", &core.wrench_age_limit, "s, beyond it one is stale");
-  one_or_six(app, "--joint-speed", &typed->joint_speed, "rad/s, largest plausible");
-  positive(app, "--late-ticks", &options->settings.node.late_ticks,
-           "late ticks, beyond those on time, that are a fault");
-}
+  template <typename Number>
+  void operator()(const SettingNumber& about, Number* value) {
+    const std::string name = std::string("--") + about.name;
+    (about.only_at_start ? list_->add_fixed(name, value, about.help)
+                         : list_->add_changeable(name, value, about.help))
+        ->check(in_range(about.range));
+  }
+  /// One for all joints, or six.
+  void operator()(const SettingNumber& about, const JointNumbers<float>& values) {
+    std::vector<float>& typed = typed_->of_joints[about.name];
+    typed = {*values[0]};
+    list_->add_changeable(std::string("--") + about.name, &typed, about.help)
+        ->check(in_range(about.range))
+        ->expected(1, 6)
+        ->delimiter(',');
+  }
+
+ private:
+  OptionList* list_;
+  Typed* typed_;
+};
 
 void add_process(OptionList* app, Options* options) {
   app->add_fixed("--priority", &options->priority, "SCHED_FIFO priority; 0: ordinary scheduling")
@@ -156,16 +127,22 @@ void add_process(OptionList* app, Options* options) {
                  "write these settings to a file for a microcontroller's flash, and end");
 }
 
-/// `values` at a joint: its own, or the one for all.
-float at(const std::vector<float>& values, std::size_t joint) {
-  return values[values.size() == 1 ? 0 : joint];
-}
+/// Gives the joints what was typed for them.
+struct JointTransfer {
+  const Typed* typed;
 
-void require_one_or_six(const std::vector<float>& values, const char* name) {
-  if (values.size() != 1 && values.size() != 6) {
-    throw CLI::ValidationError(name, "expected one number, or six");
+  template <typename Number>
+  void operator()(const SettingNumber& /*about*/, Number* /*value*/) const {}
+  void operator()(const SettingNumber& about, const JointNumbers<float>& values) const {
+    const std::vector<float>& given = typed->of_joints.at(about.name);
+    if (given.size() != 1 && given.size() != values.size()) {
+      throw CLI::ValidationError(std::string("--") + about.name, "expected one number, or six");
+    }
+    for (std::size_t joint = 0; joint < values.size(); ++joint) {
+      *values[joint] = given[given.size() == 1 ? 0 : joint];
+    }
   }
-}
+};
 
 std::uint64_t parse_hash(const std::string& text) {
   const bool is_hash =
@@ -178,15 +155,8 @@ std::uint64_t parse_hash(const std::string& text) {
 
 /// Puts what was typed where it belongs.
 void transfer(const Typed& typed, Options* options) {
-  require_one_or_six(typed.joint_speed, "--joint-speed");
-  require_one_or_six(typed.value, "--correction-limit");
-  require_one_or_six(typed.rate, "--correction-rate");
-  require_one_or_six(typed.acceleration, "--correction-acceleration");
+  visit_numbers(&options->settings, JointTransfer{&typed});
   auto& core = options->settings.node.compensator;
-  for (std::size_t i = 0; i < core.limits.size(); ++i) {
-    core.joint_speed[static_cast<Eigen::Index>(i)] = at(typed.joint_speed, i);
-    core.limits[i] = {at(typed.value, i), at(typed.rate, i), at(typed.acceleration, i)};
-  }
   core.model_hash = parse_hash(typed.model_hash);
   options->settings.trigger = typed.trigger == "clock"      ? Trigger::clock
                               : typed.trigger == "lockstep" ? Trigger::lockstep
@@ -234,8 +204,7 @@ class Parser {
     app_.allow_config_extras(CLI::config_extras_mode::error);
     add_links(&list_, &options_, &typed_);
     add_table(&list_, &options_, &typed_);
-    add_correction(&list_, &options_, &typed_);
-    add_plausibility(&list_, &options_, &typed_);
+    visit_numbers(&options_.settings, NumberOptions(&list_, &typed_));
     add_process(&list_, &options_);
   }
 
@@ -248,7 +217,7 @@ class Parser {
     return options_;
   }
 
-  /// What is wrong with one option, whatever the others are; empty if nothing.
+  /// Says what is wrong with one option, whatever the others are; empty if nothing.
   std::string complaint_about(const std::string& name, const std::vector<std::string>& values) {
     const CLI::Option* option = app_.get_option_no_throw("--" + name);
     if (option == nullptr || option == app_.get_config_ptr()) {

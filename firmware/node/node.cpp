@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "node/seconds.hpp"
+#include "node/settings_numbers.hpp"
 
 namespace flexcomp {
 namespace {
@@ -47,22 +48,38 @@ std::uint32_t losses_in(const StreamCounters& stream) {
   return stream.lost + stream.corrupt + stream.incomplete;
 }
 
-/// Those beside the compensator's. A heartbeat's period is counted in ticks.
-bool own_numbers_are_usable(const NodeConfig& config) {
+/// Looks at numbers of settings one by one.
+struct RangeCheck {
+  bool holds = true;
+
+  template <typename Number>
+  void operator()(const SettingNumber& about, const Number* number) {
+    holds = holds && is_in_range(static_cast<double>(*number), about.range);
+  }
+  template <typename Number>
+  void operator()(const SettingNumber& about, const JointNumbers<Number>& numbers) {
+    for (const Number* number : numbers) {
+      (*this)(about, number);
+    }
+  }
+};
+
+/// Are all numbers in their range? A heartbeat's period is counted in ticks.
+bool numbers_are_usable(const NodeConfig& config) {
   constexpr double kMostTicksToHeartbeat = 1e9;
-  const double ticks_to_heartbeat =
-      config.heartbeat_period / static_cast<double>(config.compensator.period);
-  return config.heartbeat_period > 0 && ticks_to_heartbeat <= kMostTicksToHeartbeat &&
-         config.deflection_warning > 0 && config.deflection_error > 0 &&
-         config.wrench.force_rate > 0 && config.wrench.moment_rate > 0 &&
-         config.wrench.stuck_time >= 0 && config.late_ticks > 0;
+  NodeSettings settings;
+  settings.node = config;
+  RangeCheck check;
+  visit_numbers(&settings, check);
+  return check.holds && config.heartbeat_period / static_cast<double>(config.compensator.period) <=
+                            kMostTicksToHeartbeat;
 }
 
 }  // namespace
 
 bool is_usable(const NodeConfig& config) {
   Node::Core core;
-  return own_numbers_are_usable(config) && core.configure(config.compensator) == Result::ok;
+  return numbers_are_usable(config) && core.configure(config.compensator) == Result::ok;
 }
 
 Result Node::configure(const NodeConfig& config) {
@@ -73,7 +90,7 @@ Result Node::configure(const NodeConfig& config) {
     return Result::bad_config;
   }
   Core core;
-  if (!own_numbers_are_usable(config) || core.configure(config.compensator) != Result::ok) {
+  if (!numbers_are_usable(config) || core.configure(config.compensator) != Result::ok) {
     return Result::bad_config;
   }
   core_ = core;
@@ -143,7 +160,7 @@ void Node::post(const Message& message) {
   queue_[(queue_begin_ + queue_size_++) % kQueue] = message;
 }
 
-/// Of answers few wait, or who asks much would crowd out what the node says by itself.
+/// Few answers wait: else whoever asks much would crowd out what the node says by itself.
 bool Node::has_room(const Message& message) const {
   constexpr std::size_t kMostAnswers = 8;  // of a kind
   if (queue_size_ == kQueue) {
@@ -276,7 +293,7 @@ void Node::receive_one(const CorrectedMessage& /*message*/, std::int64_t /*now*/
   sticky_ |= kOtherNode;
 }
 
-/// What others say to each other.
+/// Ignores what others say to each other.
 template <typename Other>
 void Node::receive_one(const Other& /*message*/, std::int64_t /*now*/) {}
 

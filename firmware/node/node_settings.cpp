@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core/crc32.hpp"
+#include "node/settings_numbers.hpp"
 
 namespace flexcomp {
 namespace {
@@ -12,11 +13,63 @@ constexpr std::uint32_t kVersion = 2;         // 1 had no key
 constexpr std::uint32_t kRequireIdentity = 1;
 constexpr std::uint32_t kUseTimestamps = 2;
 constexpr std::uint32_t kHasKey = 4;
-constexpr std::uint32_t kMostToleratedLosses = 6;
 
 static_assert(sizeof(SettingsRecord) == 4 * 56, "the record is written to files: no padding");
 
-float single(double value) { return static_cast<float>(value); }
+/// Puts numbers into words, one after the other.
+class WordWriter {
+ public:
+  explicit WordWriter(std::uint32_t* to) : to_(to) {}
+
+  template <typename Number>
+  void operator()(const SettingNumber& /*about*/, const Number* number) {
+    put(*number);
+  }
+  template <typename Number>
+  void operator()(const SettingNumber& /*about*/, const JointNumbers<Number>& numbers) {
+    for (const Number* number : numbers) {
+      put(*number);
+    }
+  }
+
+ private:
+  void put(std::uint32_t number) { *to_++ = number; }
+  void put(double number) { put(static_cast<float>(number)); }
+  void put(float number) { std::memcpy(to_++, &number, sizeof number); }
+
+  std::uint32_t* to_;
+};
+
+/// Takes them out again, and sees whether all are in their range.
+class WordReader {
+ public:
+  explicit WordReader(const std::uint32_t* from, bool* are_in_range)
+      : from_(from), are_in_range_(are_in_range) {}
+
+  template <typename Number>
+  void operator()(const SettingNumber& about, Number* number) {
+    take(number);
+    *are_in_range_ = *are_in_range_ && is_in_range(static_cast<double>(*number), about.range);
+  }
+  template <typename Number>
+  void operator()(const SettingNumber& about, const JointNumbers<Number>& numbers) {
+    for (Number* number : numbers) {
+      (*this)(about, number);
+    }
+  }
+
+ private:
+  void take(std::uint32_t* number) { *number = *from_++; }
+  void take(float* number) { std::memcpy(number, from_++, sizeof *number); }
+  void take(double* number) {
+    float single = 0;
+    take(&single);
+    *number = static_cast<double>(single);
+  }
+
+  const std::uint32_t* from_;
+  bool* are_in_range_;
+};
 
 std::uint32_t record_crc(const SettingsRecord& record) {
   constexpr std::size_t kBegin = offsetof(SettingsRecord, crc) + sizeof record.crc;
@@ -38,32 +91,7 @@ SettingsRecord to_record(const NodeSettings& settings) {
   record.flags = (node.require_identity ? kRequireIdentity : 0U) |
                  (node.use_timestamps ? kUseTimestamps : 0U) | (settings.table_key ? kHasKey : 0U);
   record.table_key = settings.table_key.value_or(AuthenticationKey{});
-  record.ready_ticks = core.ready_ticks;
-  record.late_ticks = node.late_ticks;
-  record.tolerated_losses = settings.tolerated_losses;
-  record.period = core.period;
-  record.gain = core.gain;
-  record.filter_cutoff = core.filter_cutoff;
-  record.force_range = core.force_range;
-  record.moment_range = core.moment_range;
-  record.setpoint_age_limit = core.setpoint_age_limit;
-  record.wrench_age_limit = core.wrench_age_limit;
-  for (std::size_t i = 0; i < core.limits.size(); ++i) {
-    record.joint_speed[i] = core.joint_speed[static_cast<Eigen::Index>(i)];
-    record.limit_value[i] = core.limits[i].value;
-    record.limit_rate[i] = core.limits[i].rate;
-    record.limit_acceleration[i] = core.limits[i].acceleration;
-  }
-  record.deflection_limit = core.deflection_limit;
-  record.chart_margin = core.chart_margin;
-  record.hold_time = core.hold_time;
-  record.fade_time = core.fade_time;
-  record.deflection_warning = single(node.deflection_warning);
-  record.deflection_error = single(node.deflection_error);
-  record.heartbeat_period = single(node.heartbeat_period);
-  record.force_rate = single(node.wrench.force_rate);
-  record.moment_rate = single(node.wrench.moment_rate);
-  record.stuck_time = single(node.wrench.stuck_time);
+  visit_numbers(&settings, WordWriter(record.numbers.data()));
   record.crc = record_crc(record);
   return record;
 }
@@ -76,8 +104,7 @@ Result read_record(const void* data, std::size_t size, NodeSettings* settings) {
   std::memcpy(&record, data, sizeof record);
   if (record.magic != kMagic || record.version != kVersion || record.size != sizeof record ||
       record.crc != record_crc(record) ||
-      record.trigger > static_cast<std::uint32_t>(Trigger::lockstep) ||
-      record.tolerated_losses > kMostToleratedLosses) {
+      record.trigger > static_cast<std::uint32_t>(Trigger::lockstep)) {
     return Result::bad_config;
   }
   NodeSettings read;
@@ -90,31 +117,9 @@ Result read_record(const void* data, std::size_t size, NodeSettings* settings) {
   if ((record.flags & kHasKey) != 0) {
     read.table_key = record.table_key;
   }
-  core.ready_ticks = record.ready_ticks;
-  node.late_ticks = record.late_ticks;
-  read.tolerated_losses = record.tolerated_losses;
-  core.period = record.period;
-  core.gain = record.gain;
-  core.filter_cutoff = record.filter_cutoff;
-  core.force_range = record.force_range;
-  core.moment_range = record.moment_range;
-  core.setpoint_age_limit = record.setpoint_age_limit;
-  core.wrench_age_limit = record.wrench_age_limit;
-  for (std::size_t i = 0; i < core.limits.size(); ++i) {
-    core.joint_speed[static_cast<Eigen::Index>(i)] = record.joint_speed[i];
-    core.limits[i] = {record.limit_value[i], record.limit_rate[i], record.limit_acceleration[i]};
-  }
-  core.deflection_limit = record.deflection_limit;
-  core.chart_margin = record.chart_margin;
-  core.hold_time = record.hold_time;
-  core.fade_time = record.fade_time;
-  node.deflection_warning = static_cast<double>(record.deflection_warning);
-  node.deflection_error = static_cast<double>(record.deflection_error);
-  node.heartbeat_period = static_cast<double>(record.heartbeat_period);
-  node.wrench.force_rate = static_cast<double>(record.force_rate);
-  node.wrench.moment_rate = static_cast<double>(record.moment_rate);
-  node.wrench.stuck_time = static_cast<double>(record.stuck_time);
-  if (!is_usable(node)) {
+  bool are_in_range = true;
+  visit_numbers(&read, WordReader(record.numbers.data(), &are_in_range));
+  if (!are_in_range || !is_usable(node)) {
     return Result::bad_config;
   }
   *settings = read;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -8,7 +9,7 @@
 
 namespace flexcomp {
 
-/// What makes a tick. The numbers are stable: they stand in settings records.
+/// Cause of a tick. The numbers are stable: they stand in settings records.
 enum class Trigger : std::uint8_t {
   setpoint = 0,  ///< a setpoint, at most one a period; without one, the end of the period
   clock = 1,     ///< the period alone
@@ -34,31 +35,8 @@ struct SettingsRecord {
   std::uint32_t model_hash_high;
   std::uint32_t trigger;
   std::uint32_t flags;  ///< bits: 1 identity required, 2 time stamps are used, 4 has a key
-  std::uint32_t ready_ticks;
-  std::uint32_t late_ticks;
-  std::uint32_t tolerated_losses;
-  float period;  ///< units as in CompensatorConfig and NodeConfig
-  float gain;
-  float filter_cutoff;
-  float force_range;
-  float moment_range;
-  float setpoint_age_limit;
-  float wrench_age_limit;
-  float joint_speed[6];
-  float limit_value[6];
-  float limit_rate[6];
-  float limit_acceleration[6];
-  float deflection_limit;
-  float chart_margin;
-  float hold_time;
-  float fade_time;
-  float deflection_warning;
-  float deflection_error;
-  float heartbeat_period;
-  float force_rate;
-  float moment_rate;
-  float stuck_time;
-  AuthenticationKey table_key;  ///< zero without one
+  std::array<std::uint32_t, 44> numbers;  ///< `visit_numbers` in its order, floats by their bits
+  AuthenticationKey table_key;            ///< zero without one
 };
 
 SettingsRecord to_record(const NodeSettings& settings);
