@@ -6,23 +6,19 @@
 
 #include "checked_number.hpp"
 #include "instantiate.hpp"
-#include "packed_six.hpp"
+#include "lanes.hpp"
 
 namespace flexcomp {
 namespace {
 
-/// Of the allowed deceleration.
+/// Share of the allowed deceleration that braking is planned with.
 template <typename Scalar>
 constexpr Scalar kPlanned = Scalar(31) / Scalar(32);
 
-/// Largest step from which braking ends within `distance`, the step itself included.
+/// Largest step from which braking ends within `distance`, the step itself included; `change` is
+/// the largest, and shorter than the distance.
 template <typename Scalar>
-Scalar braking_step(Scalar distance, Scalar largest_change) {
-  // Planning with a little less than the allowed deceleration leaves room to absorb rounding.
-  const Scalar change = largest_change * kPlanned<Scalar>;
-  if (distance <= change) {
-    return distance;
-  }
+Scalar braking_step(Scalar distance, Scalar change) {
   const Scalar d = distance / change;
   const Scalar whole = std::floor((std::sqrt(Scalar(1) + Scalar(8) * d) - Scalar(1)) / Scalar(2));
   const Scalar rest = d - whole * (whole + Scalar(1)) / Scalar(2);
@@ -30,27 +26,50 @@ Scalar braking_step(Scalar distance, Scalar largest_change) {
   return (whole + fraction) * change;
 }
 
-/// Where a period takes a correction.
-template <typename Scalar>
+/// Where a period takes a correction, or four side by side.
+template <typename L>
 struct Advance {
-  Scalar value;
-  Scalar step;
-  bool limited_by_value;
-  bool limited_by_rate;
+  typename L::Lane value;
+  typename L::Lane step;
+  typename L::Truth limited_by_value;
+  typename L::Truth limited_by_rate;
 };
 
-template <typename Scalar>
-[[gnu::always_inline]] inline Advance<Scalar> advance(const GuardBounds<Scalar>& largest,
-                                                      Scalar target, Scalar value,
-                                                      Scalar last_step) {
-  const Scalar wanted = std::isfinite(target) ? target : value;
-  const Scalar goal = std::clamp(wanted, -largest.value, largest.value);
-  const Scalar distance = goal - value;
-  const Scalar reach = std::min(braking_step(std::abs(distance), largest.change), largest.step);
-  Scalar step = distance < Scalar(0) ? -reach : reach;
-  step = std::clamp(step, last_step - largest.change, last_step + largest.change);
-  const bool is_short = step != distance;
-  const Scalar next = is_short ? std::clamp(value + step, -largest.value, largest.value) : goal;
+/// Largest steps from which braking ends within the distances.
+template <typename Scalar, typename L>
+[[gnu::always_inline]] inline typename L::Lane braking_steps(typename L::Lane distance,
+                                                             typename L::Lane largest_change) {
+  // Planning with a little less than the allowed deceleration leaves room to absorb rounding.
+  const typename L::Lane change = largest_change * kPlanned<Scalar>;
+  const typename L::Truth is_near = distance <= change;
+  if (L::all(is_near)) {
+    return distance;
+  }
+  return L::choose(is_near, distance, L::apply(braking_step<Scalar>, distance, change));
+}
+
+/// One period of one number, or of four side by side.
+template <typename Scalar, typename L, typename Lane = typename L::Lane>
+[[gnu::always_inline]] inline Advance<L> advance(Lane largest_value, Lane largest_step,
+                                                 Lane largest_change, Lane target, Lane value,
+                                                 Lane last_step) {
+  constexpr Scalar kLargest = std::numeric_limits<Scalar>::max();
+  const auto smaller = [](Lane a, Lane b) { return L::choose(a < b, a, b); };
+  const auto clamp = [&](Lane a, Lane low, Lane high) {
+    return smaller(high, L::choose(low > a, low, a));
+  };
+  const Lane wanted = L::choose(L::magnitude(target) <= kLargest, target, value);
+  const Lane goal = clamp(wanted, -largest_value, largest_value);
+  const Lane distance = goal - value;
+  const Lane braking = braking_steps<Scalar, L>(L::magnitude(distance), largest_change);
+  const Lane reach = smaller(largest_step, braking);
+  Lane step = L::choose(distance < Scalar(0), -reach, reach);
+  step = clamp(step, last_step - largest_change, last_step + largest_change);
+  const auto is_short = step != distance;
+  const Lane next =
+      L::any(is_short)
+          ? L::choose(is_short, clamp(value + step, -largest_value, largest_value), goal)
+          : goal;
   return {next, next - value, goal != wanted, is_short};
 }
 
@@ -80,7 +99,8 @@ Result Guard<Scalar>::configure(const CorrectionLimits<Scalar>& limits, Scalar p
 
 template <typename Scalar>
 Scalar Guard<Scalar>::advance(Scalar target) {
-  const Advance<Scalar> next = flexcomp::advance(bounds_, target, value_, step_);
+  const auto next = flexcomp::advance<Scalar, OneByOne<Scalar>>(
+      bounds_.value, bounds_.step, bounds_.change, target, value_, step_);
   value_ = next.value;
   step_ = next.step;
   limited_by_value_ = next.limited_by_value;
@@ -107,66 +127,31 @@ Result JointGuards<Scalar, Joints>::configure(
 
 template <typename Scalar, int Joints>
 JointVector<Scalar, Joints> JointGuards<Scalar, Joints>::advance(const Angles& targets) {
-  limited_by_value_ = false;
-  limited_by_rate_ = false;
+  using L = std::conditional_t<Joints == 6, Lanes<Scalar>, OneByOne<Scalar>>;
+  constexpr std::size_t kLanes = Joints == 6 ? L::kCount : static_cast<std::size_t>(Joints);
+  typename L::Truth limited_by_value{};
+  typename L::Truth limited_by_rate{};
   Angles values;
-  for (std::size_t i = 0; i < Joints; ++i) {
-    const auto joint = static_cast<Eigen::Index>(i);
-    const GuardBounds<Scalar> bounds = {largest_value_[i], largest_step_[i], largest_change_[i]};
-    const Advance<Scalar> next = flexcomp::advance(bounds, targets[joint], value_[i], step_[i]);
-    value_[i] = next.value;
-    step_[i] = next.step;
-    values[joint] = next.value;
-    limited_by_value_ = limited_by_value_ || next.limited_by_value;
-    limited_by_rate_ = limited_by_rate_ || next.limited_by_rate;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const auto next = flexcomp::advance<Scalar, L>(
+        L::load(largest_value_.data(), i), L::load(largest_step_.data(), i),
+        L::load(largest_change_.data(), i), L::load(targets.data(), i), L::load(value_.data(), i),
+        L::load(step_.data(), i));
+    L::store(next.value, i, value_.data());
+    L::store(next.step, i, step_.data());
+    L::store(next.value, i, values.data());
+    limited_by_value = L::either(limited_by_value, next.limited_by_value);
+    limited_by_rate = L::either(limited_by_rate, next.limited_by_rate);
   }
+  limited_by_value_ = L::any(limited_by_value);
+  limited_by_rate_ = L::any(limited_by_rate);
   return values;
 }
-
-#ifdef FLEXCOMP_VECTOR_REGISTERS
-
-/// Line by line what `advance` does for one joint.
-template <>
-JointVector<float, 6> JointGuards<float, 6>::advance(const Angles& targets) {
-  using Six = PackedSix<float>;
-  const Six zero;
-  const Six most = Six::read(largest_value_.data());
-  const Six change = Six::read(largest_change_.data());
-  const Six value = Six::read(value_.data());
-  const Six last = Six::read(step_.data());
-  const Six target(targets);
-  const Six wanted = Six::choose(target.are_finite(), target, value);
-  const Six goal = Six::smaller(most, Six::larger(-most, wanted));
-  const Six distance = goal - value;
-  Six braking = distance.magnitudes();
-  if ((braking > kPlanned<float> * change).any()) {
-    Angles steps = braking.numbers();
-    for (std::size_t i = 0; i < 6; ++i) {
-      float& step = steps[static_cast<Eigen::Index>(i)];
-      step = braking_step(step, largest_change_[i]);
-    }
-    braking = Six(steps);
-  }
-  const Six reach = Six::smaller(Six::read(largest_step_.data()), braking);
-  Six step = Six::choose(distance < zero, -reach, reach);
-  step = Six::smaller(last + change, Six::larger(last - change, step));
-  const auto are_short = step != distance;
-  const Six halted = Six::smaller(most, Six::larger(-most, value + step));
-  const Six next = Six::choose(are_short, halted, goal);
-  const Six made = next - value;
-  next.write(value_.data());
-  made.write(step_.data());
-  limited_by_value_ = (goal != wanted).any();
-  limited_by_rate_ = are_short.any();
-  return next.numbers();
-}
-
-#endif
 
 template class Guard<float>;
 template class Guard<double>;
 
 #define FLEXCOMP_JOINT_GUARDS(Scalar, Joints) template class JointGuards<Scalar, Joints>;
-FLEXCOMP_INSTANTIATE(FLEXCOMP_JOINT_GUARDS)
+FLEXCOMP_INSTANTIATE_ARM(FLEXCOMP_JOINT_GUARDS)
 
 }  // namespace flexcomp
