@@ -77,7 +77,7 @@ Jacobian<Scalar, Joints> geometric_jacobian(const Kinematics<Scalar, Joints>& ki
                                                          const JointVector<Scalar, Joints>&); \
   template Jacobian<Scalar, Joints> geometric_jacobian(const Kinematics<Scalar, Joints>&,     \
                                                        const Vector3<Scalar>&);
-FLEXCOMP_INSTANTIATE(FLEXCOMP_CHAIN)
+FLEXCOMP_INSTANTIATE_ARM(FLEXCOMP_CHAIN)
 
 #define FLEXCOMP_POSE(Scalar)                                                       \
   template Matrix3<Scalar> axis_rotation(const Vector3<Scalar>&, Scalar);           \

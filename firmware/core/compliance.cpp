@@ -212,6 +212,6 @@ JointVector<Scalar, Joints> setpoint_correction(const RobotModel<Scalar, Joints>
   template JointVector<Scalar, Joints> setpoint_correction(const RobotModel<Scalar, Joints>&,  \
                                                            const JointVector<Scalar, Joints>&, \
                                                            const Wrench<Scalar>&);
-FLEXCOMP_INSTANTIATE(FLEXCOMP_COMPLIANCE)
+FLEXCOMP_INSTANTIATE_ARM(FLEXCOMP_COMPLIANCE)
 
 }  // namespace flexcomp

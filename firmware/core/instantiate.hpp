@@ -1,10 +1,16 @@
 #pragma once
 
-/// The precisions and joint counts that the core library contains. A robot with another joint
-/// count is one more line here.
+/// The precisions of tables and of the compensator that reads them: the format holds six joints.
 #define FLEXCOMP_INSTANTIATE(DEFINE) \
   DEFINE(float, 6)                   \
   DEFINE(double, 6)
+
+/// The precisions and joint counts of chain, compliance and guards. Another joint count is one more
+/// line here.
+#define FLEXCOMP_INSTANTIATE_ARM(DEFINE) \
+  FLEXCOMP_INSTANTIATE(DEFINE)           \
+  DEFINE(float, 7)                       \
+  DEFINE(double, 7)
 
 /// The same for adaptive robust control, which does not ask for a tool's six degrees of freedom.
 #define FLEXCOMP_INSTANTIATE_CONTROL(DEFINE) \

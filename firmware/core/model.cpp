@@ -131,6 +131,6 @@ FLEXCOMP_INSTANTIATE_CONTROL(FLEXCOMP_VALIDATE)
   template bool has_structure_springs(const RobotModel<Scalar, Joints>&); \
   template bool has_weight(const RobotModel<Scalar, Joints>&);            \
   template std::uint64_t model_hash(const RobotModel<Scalar, Joints>&);
-FLEXCOMP_INSTANTIATE(FLEXCOMP_MODEL)
+FLEXCOMP_INSTANTIATE_ARM(FLEXCOMP_MODEL)
 
 }  // namespace flexcomp

@@ -8,7 +8,7 @@
 
 namespace flexcomp {
 
-/// What the compensator is doing. The numbers are stable: they appear on the bus.
+/// State of the compensator. The numbers are stable: they appear on the bus.
 enum class State : std::uint8_t {
   off = 0,         ///< no correction
   fading_in = 1,   ///< armed; the correction grows to its full size
@@ -105,6 +105,8 @@ struct CompensatorOutput {
 /// Not a safety function: the robot controller's own limits and stops must hold without it.
 template <typename Scalar, int Joints>
 class Compensator {
+  static_assert(Joints == static_cast<int>(kTableJoints), "it reads tables, which hold six joints");
+
  public:
   using Config = CompensatorConfig<Scalar, Joints>;
   using Input = CompensatorInput<Scalar, Joints>;

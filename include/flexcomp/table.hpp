@@ -155,6 +155,8 @@ struct TableCursor {
 /// Content of a table at one set of joint angles; base frame.
 template <typename Scalar, int Joints>
 struct TableEntry {
+  static_assert(Joints == static_cast<int>(kTableJoints), "the format holds six joints");
+
   Jacobian<Scalar, Joints> jacobian;
   JointVector<Scalar, Joints> weight_torque;
   Compliance<Scalar> structure;                         ///< D, of base, link and tool springs
