@@ -3,7 +3,7 @@
 #include "flexcomp/flexcomp.h"
 #include "flexcomp/model.hpp"
 
-/// What the parts of the C interface share.
+/// Conversions that the parts of the C interface share.
 namespace flexcomp::c_api {
 
 constexpr int kJoints = FLEXCOMP_JOINTS;

@@ -20,7 +20,7 @@ template <typename Scalar>
   return a + t * (PackedSix<Scalar>::read(to) - a);
 }
 
-/// What `q` finds on a segment: how far on, and how far (rad) off its chord.
+/// Place of `q` on a segment: how far on, and how far (rad) off its chord.
 template <typename Scalar>
 struct SegmentFind {
   std::uint32_t segment;

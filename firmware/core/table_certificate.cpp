@@ -57,8 +57,8 @@ Scalar angular_norm(const Jacobian<Scalar, Joints>& jacobian, Eigen::Index joint
   return jacobian.col(joint).template tail<3>().norm();
 }
 
-/// What the cubic part of the joint springs can add to the error: each spring's share by the
-/// triangle inequality.
+/// The most that the cubic part of the joint springs can add to the error: each spring's share by
+/// the triangle inequality.
 template <typename Scalar, int Joints>
 TableError<Scalar> cubic_error(const RobotModel<Scalar, Joints>& model,
                                const TableEntry<Scalar, Joints>& exact,

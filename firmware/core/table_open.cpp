@@ -53,7 +53,7 @@ bool fields_are_consistent(const TableHeader& header) {
   return nodes == header.node_count;
 }
 
-/// Of fields that are consistent.
+/// The fields are consistent.
 TableShape shape_of(const TableHeader& header) {
   TableShape shape;
   shape.chart = static_cast<std::uint8_t>(header.chart);

@@ -68,7 +68,7 @@ void pack(const TableEntry<Scalar, Joints>& entry, const RecordLayout& layout, f
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> unpack(const Scalar* record, const RecordLayout& layout);
 
-/// What the model itself says at joint angles `q`: the entry that a perfect table would return.
+/// The entry that a perfect table would return at joint angles `q`, from the model itself.
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> exact_entry(const RobotModel<Scalar, Joints>& model,
                                        const JointVector<Scalar, Joints>& q);

@@ -4,8 +4,8 @@
 
 #include "node/slcan_node.hpp"
 
-/// What the firmware needs of a board. Each board has a folder with `board.cpp`, which defines
-/// these and its interrupt vectors (section .vectors.board), and `memory.ld`.
+/// The functions that the firmware needs of a board. Each board has a folder with `board.cpp`,
+/// which defines these and its interrupt vectors (section .vectors.board), and `memory.ld`.
 namespace flexcomp::cortex_m7::board {
 
 /// Hz, of the processor once `start` has returned.

@@ -4,7 +4,7 @@
 
 namespace flexcomp::cortex_m7 {
 
-/// What the processor was at when it could not go on (Armv7-M Architecture Reference Manual, B1.5.6
+/// State of the processor when it could not go on (Armv7-M Architecture Reference Manual, B1.5.6
 /// and B3.2.15 to B3.2.18).
 struct FaultReport {
   std::uint32_t program_counter;  ///< 0 if the stack had no room to keep it
@@ -19,5 +19,5 @@ struct FaultReport {
 
 }  // namespace flexcomp::cortex_m7
 
-/// What a program does about a fault; it must not return. Each has its own.
+/// Handles a fault, and must not return. Each program has its own.
 extern "C" [[noreturn]] void fault_reported(const flexcomp::cortex_m7::FaultReport& report);

@@ -27,7 +27,7 @@ SlcanNode* node = nullptr;
 std::atomic<std::uint32_t> steps{0};
 std::atomic<std::uint32_t> seen{0};  ///< steps, when the main program last looked
 
-/// What survives a reset of the processor.
+/// The last fault, kept over a reset of the processor.
 struct LastWords {
   static constexpr std::uint32_t kValid = 0x4641554C;
   std::uint32_t valid;

@@ -16,7 +16,7 @@ extern void (*const __init_array_end[])();
 
 int program() asm("main");  // C++ lets nobody call main by its name
 [[noreturn]] void reset();
-/// What becomes of a program whose main() returns; its result is main's.
+/// Ends a program whose main() has returned `result`.
 [[noreturn]] void main_returned(int result);
 /// Called a thousand times a second by programs that start SysTick; others need none.
 void tick();

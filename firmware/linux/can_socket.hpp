@@ -13,7 +13,7 @@ namespace flexcomp {
 /// A raw SocketCAN socket, classic and FD, never blocking.
 class CanSocket {
  public:
-  /// What a call to `receive` found.
+  /// Result of a call to `receive`.
   enum class Received {
     nothing,
     frame,

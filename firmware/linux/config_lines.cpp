@@ -10,7 +10,7 @@
 namespace flexcomp {
 namespace {
 
-/// What one line sets; nothing where it begins or goes on with something that several lines say.
+/// Settings of one line; none where it is part of something that several lines say.
 std::vector<CLI::ConfigItem> items_of(const std::string& line) {
   try {
     std::istringstream stream(line);

@@ -7,7 +7,7 @@
 
 namespace flexcomp {
 
-/// What is wrong with one option and its values; empty if nothing.
+/// Says what is wrong with one option and its values; empty if nothing.
 using OptionComplaint =
     std::function<std::string(const std::string& name, const std::vector<std::string>& values)>;
 

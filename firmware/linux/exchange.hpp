@@ -17,7 +17,7 @@ struct LcmSample {
   std::uint32_t sequence = 0;
 };
 
-/// What came of checking a table that was received.
+/// Result of checking a table that was received.
 struct Verdict {
   std::uint32_t transfer = 0;  ///< TableReceived::transfer
   Reply refused = Reply::ok;   ///< by whom it comes from; else:

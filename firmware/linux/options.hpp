@@ -14,7 +14,7 @@ struct FixedOption {
   std::string value;  ///< as text, the same for the same value
 };
 
-/// What flexcompd is told on its command line and in its configuration file.
+/// Options of flexcompd, from its command line and its configuration file.
 struct Options {
   std::string can;  ///< interface, or empty
   bool fd = false;
@@ -35,8 +35,8 @@ struct Options {
 /// `exit_code` (help, version, or a complaint that has been made).
 std::optional<Options> read_options(int argc, const char* const* argv, int* exit_code);
 
-/// What `wanted` would change that only the start reads, by name, as a sentence for a person; empty
-/// if nothing: then the rest may take effect.
+/// Names, in a sentence for a person, the options that `wanted` would change though only the start
+/// reads them; empty if there are none: then the rest may take effect.
 std::string refused_changes(const Options& running, const Options& wanted);
 
 }  // namespace flexcomp

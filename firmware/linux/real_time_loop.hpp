@@ -30,7 +30,7 @@ class RealTimeLoop {
   void run();
 
  private:
-  /// What there is to do.
+  /// Work that waits.
   struct Ready {
     bool messages = false;
     bool frames = false;

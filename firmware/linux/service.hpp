@@ -13,7 +13,7 @@
 
 namespace flexcomp {
 
-/// What the real-time thread must not do: signals, LCM, checking tables. It waits for nothing but
+/// Does what the real-time thread must not: signals, LCM, checking tables. It waits for nothing but
 /// the next of these: files and the terminal, which may stall, are the background's.
 class Service {
  public:

@@ -23,7 +23,7 @@ UnprivilegedUser::UnprivilegedUser(const std::string& name) : name_(name) {
   }
   user_ = entry->pw_uid;
   group_ = entry->pw_gid;
-  // Of this thread alone, and of those that it starts.
+  // This holds for this thread, and for those that it starts.
   if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) {
     throw std::runtime_error("--user: the system cannot rule out set-user-ID programs");
   }

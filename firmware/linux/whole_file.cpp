@@ -23,7 +23,7 @@ namespace {
   throw std::runtime_error(path + ": larger than " + std::to_string(most) + " bytes");
 }
 
-/// What `file`, opened as `path`, is, so that nobody can put another there in between.
+/// Status of the open `file`, not of `path`: nobody can put another file there in between.
 struct stat ordinary(const FileDescriptor& file, const std::string& path) {
   struct stat status {};
   if (fstat(file.number(), &status) != 0) {

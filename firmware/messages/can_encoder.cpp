@@ -152,7 +152,7 @@ void encode_position(const MeasuredPositionMessage& message, std::uint8_t counte
   APPEND(list, MEASURED_POSITION_Z, measured_position_z, z, counter);
 }
 
-/// What fits into the signal, which is unsigned and has two bytes; its largest value if more.
+/// The gain as the signal, which is unsigned and has two bytes; its largest value if more.
 template <typename Encode>
 std::uint16_t gain_raw(double gain, bool (*fits)(double), Encode encode) {
   return fits(gain) ? encode(gain) : std::uint16_t{0xFFFF};

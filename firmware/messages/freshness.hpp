@@ -38,7 +38,7 @@ class SteadyTime {
 /// The value closest to `clock` whose low `bits` (below 64) are `low`.
 Freshness whole_freshness(Freshness low, unsigned bits, Freshness clock);
 
-/// What the sender of messages gives them.
+/// Gives the messages of a sender their freshness values.
 class FreshnessSource {
  public:
   Freshness next(Freshness clock) {
@@ -50,7 +50,7 @@ class FreshnessSource {
   Freshness last_ = 0;
 };
 
-/// What the receiver of a stream takes: more than the last value taken, and within the window about
+/// Lets through what a receiver takes: values above the last one taken, and within the window about
 /// its clock. The first value taken is beyond the window at the start, so that nothing that was
 /// sent before a restart can be taken after it; the stream is refused as long.
 class FreshnessGate {

@@ -30,16 +30,16 @@ class MessageAuthentication {
   /// overwritten by the next call.
   const SealedFrames& seal(const FrameList& message);
 
-  /// What may go on to the decoder now that this frame has come: the frames of a covered message
-  /// once its authentication comes, which is the last of them; any frame that is not covered
-  /// itself. What is returned is overwritten by the next call.
+  /// Returns the frames that may go on to the decoder now that this one has come: those of a
+  /// covered message once its authentication comes, which is the last of them; a frame that is not
+  /// covered itself. The next call overwrites the list.
   const FrameList& admit(const CanFrame& frame);
 
   const AuthenticationCounters& counters() const { return counters_; }
 
  private:
-  /// Of each part of a message the last that came. They stay when an authentication does not fit
-  /// them, which may be a forged one before the genuine.
+  /// The last of each part of a message. They stay when an authentication does not fit them, which
+  /// may be a forged one before the genuine.
   struct Pending {
     std::uint32_t received = 0;  ///< one bit a part
     bool is_counted = false;     ///< as refused

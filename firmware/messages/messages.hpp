@@ -6,7 +6,7 @@
 
 namespace flexcomp {
 
-/// What travels, whatever it travels on. SI units; vectors in the robot base frame; NaN where the
+/// Messages, the same on every transport. SI units; vectors in the robot base frame; NaN where the
 /// sender had no value. Times are of the sender's monotonic clock, ns; kNoTime where the transport
 /// carries none.
 constexpr std::int64_t kNoTime = -1;
@@ -63,7 +63,7 @@ struct MeasuredPositionMessage {
   std::array<double, 3> position{};  ///< m, of the TCP
 };
 
-/// What one tick came to.
+/// Result of one tick.
 struct CorrectedMessage {
   std::int64_t timestamp = kNoTime;  ///< of the setpoint
   JointAngles corrected{};           ///< rad

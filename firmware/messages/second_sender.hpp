@@ -29,7 +29,7 @@ class SecondSender {
   bool is_proven_ = false;
 };
 
-/// What the last messages of a stream held, by their counters: a message that comes late says the
+/// Content of the last messages of a stream, by their counters: a message that comes late says the
 /// same again, one of a second sender does not.
 class RecentContents {
  public:

@@ -97,7 +97,7 @@ bool SequenceMonitor::is_resynchronised(std::uint32_t counter, std::int64_t now)
   const std::uint32_t step = ahead(counter, candidate_);
   consistent_ = step >= 1 && step <= tolerated_ + 1 ? consistent_ + 1 : 1;
   candidate_ = counter;
-  // What is behind may be late and never to be used, unless the sender has started anew.
+  // A message behind may be late, and is then never used, unless the sender has started anew.
   const bool paused = now - accepted_at_ > kResynchroniseAfter;
   return is_behind(counter) ? consistent_ >= kMessagesAfterPause && paused
                             : consistent_ >= kMessagesAfterGap;

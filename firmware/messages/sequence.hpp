@@ -6,7 +6,7 @@
 
 namespace flexcomp {
 
-/// What became of the messages of one stream.
+/// Counts of the messages of one stream, by what became of them.
 struct StreamCounters {
   std::uint32_t received = 0;         ///< accepted
   std::uint32_t lost = 0;             ///< gaps between accepted ones

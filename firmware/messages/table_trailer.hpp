@@ -7,8 +7,8 @@
 
 namespace flexcomp {
 
-/// What follows a signed table, in the same file and transfer; little-endian. The table before it
-/// is as it would be without.
+/// The bytes behind a signed table, in the same file and transfer; little-endian. The table before
+/// it is as it would be without.
 struct TableTrailer {
   std::uint32_t magic;              ///< kTableTrailerMagic
   std::uint32_t counter;            ///< the table's version, as who signs it counts

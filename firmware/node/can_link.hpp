@@ -21,7 +21,7 @@ class CanLink {
     return encoder_.encode(message);
   }
 
-  /// What the streams show. To be forgotten on Node::take_reset: conflicts.
+  /// Counters and conflicts of the streams. Node::take_reset asks to forget conflicts.
   LinkState state() const;
   void forget_conflicts();
 

@@ -4,7 +4,7 @@
 
 namespace flexcomp {
 
-/// What `default_node_config` has for the compensator, in any precision.
+/// The compensator's part of `default_node_config`, in any precision.
 template <typename Scalar>
 CompensatorConfig<Scalar, 6> default_compensator_config() {
   CompensatorConfig<Scalar, 6> config;

@@ -15,7 +15,7 @@ class LcmReceiver {
   /// Hands a message to the node. True if it is a setpoint that is used.
   bool receive(const Message& message, std::uint32_t sequence, Node* node, std::int64_t now);
 
-  /// What the streams show, added to that of the other link.
+  /// Adds counters and conflicts of the streams to those of the other link.
   void add_to(LinkState* state) const;
   void forget_conflicts();
 

@@ -32,7 +32,7 @@ struct NodeConfig {
 /// Does a node take these numbers?
 bool is_usable(const NodeConfig& config);
 
-/// What of the outside a node needs to judge but cannot see in messages; set by who moves them.
+/// State of the bus and the streams, which messages do not show; set by who moves them.
 struct LinkState {
   bool bus_fault = false;          ///< bus off, or frames not taken
   bool setpoint_conflict = false;  ///< SequenceMonitor::has_conflict of the stream

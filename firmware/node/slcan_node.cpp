@@ -192,7 +192,7 @@ void SlcanNode::start_with(const void* memory, std::size_t size) {
   }
   const std::size_t room = size - sizeof(TableTrailer);
   const bool has_room = header.size <= room;
-  // What follows the table is its signature or nothing of it.
+  // The bytes behind the table are its signature, or none of its own.
   const std::size_t whole = has_room ? header.size + sizeof(TableTrailer) : size;
   const bool is_signed = bytes_of_table(memory, whole) < whole;
   const Checked table = checked(memory, is_signed || !has_room ? whole : header.size);

@@ -34,7 +34,7 @@ class SlcanNode {
   /// One look at the line, and a tick if one is due; `now` in ns. Several times a period.
   void step(std::int64_t now);
 
-  /// What the main program found of the stack, for the statistics; bytes.
+  /// Tells the statistics how much of the stack was used; bytes, found by the main program.
   void set_stack_used(std::uint32_t bytes) { stack_used_.store(bytes, std::memory_order_relaxed); }
 
   /// For the main program, after each step: checks a table that has come over the bus, if there is

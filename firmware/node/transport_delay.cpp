@@ -54,8 +54,8 @@ bool TransportDelay::agrees(std::uint32_t difference) const {
   return off >= -kAgreement && off <= kAgreement;
 }
 
-/// Of shorter ways the longest is proposed, which all of them were not longer than; of later
-/// messages the earliest.
+/// Proposes, of ways that were shorter, the longest, because none of them was longer; of messages
+/// that were later, the earliest.
 void TransportDelay::count(std::uint32_t difference, bool is_shorter, std::int64_t now) {
   if (agreeing_ == 0 || is_shorter != are_shorter_ || !agrees(difference)) {
     agreeing_ = 1;

@@ -23,7 +23,8 @@ bool WrenchMonitor::accept(const WrenchMessage& message, std::int64_t now) {
     stuck_ = false;
   }
   for (std::size_t i = 0; i < last_.size(); ++i) {
-    // What is not finite goes on to the compensator, which names it, but is no measure of change.
+    // A number that is not finite goes on to the compensator, which names it, but measures no
+    // change.
     last_[i] = std::isfinite(message.wrench[i]) ? message.wrench[i] : last_[i];
   }
   has_last_ = true;

@@ -15,7 +15,7 @@ enum ExitCode : int {
   kInternalFault = 3,
 };
 
-/// What the command line asked for, run once it has been read in full.
+/// Runs what the command line asked for, once it has been read in full.
 using Action = std::function<int()>;
 
 /// Each adds one subcommand, which sets `action` when it is chosen.

@@ -120,7 +120,7 @@ int run(const DesignArcOptions& options) {
   const std::string png = report::plot_png(script, 900, 800);
   const std::filesystem::path folder = output_folder(options.out);
   control::write_arc_parameters(folder / "arc_gains.yaml", parameters);
-  // What stands in the file is what was designed, to the last bit.
+  // The file holds what was designed, to the last bit.
   control::make_controller(control::read_arc_parameters(folder / "arc_gains.yaml"), request.arm);
   files::write_text(folder / "arc_gains.h", control::c_header(parameters, robot.name));
   files::write_text(folder / "cost.svg", svg);

@@ -81,7 +81,7 @@ std::vector<simulation::Scene> read_scenes(const DiagnoseOptions& options,
   return scenes;
 }
 
-/// What a person reads first, on the terminal.
+/// Prints what a person reads first, on the terminal.
 void summarize(const diagnosis::Observations& observations, const diagnosis::Diagnosis& result,
                const std::string& folder) {
   for (const diagnosis::ClockCheck& clock : result.clocks) {

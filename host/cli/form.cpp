@@ -25,7 +25,7 @@ struct FormOptions {
   bool json = false;
 };
 
-/// What `measure` gives, its complaints with the file's name before them.
+/// Result of `measure`; its complaints get the file's name before them.
 template <typename Measure>
 auto measured(const std::string& file, const Measure& measure) {
   try {

@@ -7,7 +7,7 @@
 
 namespace flexcomp::cli {
 
-/// What `flexcomp map --volume` does: states the size of the sweep, computes it (going on where an
+/// Runs `flexcomp map --volume`: states the size of the sweep, computes it (going on where an
 /// interrupted one ended, shared with the other processes of mpirun), and writes volume.csv and
 /// summary.json into a folder. Returns an exit code.
 int map_volume(const model::Robot& robot, const study::VolumeRequest& request,

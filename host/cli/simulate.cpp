@@ -28,7 +28,7 @@ recording::Samples missing(Eigen::Index rows, Eigen::Index columns) {
   return recording::Samples::Constant(rows, columns, std::numeric_limits<double>::quiet_NaN());
 }
 
-/// What the recording would show if the model were right, effects learnt by a diagnosis included.
+/// The recording as it would be if the model were right, effects learnt by a diagnosis included.
 recording::Recording expected(const model::Robot& robot, const recording::Recording& recording) {
   simulation::Preparation preparation;
   const simulation::Scene scene = simulation::prepare(recording, recording.size(), &preparation);

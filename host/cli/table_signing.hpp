@@ -17,7 +17,7 @@ struct SigningOptions {
 /// --key and --counter, each of which needs the other.
 void add_signing(CLI::App* command, SigningOptions* options);
 
-/// What to write after a table's bytes: its trailer, or nothing without a key. Throws InputError
+/// The bytes to write after a table: its trailer, or nothing without a key. Throws InputError
 /// saying what is wrong with the key.
 std::string trailer_for(const std::string& table, const SigningOptions& options);
 

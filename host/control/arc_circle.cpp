@@ -81,7 +81,7 @@ class PathCompensator {
   Compensator<double, 6> core_;
 };
 
-/// What turns steps of the correction into something with two derivatives.
+/// Low-pass that turns steps of the correction into a motion with two derivatives.
 struct Smoothed {
   Six value = Six::Zero();
   Six rate = Six::Zero();

@@ -17,7 +17,7 @@ struct CircleRun {
   std::vector<Eigen::Vector2d> path;  ///< m, in the plane, from the centre
 };
 
-/// What mills, what is believed of it, and how.
+/// The arm that mills, the arm that it is taken for, and the process.
 struct CircleTrial {
   simulation::FlexibleArm<6> nominal;  ///< what controller and compensator know
   simulation::FlexibleArm<6> arm;      ///< the true one; its tool springs bend too

@@ -43,7 +43,7 @@ struct ArcPart {
   ArcPart();
 };
 
-/// What a controller guarantees of every arm within the supports of the fuzzy sets, for motions
+/// Guarantee of a controller for every arm within the supports of the fuzzy sets, for motions
 /// within the limits and torques that are not clamped.
 struct ArcGuarantee {
   LyapunovBound bound{};

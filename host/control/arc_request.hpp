@@ -7,7 +7,7 @@
 
 namespace flexcomp::control {
 
-/// What a design starts from.
+/// Input of a design.
 struct ArcRequest {
   simulation::FlexibleArm<6> arm;  ///< nominal
   ArmUncertainty uncertainty;

@@ -5,7 +5,7 @@
 
 namespace flexcomp::control {
 
-/// What is not known of an arm. Factors apply to all joints or links of the nominal arm together.
+/// Uncertain numbers of an arm. Factors apply to all joints or links of the nominal arm together.
 struct ArmUncertainty {
   FuzzyNumber payload = FuzzyNumber::crisp(0);        ///< kg, at the nominal payload's place
   FuzzyNumber link_mass = FuzzyNumber::crisp(1);      ///< factor of all masses and inertias

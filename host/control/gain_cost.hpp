@@ -4,7 +4,7 @@
 
 namespace flexcomp::control {
 
-/// What the gain γ of one robust term trades: how fast and how close the Lyapunov function comes,
+/// The trade of the gain γ of one robust term: how fast and how close the Lyapunov function comes,
 /// against effort. The part η of the bound on it obeys η' = −λ η + b/(4γ) + c, η(0) = V₀.
 struct GainProblem {
   double decay = 0;          ///< 1/s, λ

@@ -37,7 +37,7 @@ struct TrackingJob {
   int steps = 2;                        ///< of the integration in a period
 };
 
-/// What came of it: link side, from `settled` on.
+/// Errors of the links, from `settled` on.
 template <int Joints>
 struct TrackingFigures {
   using Angles = JointVector<double, Joints>;

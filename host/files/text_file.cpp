@@ -53,7 +53,7 @@ void flush_to_disk(const fs::path& file, const fs::path& asked) {
   }
 }
 
-/// What a path stands for: a link is written through, so its target is replaced, not the link.
+/// Follows links: a link is written through, so its target is replaced, not the link.
 fs::path resolved(const fs::path& path) {
   std::error_code error;
   if (!fs::is_symlink(fs::symlink_status(path, error))) {

@@ -4,7 +4,7 @@
 
 namespace flexcomp::geometry {
 
-/// What a circular test says: a circle of nominal radius, run both ways (ISO 230-4:2005); m.
+/// Result of a circular test: a circle of nominal radius, run both ways (ISO 230-4:2005); m.
 struct CircularTest {
   double clockwise = 0;         ///< circular deviation G, of the clockwise path (minimum zone)
   double counterclockwise = 0;  ///< G of the other

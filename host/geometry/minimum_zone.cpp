@@ -128,7 +128,7 @@ Circularity minimum_zone_circularity(const Points& points) {
   const Profile profile(points);
   std::vector<std::size_t> unique;
   add_missing(spread_points(profile, least_squares_center(profile), true), &unique);
-  // Of a short arc the spread points may be two, which fix no centre.
+  // A short arc may spread to two points only, which fix no centre.
   add_missing({profile.triangle().begin(), profile.triangle().end()}, &unique);
   for (;;) {
     const Zone zone = ZoneOfFew(profile, unique).solve();

@@ -24,8 +24,8 @@ struct ClosedForm {
 /// - the last three axes meet in a point (Pieper 1968; Brandstötter et al. 2014), or
 /// - joint 4 is parallel to joints 2 and 3, and the last two axes meet (arms such as the UR).
 ///
-/// What is so to 10⁻⁵ (rad, and of the robot's reach) is exact, as model files round π/2 to six
-/// digits; what is so to 10⁻³ is nearly so, as a calibrated robot is.
+/// Axes that meet or are parallel to 10⁻⁵ (rad, and of the robot's reach) count as exact, as model
+/// files round π/2 to six digits; to 10⁻³ as nearly exact, as those of a calibrated robot are.
 std::optional<ClosedForm> solve_closed_form(const RobotModel<double, 6>& model,
                                             const Pose<double>& target);
 

@@ -15,7 +15,7 @@ struct LoggedMessage {
   Message message;
 };
 
-/// What a log came to beside its messages.
+/// Frames and events of a log that gave no message.
 struct DecodingCounts {
   std::size_t foreign = 0;   ///< frames or events that are not flexcomp's
   std::size_t rejected = 0;  ///< of flexcomp's: damaged, repeated, late, or of incomplete sets

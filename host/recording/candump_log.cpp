@@ -61,7 +61,7 @@ bool parse_data(std::string_view text, std::size_t largest, CanFrame* frame) {
   return true;
 }
 
-/// What a line of a log holds: a frame, one that is left out, or nothing that makes sense.
+/// Kind of a line of a log: a frame, one that is left out, or nothing that makes sense.
 enum class Line { frame, left_out, unusable };
 
 Line parse_frame(std::string_view text, CanFrame* frame) {

@@ -14,7 +14,7 @@ struct NamedCircle {
   geometry::Points points;  ///< m, in the plane of the circle
 };
 
-/// What the page is about.
+/// Content of the page.
 struct CircleReport {
   std::string robot;
   std::string plane;                 ///< names of the two axes, for example "x, z"

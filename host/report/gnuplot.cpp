@@ -40,7 +40,7 @@ class ScratchFolder {
 
 constexpr std::size_t kLargest = std::size_t{1} << 28;  // bytes
 
-/// What a script draws on a terminal of gnuplot.
+/// Runs a script on a terminal of gnuplot; returns the picture.
 std::string plotted(const std::string& script, const std::string& terminal) {
   const ScratchFolder folder;
   const fs::path script_file = folder.path() / "plot.gp";

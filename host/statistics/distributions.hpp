@@ -13,8 +13,8 @@ double fisher_above(double value, double more, double left);
 /// The same of the standard normal distribution.
 double normal_above(double value);
 
-/// What a variable with Student's t distribution of `freedom` (> 0) exceeds with this chance (0 to
-/// 1, without the ends).
+/// The number that a variable with Student's t distribution of `freedom` (> 0) exceeds with this
+/// chance (0 to 1, without the ends).
 double student_exceeds(double chance, double freedom);
 
 }  // namespace flexcomp::statistics

@@ -134,7 +134,7 @@ double chance_of_gain(double before, double after, Eigen::Index parameters, Eige
   return statistics::fisher_above(ratio, more, left);
 }
 
-/// Of the cubes of the joints' torques, beside the linear springs.
+/// Chance that the cubes of the joints' torques explain nothing beside the linear springs.
 double nonlinearity_chance(const Problem& problem, double sum, Eigen::Index freedom) {
   Eigen::MatrixXd all(problem.columns.rows(), problem.columns.cols() + problem.cubes.cols());
   all << problem.columns, problem.cubes;

@@ -20,7 +20,7 @@ struct SoughtSprings {
   bool tool = false;
 };
 
-/// What tests say of a spring.
+/// Knowledge that tests give of a spring.
 enum class Told {
   yes,            ///< its 95 % interval lies above zero
   not_loaded,     ///< no load turns it, or only together with others; the rest is meaningless then

@@ -112,7 +112,7 @@ std::vector<Vector3<double>> directions() {
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = 0; z <= 1; ++z) {
-        // Of opposite loads one will do.
+        // One of two opposite loads is enough.
         if (z > 0 || y > 0 || (y == 0 && x > 0)) {
           all.push_back(Vector3<double>(x, y, z).normalized());
         }
@@ -174,7 +174,7 @@ class Planner {
     }
   }
 
-  /// Of what is chosen; infinite where no candidate tells anything.
+  /// Widths with the tests chosen so far; infinite where no candidate tells anything.
   Eigen::VectorXd widths() const {
     return best_widths_.array().isInf().select(best_widths_,
                                                half_widths(information_of(chosen_, springs_)));

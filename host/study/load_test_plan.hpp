@@ -8,7 +8,7 @@
 
 namespace flexcomp::study {
 
-/// What load tests are to give, and what they may use.
+/// Requirements and means of load tests.
 struct PlanRequest {
   SoughtSprings sought;
   double force = 1000;           ///< N, of every load

@@ -58,7 +58,7 @@ Vector3<double> force_density(const EndMilling& milling, int tooth, double angle
           tangential * std::sin(angle) - radial * std::cos(angle), axial};
 }
 
-/// Of a tooth, along the part of its edge from `low` to `high` above the tip.
+/// Wrench on a tooth, along the part of its edge from `low` to `high` above the tip.
 Wrench<double> edge_wrench(const EndMilling& milling, int tooth, double tip_angle, double lag,
                            double low, double high) {
   Wrench<double> sum = Wrench<double>::Zero();

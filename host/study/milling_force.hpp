@@ -6,7 +6,7 @@
 
 namespace flexcomp::study {
 
-/// What a material asks of a cutting edge (Altintas, Manufacturing Automation, 2nd ed. 2012,
+/// Coefficients of a material and a cutting edge (Altintas, Manufacturing Automation, 2nd ed. 2012,
 /// ch. 2): force = shear coefficient × chip area + edge coefficient × edge length.
 struct CuttingCoefficients {
   double tangential = 0;       ///< Ktc, N/m²

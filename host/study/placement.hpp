@@ -23,12 +23,12 @@ struct PlacementRequest {
   /// singularity.
   double least_singular_value = 0.05;
   double joint_margin = 0.05;  ///< rad, from the joint limits
-  /// Of the path, looked at while searching; doubled where the place found so cannot be followed.
+  /// Points of the path that the search looks at; doubled where the place cannot be followed.
   int points = 24;
   int evaluations = 2000;
 };
 
-/// What the uncorrected robot does along a job.
+/// A job in its new place, and the error of the uncorrected robot along it.
 struct PlacedJob {
   Placement placement;
   recording::Recording path;  ///< t, q_cmd and the wrench, in its new place

@@ -11,8 +11,8 @@
 namespace flexcomp::study {
 namespace {
 
-// Of the reach, and of unit vectors. A point so far beside the plane moves in it as one in it does,
-// to as small a part; models rounded to micrometres, or to six digits of π/2, are within it.
+// A share of the reach, and of unit vectors. A point this far beside the plane moves as one in it
+// does, to as small a share; models rounded to micrometres, or to six digits of π/2, are within it.
 constexpr double kStraight = 1e-4;
 
 Planar in_plane(const Vector3<double>& point) { return {point.x(), point.z()}; }
@@ -33,7 +33,7 @@ AngleRange range_of(const Joint<double>& joint, double turn) {
   return turn > 0 ? AngleRange(joint.lower, joint.upper) : AngleRange(-joint.upper, -joint.lower);
 }
 
-/// Of the distances from joint 2 to the tool point, the least and the largest that joint 3 allows.
+/// The least and the largest distance from joint 2 to the tool point that joint 3 allows.
 std::array<double, 2> reach_of(const PlanarArm& arm, double lower, double upper) {
   const auto distance = [&](double angle) {
     return std::abs(arm.upper_arm + std::polar(1.0, angle) * arm.forearm);

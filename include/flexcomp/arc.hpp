@@ -24,7 +24,7 @@ constexpr std::uint32_t kArcRefusedBits = 0xFFFFU;
 /// A few words for a person on one status bit; never null.
 const char* describe(ArcStatusBit bit);
 
-/// What is tuned. Diagonal matrices are one number a joint; torques and inertias are those on the
+/// The gains. Diagonal matrices are one number a joint; torques and inertias are those on the
 /// joint side of the gear. `flexcomp design-arc` makes all of them.
 template <typename Scalar, int Joints>
 struct ArcGains {

@@ -15,7 +15,7 @@ struct CorrectionLimits {
   Scalar acceleration;  ///< rad/s²
 };
 
-/// What limits come to in control periods, less what rounding needs.
+/// Limits in units of a control period, less a reserve for rounding.
 template <typename Scalar>
 struct GuardBounds {
   Scalar value = 0;   ///< largest magnitude

@@ -4,7 +4,7 @@
 
 namespace flexcomp {
 
-/// What a call came to. The numbers are stable: they appear in logs and on the bus.
+/// Result of a call. The numbers are stable: they appear in logs and on the bus.
 enum class Result : std::uint8_t {
   ok = 0,
   bad_argument = 1,         ///< a null pointer, a size of zero, or an unknown option

@@ -14,7 +14,7 @@ Freshness the_time = 179'000'000'000'000;
 
 Freshness test_clock() { return the_time; }
 
-/// What is done with a message; each step takes those before it.
+/// Steps done with a message; each takes those before it.
 enum class Step { encode, seal, admit };
 
 Message message_of(const char* name) {

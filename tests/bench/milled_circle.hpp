@@ -8,7 +8,7 @@
 
 namespace flexcomp::bench {
 
-/// What a control loop is asked, setpoint by setpoint.
+/// Input of a control loop, setpoint by setpoint.
 template <typename Scalar>
 struct Setpoints {
   std::vector<JointVector<Scalar, 6>> q;  ///< rad

@@ -20,7 +20,7 @@ double largest_stretch(const Matrix3<double>& m) {
   return Eigen::JacobiSVD<Matrix3<double>>(m).singularValues()[0];
 }
 
-/// Of a deflection, for the worst wrench: the larger of m and rad.
+/// Error of a deflection, for the worst wrench: the larger of m and rad.
 double worst_case(const Compliance<double>& error) {
   const auto block = [&](Eigen::Index row, Eigen::Index column) {
     return largest_stretch(error.block<3, 3>(row, column));

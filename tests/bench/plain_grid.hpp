@@ -7,8 +7,9 @@ namespace flexcomp::bench {
 /// Ranges of joints 2 to 5 along the circle, rad.
 void joint_ranges(const MilledCircle& circle, GridRange<double> (*ranges)[4]);
 
-/// What one would write without much thought: compliances (21 floats of a symmetric matrix) at
-/// equal steps of joints 2 to 5, blended linearly along each axis; joint 1 turns them exactly.
+/// A table as one would write it without much thought: compliances (21 floats of a symmetric
+/// matrix) at equal steps of joints 2 to 5, blended linearly along each axis; joint 1 turns them
+/// exactly.
 struct PlainGrid {
   double step;   ///< rad
   double bytes;  ///< of all its nodes

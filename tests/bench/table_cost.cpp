@@ -1,4 +1,4 @@
-/// What a table costs: time to build it and to check it, and its size for a certified error, beside
+/// Cost of a table: time to build it and to check it, and its size for a certified error, beside
 /// a plain uniform grid of compliances with the same error. The argument of a benchmark is the
 /// negative decimal exponent of the tolerance (m, rad).
 #include <benchmark/benchmark.h>
@@ -68,7 +68,7 @@ void verify(benchmark::State& state) {
   time_each(state, static_cast<double>(circle().setpoints.size()));
 }
 
-/// What a node does before it uses a table.
+/// Checks that a node makes before it uses a table.
 void open_table(benchmark::State& state) {
   const auto words = path_table(circle(), tolerance_of(state));
   for (auto _ : state) {

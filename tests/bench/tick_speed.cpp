@@ -1,4 +1,4 @@
-/// What a control loop pays for a corrected setpoint: the look-up with its deflection and the whole
+/// Cost of a corrected setpoint in a control loop: the look-up with its deflection and the whole
 /// guarded tick, beside the same deflection computed from the model, by flexcomp, Pinocchio and
 /// Orocos KDL, and beside the floor: one 6×6 matrix times a vector, both in the nearest cache.
 /// Every benchmark walks along a milled circle; `s` is the time of one call.

@@ -1,4 +1,4 @@
-"""What the tests of the flexcomp command share."""
+"""Shared parts of the tests of the flexcomp command."""
 
 import os
 import pathlib

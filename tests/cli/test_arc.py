@@ -113,7 +113,7 @@ class MovingPlant(Command):
 
     def test_the_compensator_helps_the_moving_robot_too(self):
         moving = ("--dynamic", DESIGN)
-        # What remains is the servo's own error, which it does not know.
+        # The rest is the servo's own error, which it does not know.
         self.assertLess(self.mill(KR360, *moving), 0.75 * self.mill(KR360, *moving, "--without-compensation"))
 
     def test_adaptive_control_needs_no_compensation_of_the_joints(self):

@@ -92,7 +92,7 @@ class Identify(Command):
         self.assertFalse(out.exists())
 
     def test_a_wrong_reading_is_named_with_its_line(self):
-        # Of two readings of a posture, in lines 6 and 7, none is the wrong one by itself.
+        # Two readings of a posture, in lines 6 and 7, differ: neither is the wrong one by itself.
         recording = pathlib.Path(self.measured())
         lines = recording.read_text().splitlines()
         cells = lines[6].split(",")

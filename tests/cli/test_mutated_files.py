@@ -44,7 +44,7 @@ def changed_word(chance, word):
 
 
 def changed_text(chance, text):
-    """What may befall any text file."""
+    """Mutations of any text file."""
     at = chance.randrange(len(text))
     to = min(len(text), at + chance.randrange(200))
     return chance.choice([
@@ -188,7 +188,7 @@ class MutatedFiles(Command):
                              'trigger = "setpoint"\ngain = 0.8\nready-ticks = 10\npriority = 0\nwithout-identity = true\n')
 
     def commands_of(self, chance, folder, out):
-        """What reads the files in `folder`; the slow ones seldom."""
+        """Commands that read the files in `folder`; the slow ones seldom."""
         yaml, path, measured = folder / "robot.yaml", folder / "path.csv", folder / "measured.csv"
         common = ["--model", yaml, "--path", path, "--out", out]
         several = [[FLEXCOMP, "simulate", *common], [FLEXCOMP, "table", *common, "--tolerance", "1e-5"],

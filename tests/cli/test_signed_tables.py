@@ -13,7 +13,7 @@ TRAILER = 24
 
 
 def openssl_cmac(content):
-    """Of another library than ours."""
+    """Computed by another library than ours."""
     done = subprocess.run(["openssl", "mac", "-cipher", "AES-128-CBC", "-macopt", f"hexkey:{KEY}", "CMAC"],
                           input=content, capture_output=True, check=True)
     return bytes.fromhex(done.stdout.decode())
@@ -89,7 +89,7 @@ class Making(Signed):
 
 
 class Starting(Signed):
-    """What flexcompd says of its table; it ends there, or where it would open the bus."""
+    """Tables that flexcompd takes; it ends there, or where it would open the bus."""
 
     def said(self, table, *options, key=True):
         model_hash = json.loads(flexcomp("table", "verify", self.table, "--model", KR270, "--samples", 1,

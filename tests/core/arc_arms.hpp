@@ -59,7 +59,7 @@ ArcGains<Scalar, 1> pendulum_gains() {
   return gains;
 }
 
-/// What the pendulum's sensors say at `time` (s) of the worked example.
+/// Readings of the pendulum's sensors at `time` (s) of the worked example.
 template <typename Scalar>
 ArcInput<Scalar, 1> pendulum_input(double time) {
   const double sine = std::sin(2 * time);

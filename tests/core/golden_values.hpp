@@ -18,7 +18,7 @@ struct GoldenGroup {
   std::vector<Scalar> values;
 };
 
-/// What the core computes for inputs that are the same to the bit everywhere: chain, compliance,
+/// Results of the core for inputs that are the same to the bit everywhere: chain, compliance,
 /// look-up in a table, and a sequence of ticks with faults in it.
 template <typename Scalar>
 class GoldenValues {

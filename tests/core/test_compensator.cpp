@@ -237,7 +237,7 @@ void a_fault_that_comes_and_goes_fades_out_when_more_ticks_are_bad_than_good() {
 
 void a_fault_that_comes_and_goes_is_ridden_out_while_more_ticks_are_good_than_bad() {
   for (const Fault& fault : kFaults) {
-    // What moves the setpoint is seen as a jump on the way back, too.
+    // A setpoint that jumps is seen on its way back, too.
     TEST_ASSERT_EQUAL_MESSAGE(0, ticks_until_latched(fault.spoil, 1), fault.name);
     TEST_ASSERT_EQUAL_MESSAGE(0, ticks_until_latched(fault.spoil, 5), fault.name);
   }

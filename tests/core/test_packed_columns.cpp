@@ -66,7 +66,7 @@ void each_place_counts() {
   try_each_place<double>();
 }
 
-/// What follows six numbers in a register must be zero: products and norms of the six would
+/// Numbers behind the six in a register must be zero: products and norms of the six would
 /// otherwise count it.
 template <typename Scalar>
 void try_norms() {

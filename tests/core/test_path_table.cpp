@@ -270,7 +270,7 @@ void after_a_jump_any_segment_is_found_from_any_other() {
   jump<double>(zigzag<double>({{1, 0.05}, {2, 0.1}, {2, -0.1}, {2, -0.1}}));
 }
 
-/// Of a jump along a line, one look-up makes up but a few segments: two by going there, four by
+/// After a jump along a line, one look-up makes up but a few segments: two by going there, four by
 /// searching.
 template <typename Scalar>
 void jump_along_a_line() {

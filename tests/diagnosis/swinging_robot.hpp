@@ -65,7 +65,7 @@ struct SwingingRobot {
     return error.asDiagonal() * ((other - predicted) / kStep);
   }
 
-  /// What is observed when the TCP is elsewhere by an error (n×3, m).
+  /// Observations where the TCP is elsewhere by an error (n×3, m).
   diagnosis::Observations observed(const Eigen::MatrixXd& error) const {
     recording::Recording shown = recording;
     *shown.position += error;

@@ -43,7 +43,7 @@ Estimated offset_of(const Observations& observations) {
   return {found.chosen[0].values[0], std::sqrt(found.covariance(0, 0))};
 }
 
-/// Of true values that are known, within 1.96 stated deviations.
+/// Number of true values that lie within 1.96 stated deviations.
 int intervals_that_hold(double together, double* mean_deviation) {
   constexpr double kOffset = 1e-4;  // rad
   constexpr int kRounds = 40;

@@ -41,7 +41,7 @@ struct SoftFirstJoint {
     arm.torque_limit.setConstant(1e9);
   }
 
-  /// Of the first joint's vibration, Hz, while its motor holds still.
+  /// Frequency of the first joint's vibration, Hz, while its motor holds still.
   double frequency() const {
     const Angles none = Angles::Zero();
     const Angles unit = Angles::Unit(0);

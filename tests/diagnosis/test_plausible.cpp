@@ -1,4 +1,4 @@
-// What is learnt is a machine that can be, whatever was recorded; and what cannot be is no finding.
+// A learnt model is a machine that can be, whatever was recorded; what cannot be is no finding.
 #include <cmath>
 #include <random>
 #include <set>

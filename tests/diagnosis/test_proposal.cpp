@@ -1,4 +1,4 @@
-// What a recording can tell, and forms for what no known effect explains.
+// Limits of what a recording can tell, and forms for what no known effect explains.
 #include <algorithm>
 #include <cmath>
 

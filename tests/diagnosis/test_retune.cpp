@@ -76,7 +76,7 @@ void friction_that_varies_is_stood_in_for_by_its_mean() {
   TEST_ASSERT_EQUAL_STRING("coulomb_friction", fit.chosen.front().hypothesis.effect().c_str());
   TEST_ASSERT_EQUAL_INT(2, fit.chosen.front().hypothesis.joint);
   TEST_ASSERT_DOUBLE_WITHIN(0.1 * kFriction, kFriction, fit.chosen.front().values.front());
-  // What varies about the mean is left, and the noise of six joints.
+  // The variation about the mean is left, and the noise of six joints.
   const double noise = 6 * kTorqueNoise * kTorqueNoise;
   const double left = 0.08 * kFriction * kFriction + noise;
   const double whole = 1.08 * kFriction * kFriction + noise;

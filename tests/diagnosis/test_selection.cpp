@@ -1,4 +1,4 @@
-// What is chosen of several attempts, and what stays with it.
+// The choice among several attempts, and what stays with it.
 #include "diagnosis/select/judge.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"

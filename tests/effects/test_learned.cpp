@@ -97,7 +97,7 @@ void an_effect_that_was_learnt_is_simulated_from_the_file_it_is_written_to() {
   });
 }
 
-/// Of a robot that lists an effect, what is said of it; empty where nothing is wrong. There is no
+/// Complaint about a robot that lists an effect; empty where nothing is wrong. There is no
 /// length between its last two axes.
 std::string said_of(const model::LearnedEffect& listed) {
   MovingRobot moving;

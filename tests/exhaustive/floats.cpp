@@ -106,7 +106,7 @@ void sweep_limiter_targets() {
   from("limiter.target at the limit", at_limit);
 }
 
-/// What `Guard::configure` documents, in double; where that is a matter of rounding, either answer
+/// The rule that `Guard::configure` documents, in double; where rounding decides, either answer
 /// will do.
 bool is_answer_right(const CorrectionLimits<float>& limits, float period, bool accepted) {
   for (const float number : {limits.value, limits.rate, limits.acceleration, period}) {
@@ -125,7 +125,7 @@ bool is_answer_right(const CorrectionLimits<float>& limits, float period, bool a
   // Above 1: accepted, below: refused.
   const double margins[] = {kMost / (2 * value), unit / kLeast, change / (128 * unit),
                             64 * step / change, kMost / change, kMost / step,
-                            // What is in between must have a number in full precision too.
+                            // A value in between must have a number in full precision too.
                             change / kLeast, step / kLeast};
   const double margin = *std::min_element(std::begin(margins), std::end(margins));
   return std::fabs(margin - 1) < kBand || accepted == (margin > 1);

@@ -16,7 +16,7 @@ inline float float_of(std::uint32_t bits) {
   return value;
 }
 
-/// What a sweep came to.
+/// Result of a sweep.
 struct Tally {
   std::uint64_t tried = 0;
   std::uint64_t wrong = 0;

@@ -1,4 +1,4 @@
-"""What the hardware-in-loop tests share: the real programs, and a client of the bus that knows
+"""Shared parts of the hardware-in-loop tests: the real programs, and a client of the bus that knows
 nothing of flexcomp but flexcomp.dbc."""
 
 import json
@@ -300,7 +300,7 @@ class Feeder:
             pass
 
     def arm(self):
-        """What the arming is answered with. Not ready is who has missed a setpoint: asked again."""
+        """Answer to arming. A node that has missed a setpoint is not ready, and is asked again."""
         for _ in range(3):
             self.run(0.4)
             self.client.command("arm")

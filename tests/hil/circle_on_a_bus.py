@@ -27,7 +27,7 @@ class CircleTest(HilTest):
         job = Job(self.folder, robot, feed, radius=0.05, period=period)
         pace = ["--lockstep"] if lockstep else []
         trigger = ["--trigger", "lockstep"] if lockstep else []
-        # What is not compensated needs no node, and is the same at every pace.
+        # A run without compensation needs no node, and is the same at every pace.
         before, _ = mill(job, self.folder / "without.csv", "--table", job.table, "--without-compensation")
         with Flexcompd(job, *trigger, *options, bus=node_bus) as node, log or contextlib.nullcontext():
             after, late = mill(job, self.folder / "run.csv", "--bus", bus, *pace)

@@ -1,4 +1,4 @@
-"""What is done to flexcompd, done to the firmware on an emulated board. Runs in the guest that has the
+"""Scenarios of flexcompd, played against the firmware on an emulated board. Runs in the guest that has the
 board's serial line; asks `test_cortex_m7` outside for what happens to the board."""
 
 import csv
@@ -203,7 +203,7 @@ class ThePlant(Firmware):
     PERIOD = 0.02
 
     def mill_while(self, order):
-        """What the robot's second joint was moved by, in rad, while `order` happens to the board."""
+        """Motion of the robot's second joint, in rad, while `order` happens to the board."""
         job = Job(self.folder, "kr270", 0.1, period=self.PERIOD)
         job.be_patient()
         self.start(job)

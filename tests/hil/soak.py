@@ -28,7 +28,7 @@ def resident(process):
 
 
 def counters(node):
-    """What it counts, by now."""
+    """Its counters, by now."""
     node.statistics_file.unlink(missing_ok=True)
     node.process.send_signal(signal.SIGUSR1)
     latest = time.monotonic() + 10
@@ -38,7 +38,7 @@ def counters(node):
 
 
 def wrong_counters(counted, circles):
-    """What does not fit, one line each."""
+    """Contradictions, one line each."""
     wrong = [f"{stream}: {counted[stream][name]} {name}"
              for stream in ("setpoint", "wrench") for name in FAULTLESS if counted[stream][name]]
     for stream in ("setpoint", "wrench"):  # each circle's sender begins to count anew

@@ -27,7 +27,7 @@ NAME = {number: name for name, number in IDENTIFIER.items()}
 
 
 def openssl_cmac(content):
-    """Of another library than ours."""
+    """Computed by another library than ours."""
     done = subprocess.run(["openssl", "mac", "-cipher", "AES-128-CBC", "-macopt", f"hexkey:{KEY}", "CMAC"],
                           input=content, capture_output=True, check=True)
     return bytes.fromhex(done.stdout.decode())

@@ -49,7 +49,7 @@ class MovingRobot(HilTest):
             after, _ = mill(job, self.folder / "run.csv", "--bus", f"can:{BUS}", "--lockstep", *moving)
             self.assertEqual(0, node.stop())
         print(f"moving: {1e3 * before:.4f} mm without, {1e3 * after:.4f} mm with")
-        # What remains is the servo's own error, which the compensator does not know.
+        # The rest is the servo's own error, which the compensator does not know.
         self.assertLess(after, 0.75 * before)
 
 

@@ -23,7 +23,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kFaultTicks = 200;
 
-/// What the correction is to do while the fault lasts.
+/// Behaviour that is expected of the correction while the fault lasts.
 enum class Reaction {
   goes_on,  ///< stays active
   held,     ///< holds, and comes back by itself when the fault ends

@@ -74,7 +74,7 @@ class Reconfiguration(Process):
         self.assertEqual(set(CHANGEABLE), named[", read again on SIGHUP"])
 
     def test_what_only_the_start_reads_is_refused_by_name_active_and_off(self):
-        # What stands on the command line stays, whatever the file says: the interface is in the file.
+        # An option on the command line stays, whatever the file says: the interface is in the file.
         self.lines["can"] = f'"{BUS}"'
         self.configure_file()
         in_file = {name: value for name, value in FIXED.items() if name != "statistics"}

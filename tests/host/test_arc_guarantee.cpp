@@ -136,7 +136,7 @@ void hold_to_guarantee(const FlexibleArm<Joints>& arm, const ArmUncertainty& set
     return output.torque;
   };
   const auto check = [&](double time, const ArcInput<double, Joints>& input, const auto&) {
-    // What the guarantee presupposes: no clamped torque, and as slow a w* as it reckons with.
+    // The guarantee presupposes no clamped torque, and as slow a w* as it reckons with.
     TEST_ASSERT_EQUAL_UINT32(0, output.status & kArcTorqueLimited);
     if (time >= from && time > 0) {
       const auto rate = ((output.wanted_elastic_torque - before) / job.period).cwiseAbs().eval();

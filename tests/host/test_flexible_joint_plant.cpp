@@ -74,7 +74,7 @@ void one_joint_rings_at_the_frequency_of_two_masses() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-8, -0.01, plant.state().motor[0]);
 }
 
-/// What accelerates the links, put into the controller's inverse dynamics, gives the spring
+/// The links' acceleration, put into the controller's inverse dynamics, gives the spring
 /// torques.
 void plant_and_controller_agree_on_six_axes() {
   const FlexibleArm<6> arm = kr360();

@@ -107,7 +107,7 @@ void a_mode_does_not_depend_on_even_steps() {
   for (Eigen::Index i = 1; i + 1 < uneven.size(); ++i) {
     uneven[i] += 0.0005 * std::sin(37.0 * static_cast<double>(i));
   }
-  // Of a straight input both are exact.
+  // Both are exact for a straight input.
   const VectorXd even_response = history::mode(time, 3 * time, 4, 0.02);
   const VectorXd uneven_response = history::mode(uneven, 3 * uneven, 4, 0.02);
   TEST_ASSERT_DOUBLE_WITHIN(1e-9, even_response[999], uneven_response[999]);

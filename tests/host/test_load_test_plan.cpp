@@ -56,7 +56,7 @@ void a_plan_is_at_least_twice_as_good_as_random_tests() {
   }
 }
 
-/// What the plan promises is what identification then has, over simulated measurements.
+/// The precision that the plan promises is what identification has, over simulated measurements.
 void the_promise_is_kept_by_the_identification() {
   const RobotModel<double, 6> robot = some_robot();
   const PlanRequest request = some_request(0.4);

@@ -30,7 +30,7 @@ Recording read_text(const std::string& text) {
   return read_recording(folder / "a.csv");
 }
 
-/// What is said of a file with this content, after the file's name.
+/// Complaint about a file with this content, after the file's name.
 std::string refusal(const std::string& text) {
   const ScratchFolder folder;
   put(folder / "a.csv", text);

@@ -40,7 +40,7 @@ Scene scene_of(const Recording& recording) {
   return prepare(recording, recording.size(), &preparation);
 }
 
-/// Of a move whose acceleration rises and falls as 1 − cos within 0.1 s, at 1 s and back at 2 s.
+/// A move whose acceleration rises and falls as 1 − cos in 0.1 s, at 1 s and back at 2 s.
 struct Ramp {
   VectorXd angle, acceleration;
 

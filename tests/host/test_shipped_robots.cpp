@@ -25,7 +25,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kForearmOffset = -0.055;  ///< m, of the forearm's axis above that of A3
 
-/// What the study (Klimchik et al. 2017, table 2) and the robots' data sheets say.
+/// Numbers of the study (Klimchik et al. 2017, table 2) and of the robots' data sheets.
 struct Figures {
   const char* folder;
   double shoulder_x, shoulder_z, arm, forearm, flange;  ///< m

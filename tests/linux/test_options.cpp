@@ -1,4 +1,4 @@
-// What SIGHUP may change, and what only the start reads.
+// Options that SIGHUP may change, and those that only the start reads.
 #include <fstream>
 #include <map>
 #include <string>

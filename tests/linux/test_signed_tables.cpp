@@ -1,4 +1,4 @@
-// What a node with a key takes, and what it starts with after an end in between.
+// Tables that a node with a key takes, and those it starts with after an end in between.
 #include <cstring>
 
 #include "core/test_robots.hpp"

@@ -48,7 +48,7 @@ def draw(path, title, x, y, curves):
 
 
 def torque_error(path, outcome, joint, title, unit="N·m"):
-    """What the models leave of a joint's measured torque, over time."""
+    """Residuals that the models leave of a joint's measured torque, over time."""
     name, time = f"tau_{joint}", outcome.measured["t"]
     draw(path, title, "s", f"measured less simulated, {unit}", [
         Curve("model that lacks it", time, outcome.measured[name] - outcome.before[name], RED),
@@ -57,7 +57,7 @@ def torque_error(path, outcome, joint, title, unit="N·m"):
 
 
 def missing_torque_over_speed(path, outcome, joint, title, x="rad/s", y="N·m"):
-    """What the nominal model leaves of a joint's torque, and what was found for it."""
+    """The nominal model's residual of a joint's torque, and what was found for it."""
     name, speed = f"tau_{joint}", speed_of(outcome.measured, joint)
     draw(path, title, x, y, [
         Curve("measured less model that lacks it", speed,

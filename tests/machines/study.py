@@ -1,4 +1,4 @@
-"""What is diagnosed, what comes back, and what was to be reached."""
+"""Studies of machines: their input, their outcome, and their goals."""
 
 import dataclasses
 import json
@@ -112,8 +112,8 @@ class Outcome:
         return np.column_stack([self.measured[name] - simulated[name] for name in COLUMNS[group]])
 
     def signal(self, group):
-        """What an error is measured by: torques as they are; of positions the nominal model's
-        error."""
+        """The signal that an error is compared with: torques as they are; for positions the nominal
+        model's error."""
         if group == "tau":
             return np.column_stack([self.measured[name] for name in COLUMNS[group]])
         return self.errors(self.before, group)
@@ -127,7 +127,7 @@ class Outcome:
 
 @dataclasses.dataclass
 class Trial:
-    """What a machine's goals and pictures are made from: its outcomes by name, the command that
+    """Material for a machine's goals and pictures: its outcomes by name, the command that
     made them, and the folder of the published files."""
 
     outcomes: dict

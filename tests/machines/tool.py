@@ -21,7 +21,7 @@ class Tool:
             raise NoAnswer(f"flexcomp {words[0]}: exit {done.returncode}: {said[-1]}")
 
     def simulate(self, model, recording, out):
-        """What the recording would hold if the model were right: {column: (n,)}."""
+        """The recording as it would be if the model were right: {column: (n,)}."""
         self._run("simulate", "--model", model, "--recording", recording, "--out", out)
         return read_recording(out)
 

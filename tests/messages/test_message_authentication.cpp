@@ -1,4 +1,4 @@
-// What an attacker may do to messages under a key: none of it gets through.
+// Attacks on messages under a key: none gets through.
 #include <functional>
 #include <vector>
 

@@ -13,7 +13,7 @@ namespace {
 
 std::string text_of(const SlcanLine& line) { return {line.text.data(), line.size}; }
 
-/// What the last byte of `text` came to.
+/// Result of the last byte of `text`.
 Event read(SlcanReader* reader, const std::string& text) {
   Event event = Event::nothing;
   for (const char c : text) {

@@ -1,4 +1,4 @@
-// What a node says by itself, heartbeats and faults, comes through whatever it is asked beside
+// Heartbeats and faults, which a node says by itself, come through whatever it is asked beside
 // that.
 #include <functional>
 
@@ -34,7 +34,7 @@ class AskedTooMuch {
  public:
   explicit AskedTooMuch(Question question) : question_(std::move(question)) { bus_.bring_up(); }
 
-  /// What it says in so many ticks, with the tick; `wrenches`: does the sensor go on?
+  /// Messages that it sends in so many ticks, with the tick; `wrenches`: does the sensor go on?
   std::vector<std::pair<int, Message>> run(int ticks, bool wrenches) {
     std::vector<std::pair<int, Message>> said;
     for (int tick = 0; tick < ticks; ++tick) {

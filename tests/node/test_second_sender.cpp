@@ -212,7 +212,7 @@ void of_a_second_format_nothing_is_used() {
   }
 }
 
-/// What one sender and its bus may do: the stream is never called that of two.
+/// One sender on any bus: the stream is never called that of two.
 void require_one(const char* what, Source source,
                  const std::function<void(Bench*, Sender*, int tick)>& behave) {
   for (const bool sends_setpoints : {true, false}) {

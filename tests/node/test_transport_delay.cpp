@@ -20,7 +20,7 @@ class Stream {
     return delay_.observe(now_ - clock_ - late + ahead, now_);
   }
 
-  /// Of the last of as many messages as a time has.
+  /// Delay of the last of as many messages as a time has.
   std::int64_t pass(std::int64_t time, std::int64_t late = 0) {
     std::int64_t last = 0;
     for (std::int64_t passed = 0; passed < time; passed += kPeriod) {

@@ -1,4 +1,4 @@
-"""What may include what: the core nothing of the firmware, the firmware nothing of the host, no room its
+"""Includes that are allowed: the core takes nothing of the firmware, the firmware nothing of the host, no room its
 own users; and files that stay short."""
 
 import graphlib

@@ -14,7 +14,7 @@ extern char __test_heap_end[];
 
 void initialise_monitor_handles();
 
-/// What the standard library of a test asks for; a program that never ends needs no more of it.
+/// Calls that the standard library of a test needs; a program that never ends needs no more.
 void* __dso_handle = nullptr;
 
 [[noreturn]] void main_returned(int result);

@@ -1,4 +1,4 @@
-"""What the firmware image contains, and what not: no heap, no exceptions, no run-time types, no printing
+"""Content of the firmware image, and what is not in it: no heap, no exceptions, no run-time types, no printing
 of floats, no double precision in software."""
 
 import os

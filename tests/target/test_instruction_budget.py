@@ -50,7 +50,7 @@ def table(counts, image):
 
 
 def changed(found, baseline):
-    """What is more than it was, or much less, as sentences."""
+    """Says in sentences which count is more than it was, or much less."""
     return [f"{name}: {value}, was {baseline[name]}" for name, value in found.items()
             if name in baseline and not LEAST * baseline[name] <= value <= GROWTH * baseline[name]]
 

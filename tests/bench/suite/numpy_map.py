@@ -29,7 +29,7 @@ class Robot:
         self.compliance = np.array([settings["joints"][joint.get("name")]["compliance"] for joint in joints])
 
     def deflection(self, q, force, moment):
-        """Of the origin of joint 5, m; q (n, 6), force and moment (n, 3)."""
+        """Deflection of the origin of joint 5, m; q (n, 6), force and moment (n, 3)."""
         rotation = np.broadcast_to(np.eye(3), (len(q), 3, 3))
         position = np.zeros((len(q), 3))
         places, axes = [], []

@@ -1,4 +1,4 @@
-"""What a topic measured: figures, ratios with their goals, and how a cost grows."""
+"""Result of a topic: figures, ratios with their goals, and how a cost grows."""
 
 import dataclasses
 

@@ -23,7 +23,7 @@ class Unsuitable(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """What is drawn; everything else follows from it and from its seed."""
+    """A case as drawn; everything else follows from it and from its seed."""
 
     family: str  # effect, pair, clean or foreign
     kind: str

@@ -100,7 +100,7 @@ def _stiffness(rng, joint, scale, size):
 
 def _nonlinear(rng, joint, scale, size):
     known, load = scale.compliance[joint - 1], scale.load[joint - 1]
-    # Of the wind-up under the largest load, hardening or softening.
+    # A share of the wind-up under the largest load, hardening or softening.
     share = min(0.12 * size, 0.2) * (-1 if rng.random() < 0.7 else 1)
     return EFFECTS["nonlinear_stiffness"](joint, cubic_compliance=share * known / load**2)
 

@@ -11,7 +11,7 @@ CHANNELS = {"xyz": "tcp_position", "tau": "joint_torque", "q_link": "joint_defle
 
 
 def shown(description, signals, groups):
-    """What the model does not say of itself, to first order, at some rows: {group: (rows, k)}. The
+    """Recording of a plant less its model's own, to first order, at some rows: {group: (rows, k)}. The
     difference of two of these, of a robot with an effect and without, is the effect's trace."""
     arm = Arm(description)
     first = 0 if signals.static else len(signals.time) // 8

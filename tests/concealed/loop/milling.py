@@ -67,7 +67,7 @@ class Circle:
                                    acceleration=motion.acceleration + course(time, 2))
 
     def write_program(self, signals, path):
-        """What the controller has of it: commands, and the wrench as its sensor reads it."""
+        """The controller's view: commands, and the wrench as its sensor reads it."""
         rows = _recorded(self.program)
         recording.write(path, signals.time[rows] - signals.time[rows[0]], {
             "q_cmd": self.program.q[rows], "wrench": signals.wrench[rows],

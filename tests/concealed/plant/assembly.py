@@ -57,7 +57,7 @@ def new_spec(description):
 
 @dataclasses.dataclass
 class Assembly:
-    """What effects may add to before it is compiled. Lists have one entry a revolute joint."""
+    """A plant before it is compiled, to which effects may add. Lists have one entry a revolute joint."""
 
     spec: mujoco.MjSpec
     description: object

@@ -1,4 +1,4 @@
-"""What the robot is told to do."""
+"""Motions that the robot is told to make."""
 
 import dataclasses
 
@@ -33,7 +33,7 @@ class LoadTest:
 
 @dataclasses.dataclass
 class Signals:
-    """What happened, before any sensor saw it: a row a step of the engine, or a settled load."""
+    """The truth, before any sensor saw it: a row a step of the engine, or a settled load."""
 
     time: np.ndarray  # (n,) s
     q_cmd: np.ndarray  # (n, 6) rad

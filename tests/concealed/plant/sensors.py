@@ -1,4 +1,4 @@
-"""What the sensors make of what happened: noise, steps, rates, and the logger's time stamps."""
+"""Sensors between the plant and the recording: noise, steps, rates, and the logger's time stamps."""
 
 import dataclasses
 
@@ -15,7 +15,7 @@ GROUPS = ("q_cmd", "q_meas", "q_link", "tau", "wrench", "xyz", "temp_c")
 
 @dataclasses.dataclass
 class Sensors:
-    """Of one robot cell."""
+    """Sensors of one robot cell."""
 
     rate: float  # Hz, rows a second
     motor_step: float  # rad at the joint: a 20-bit encoder behind the gear

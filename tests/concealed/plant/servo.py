@@ -70,8 +70,8 @@ class Servo:
     def set_lag(self, joints, constant):
         """Gives joints (numbers from 0) a first-order lag of `constant` s."""
         self.lag[joints] = constant
-        # Of a vibration at w rad/s, integral and lag together give back rate/(constant w²) of what
-        # the proportional gain takes.
+        # Integral and lag together give back rate/(constant w²) of what the proportional gain takes
+        # from a vibration at w rad/s.
         rate = 0.8 * constant * SLOWEST_MODE**2
         self._stiffness[joints] = rate * self._damping[joints]
         self._integral[joints] = 0.0

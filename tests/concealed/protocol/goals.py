@@ -1,4 +1,4 @@
-"""What a campaign found out, in figures, and the goals that these are held to."""
+"""Figures of a campaign, and the goals that these are held to."""
 
 import statistics
 

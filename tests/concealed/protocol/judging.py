@@ -125,7 +125,7 @@ def _contest(folder):
 
 
 def parameter_errors(name, effects, said):
-    """Of the findings that have a concealed effect's name and joint; parameters that both give as
+    """Errors of findings that have a concealed effect's name and joint; parameters that both give as
     numbers, under the same name or one of scoring.parameters.NAMES."""
     found = []
     for place, fitted in zip(said.named, said.parameters):

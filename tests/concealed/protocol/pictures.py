@@ -44,7 +44,7 @@ def errors_picture(scored):
 
 
 def coverage_picture(parameters):
-    """What share of the parameters lies in their interval, for each stated level."""
+    """Share of the parameters that lie in their interval, for each stated level."""
     if not parameters:
         return "<p>No parameter can be compared.</p>"
     normal = statistics.NormalDist()

@@ -27,7 +27,7 @@ class Way:
 
 
 def needed_to_read(tool):
-    """What runs have to see besides the system: the tool, this Python, the rivals."""
+    """Folders that runs see besides the system: the tool, this Python, the rivals."""
     return [tool, pathlib.Path(sys.prefix), pathlib.Path(sys.base_prefix), RIVALS]
 
 

@@ -21,7 +21,7 @@ class Unwatchable(Exception):
 
 
 class Watch:
-    """Of one file, from here until closed."""
+    """Watches one file, from here until closed."""
 
     def __init__(self, path):
         library = ctypes.CDLL(None, use_errno=True)
@@ -34,7 +34,7 @@ class Watch:
             raise Unwatchable(reason)
 
     def seen(self):
-        """What was done to the file since last asked, as words."""
+        """Says what was done to the file since last asked, as words."""
         try:
             data = os.read(self._handle, 65536)
         except BlockingIOError:

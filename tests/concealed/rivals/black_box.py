@@ -1,4 +1,4 @@
-"""What all black boxes have in common: a regression for each component of a channel's residual."""
+"""The common part of all black boxes: a regression for each component of a channel's residual."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What the black boxes may look at: all in a recording but the channel they are to explain."""
+"""Input of the black boxes: all in a recording but the channel they are to explain."""
 
 import dataclasses
 

@@ -1,4 +1,4 @@
-"""What a simulation leaves of a recording, and how large that is."""
+"""The residual of a simulation, and how large it is."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What a model says a recording should hold, by `flexcomp simulate`."""
+"""The recording that a model expects, by `flexcomp simulate`."""
 
 import pathlib
 import subprocess

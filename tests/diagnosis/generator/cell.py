@@ -16,7 +16,7 @@ TINY = 0.1  # N·m, rad/s, rad/s²: below this a joint counts as unloaded or at 
 
 @dataclasses.dataclass
 class Cell:
-    """What a case is drawn from: nominal robot, recordings to be, noise."""
+    """Base of a case: nominal robot, recordings to be, noise."""
 
     kind: str
     robot: object

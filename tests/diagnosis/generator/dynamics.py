@@ -22,7 +22,7 @@ def weights(robot, place):
 
 
 def beyond(force, moment):
-    """What acts on link k and everything after it, for all k: sums from the tip."""
+    """Force and moment on link k and everything after it, for all k: sums from the tip."""
     return np.cumsum(force[::-1], axis=0)[::-1], np.cumsum(moment[::-1], axis=0)[::-1]
 
 

@@ -43,7 +43,7 @@ def beam(length_vector, bending):
 
 
 def loads(robot, place, wrench):
-    """What the wrench on the TCP (n, 6) and the weights do to link k and all beyond: force and
+    """Effect of the wrench on the TCP (n, 6) and the weights on link k and all beyond: force and
     moment about the base origin, each (6, n, 3)."""
     force, moment = weights(robot, place)
     force[-1] += wrench[:, :3]

@@ -18,7 +18,7 @@ from .robot import JOINTS, Robot
 
 @dataclasses.dataclass
 class Drive:
-    """What the robot is made to do, on an even grid of n samples."""
+    """Motion of the robot, on an even grid of n samples."""
 
     track: Track  # commanded motion
     wrench: np.ndarray  # (n, 6), truly acting on the tool, base frame
@@ -74,7 +74,7 @@ def motors(machine, drive):
 
 
 def _link_torque(robot, state, q):
-    """What the drive must give at the link: rigid dynamics less the wrench (n, 6)."""
+    """Torque that the drive must give at the link: rigid dynamics less the wrench (n, 6)."""
     place = posture(robot, q)
     return (dynamics.inverse_dynamics(robot, q, state.velocity, state.acceleration)
             - np.einsum("nij,ni->nj", jacobian(place), state.wrench))
@@ -123,7 +123,7 @@ def measure(machine, drive, groups, rows=None):
 
 
 def predict(machine, state, groups):
-    """What a machine without concealed physics shows, its motors and the wrench as given: {group:
+    """Recording of a machine without concealed physics, its motors and the wrench as given: {group:
     (n, columns)}."""
     n = len(state.time)
     nothing = {"play": dict.fromkeys(("static", "dynamic"), np.zeros((n, JOINTS))),

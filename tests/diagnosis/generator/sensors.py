@@ -1,4 +1,4 @@
-"""What sensors add to the truth: noise, steps of an encoder, gaps, spikes."""
+"""Errors that sensors add to the truth: noise, steps of an encoder, gaps, spikes."""
 
 import dataclasses
 
@@ -7,7 +7,7 @@ import numpy as np
 
 @dataclasses.dataclass
 class Quality:
-    """Of one robot cell; drawn once a case."""
+    """Sensors of one robot cell; drawn once a case."""
 
     position_noise: float  # m, laser tracker, each axis
     torque_noise: float  # share of a joint's largest torque

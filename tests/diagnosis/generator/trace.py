@@ -1,4 +1,4 @@
-"""What an effect leaves in a recording: measurement minus what the nominal model predicts from the
+"""Trace of an effect in a recording: measurement minus what the nominal model predicts from the
 recording's own encoders and wrench, without noise."""
 
 import numpy as np
@@ -32,7 +32,7 @@ def residual(robot, machine, take, rows):
 
 
 def _prediction(robot, source, take, rows, wrench):
-    """What the model predicts; kept for the next effect that changes neither encoders nor wrench."""
+    """Prediction of the model; kept for the next effect that changes neither encoders nor wrench."""
     model, groups = physics.nominal(robot), channels_of(take)
     plain = not (source.lag.any() or source.sensor or "wrench" in source.late)
     key = (id(robot), len(rows), rows[-1])

@@ -47,7 +47,7 @@ def command(tool, folder, truth, out):
 
 @dataclasses.dataclass
 class Trial:
-    """What is to be run: folder is the case's own, limit the tool's seconds."""
+    """A run to be made: folder is the case's own, limit the tool's seconds."""
 
     tool: pathlib.Path
     family: str

@@ -1,4 +1,4 @@
-"""What was to be reached with EMPS."""
+"""Goals for EMPS."""
 
 from ..study import DRY_FRICTION, Goal, names, relative
 

@@ -1,4 +1,4 @@
-"""What was to be reached with the Panda."""
+"""Goals for the Panda."""
 
 from ..study import FRICTION, Goal
 from . import reader

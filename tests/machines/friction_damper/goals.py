@@ -1,4 +1,4 @@
-"""What was to be reached with the friction damper."""
+"""Goals for the friction damper."""
 
 from ..study import FRICTION, Goal, names, relative
 

@@ -1,4 +1,4 @@
-"""What was to be reached with the JaiBot."""
+"""Goals for the JaiBot."""
 
 import numpy as np
 

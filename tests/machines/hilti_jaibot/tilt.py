@@ -1,4 +1,4 @@
-"""What the accelerometers say of base and column: a witness that the diagnosis does not hear."""
+"""Tilt of base and column by the accelerometers: a witness that the diagnosis does not hear."""
 
 import numpy as np
 

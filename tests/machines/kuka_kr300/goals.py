@@ -1,4 +1,4 @@
-"""What was to be reached with the KR 300."""
+"""Goals for the KR 300."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What link-side less motor-side angles go with, by regression: beside the diagnosis, to check
+"""Regression of link-side less motor-side angles: beside the diagnosis, to check
 it."""
 
 import dataclasses

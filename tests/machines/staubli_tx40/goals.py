@@ -1,4 +1,4 @@
-"""What was to be reached with the TX40."""
+"""Goals for the TX40."""
 
 import numpy as np
 

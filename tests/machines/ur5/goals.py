@@ -1,4 +1,4 @@
-"""What was to be reached with the UR5."""
+"""Goals for the UR5."""
 
 from ..study import Goal, mean_norm, names
 

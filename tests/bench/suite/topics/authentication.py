@@ -21,7 +21,7 @@ def instructions(step, message, layout, count):
 
 
 def a_message(step, message, layout):
-    """Of one more message, so without what it takes to start. Each step contains the one before."""
+    """Cost of one more message, so without what it takes to start. Each step contains the one before."""
     return (instructions(step, message, layout, 2 * COUNT) - instructions(step, message, layout, COUNT)) / COUNT
 
 

@@ -24,7 +24,7 @@ FLEXCOMP, SEARCHED, SINGLE = "flexcomp diagnose", "PySINDy, library and threshol
 
 
 def _processor_time():
-    """Of this process and the programs that it ran, s."""
+    """CPU time of this process and the programs that it ran, s."""
     spent = os.times()
     return spent.user + spent.system + spent.children_user + spent.children_system
 

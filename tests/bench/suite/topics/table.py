@@ -1,4 +1,4 @@
-"""What a table costs to build, to check and to keep."""
+"""Cost of building, checking and keeping a table."""
 
 from ..programs import google_benchmark
 from ..result import Curve, Figure, Ratio, Topic, quantity

@@ -1,4 +1,4 @@
-"""What every piece of concealed physics may change."""
+"""Places of the plant that concealed physics may change."""
 
 
 class Effect:

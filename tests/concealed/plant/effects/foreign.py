@@ -39,7 +39,7 @@ class DressPack(Effect):
 
 
 class LoosePayload(Effect):
-    """What the robot carries hangs in a worn hinge and rattles between stops `play` (rad) apart."""
+    """The load of the robot hangs in a worn hinge and rattles between stops `play` (rad) apart."""
 
     name = "loose_payload"
 

@@ -1,4 +1,4 @@
-"""What the force sensor and the clocks do."""
+"""Effects of the force sensor and the clocks."""
 
 import numpy as np
 from scipy.interpolate import CubicSpline

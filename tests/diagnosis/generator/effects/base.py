@@ -1,4 +1,4 @@
-"""What every concealed effect is made of."""
+"""Base of all concealed effects."""
 
 import dataclasses
 
@@ -9,7 +9,7 @@ ALL_JOINTS = (1, 2, 3, 4, 5, 6)
 
 @dataclasses.dataclass
 class Scale:
-    """What a case's recordings do to the robot: effects are drawn in proportion, and probed."""
+    """Motions and loads of a case's recordings: effects are drawn in proportion, and probed."""
 
     load: np.ndarray  # (6,) N·m, largest load about each joint
     force: float  # N, largest on the tool; 0 without a wrench
@@ -48,7 +48,7 @@ class Effect:
         raise NotImplementedError
 
     def probes(self, joint, robot, scale):
-        """What it could look like, to judge whether another effect's trace could be taken for it: a
+        """Shapes that it could have, to judge whether another effect's trace could be taken for it: a
         list of families; the trace of a family is any sum of traces of its members."""
         raise NotImplementedError
 

@@ -26,7 +26,7 @@ def _add_moment(robot, k, mass, moment):
 
 
 class Payload(Effect):
-    """What the flange carries differs from the model's: mass and first moment in the tool frame."""
+    """The load of the flange differs from the model's: mass and first moment in the tool frame."""
 
     name = "payload"
     alters_model = True
