@@ -94,15 +94,18 @@ class NumberOptions {
  public:
   NumberOptions(OptionList* list, Typed* typed) : list_(list), typed_(typed) {}
 
-  template <typename Number>
-  void operator()(const SettingNumber& about, Number* value) {
+  template <typename About, typename Number>
+  void operator()(About shown, Number* value) {
+    const SettingNumber about = shown();
     const std::string name = std::string("--") + about.name;
     (about.only_at_start ? list_->add_fixed(name, value, about.help)
                          : list_->add_changeable(name, value, about.help))
         ->check(in_range(about.range));
   }
   /// One for all joints, or six.
-  void operator()(const SettingNumber& about, const JointNumbers<float>& values) {
+  template <typename About>
+  void operator()(About shown, const JointNumbers<float>& values) {
+    const SettingNumber about = shown();
     std::vector<float>& typed = typed_->of_joints[about.name];
     typed = {*values[0]};
     list_->add_changeable(std::string("--") + about.name, &typed, about.help)
@@ -131,9 +134,11 @@ void add_process(OptionList* app, Options* options) {
 struct JointTransfer {
   const Typed* typed;
 
-  template <typename Number>
-  void operator()(const SettingNumber& /*about*/, Number* /*value*/) const {}
-  void operator()(const SettingNumber& about, const JointNumbers<float>& values) const {
+  template <typename About, typename Number>
+  void operator()(About /*shown*/, Number* /*value*/) const {}
+  template <typename About>
+  void operator()(About shown, const JointNumbers<float>& values) const {
+    const SettingNumber about = shown();
     const std::vector<float>& given = typed->of_joints.at(about.name);
     if (given.size() != 1 && given.size() != values.size()) {
       throw CLI::ValidationError(std::string("--") + about.name, "expected one number, or six");

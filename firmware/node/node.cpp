@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "node/node_settings.hpp"
 #include "node/seconds.hpp"
-#include "node/settings_numbers.hpp"
 
 namespace flexcomp {
 namespace {
@@ -48,31 +48,14 @@ std::uint32_t losses_in(const StreamCounters& stream) {
   return stream.lost + stream.corrupt + stream.incomplete;
 }
 
-/// Looks at numbers of settings one by one.
-struct RangeCheck {
-  bool holds = true;
-
-  template <typename Number>
-  void operator()(const SettingNumber& about, const Number* number) {
-    holds = holds && is_in_range(static_cast<double>(*number), about.range);
-  }
-  template <typename Number>
-  void operator()(const SettingNumber& about, const JointNumbers<Number>& numbers) {
-    for (const Number* number : numbers) {
-      (*this)(about, number);
-    }
-  }
-};
-
 /// Are all numbers in their range? A heartbeat's period is counted in ticks.
 bool numbers_are_usable(const NodeConfig& config) {
   constexpr double kMostTicksToHeartbeat = 1e9;
   NodeSettings settings;
   settings.node = config;
-  RangeCheck check;
-  visit_numbers(&settings, check);
-  return check.holds && config.heartbeat_period / static_cast<double>(config.compensator.period) <=
-                            kMostTicksToHeartbeat;
+  return numbers_are_in_range(settings) &&
+         config.heartbeat_period / static_cast<double>(config.compensator.period) <=
+             kMostTicksToHeartbeat;
 }
 
 }  // namespace

@@ -21,12 +21,12 @@ class WordWriter {
  public:
   explicit WordWriter(std::uint32_t* to) : to_(to) {}
 
-  template <typename Number>
-  void operator()(const SettingNumber& /*about*/, const Number* number) {
+  template <typename About, typename Number>
+  void operator()(About /*about*/, const Number* number) {
     put(*number);
   }
-  template <typename Number>
-  void operator()(const SettingNumber& /*about*/, const JointNumbers<Number>& numbers) {
+  template <typename About, typename Number>
+  void operator()(About /*about*/, const JointNumbers<Number>& numbers) {
     for (const Number* number : numbers) {
       put(*number);
     }
@@ -40,21 +40,19 @@ class WordWriter {
   std::uint32_t* to_;
 };
 
-/// Takes them out again, and sees whether all are in their range.
+/// Takes them out again.
 class WordReader {
  public:
-  explicit WordReader(const std::uint32_t* from, bool* are_in_range)
-      : from_(from), are_in_range_(are_in_range) {}
+  explicit WordReader(const std::uint32_t* from) : from_(from) {}
 
-  template <typename Number>
-  void operator()(const SettingNumber& about, Number* number) {
+  template <typename About, typename Number>
+  void operator()(About /*about*/, Number* number) {
     take(number);
-    *are_in_range_ = *are_in_range_ && is_in_range(static_cast<double>(*number), about.range);
   }
-  template <typename Number>
-  void operator()(const SettingNumber& about, const JointNumbers<Number>& numbers) {
+  template <typename About, typename Number>
+  void operator()(About /*about*/, const JointNumbers<Number>& numbers) {
     for (Number* number : numbers) {
-      (*this)(about, number);
+      take(number);
     }
   }
 
@@ -68,7 +66,22 @@ class WordReader {
   }
 
   const std::uint32_t* from_;
-  bool* are_in_range_;
+};
+
+/// Looks at numbers one by one.
+struct RangeCheck {
+  bool holds = true;
+
+  template <typename About, typename Number>
+  void operator()(About about, const Number* number) {
+    holds = holds && is_in_range(static_cast<float>(*number), about().range);
+  }
+  template <typename About, typename Number>
+  void operator()(About about, const JointNumbers<Number>& numbers) {
+    for (const Number* number : numbers) {
+      (*this)(about, number);
+    }
+  }
 };
 
 std::uint32_t record_crc(const SettingsRecord& record) {
@@ -77,6 +90,12 @@ std::uint32_t record_crc(const SettingsRecord& record) {
 }
 
 }  // namespace
+
+bool numbers_are_in_range(const NodeSettings& settings) {
+  RangeCheck check;
+  visit_numbers(&settings, check);
+  return check.holds;
+}
 
 SettingsRecord to_record(const NodeSettings& settings) {
   const NodeConfig& node = settings.node;
@@ -117,9 +136,8 @@ Result read_record(const void* data, std::size_t size, NodeSettings* settings) {
   if ((record.flags & kHasKey) != 0) {
     read.table_key = record.table_key;
   }
-  bool are_in_range = true;
-  visit_numbers(&read, WordReader(record.numbers.data(), &are_in_range));
-  if (!are_in_range || !is_usable(node)) {
+  visit_numbers(&read, WordReader(record.numbers.data()));
+  if (!numbers_are_in_range(read) || !is_usable(node)) {
     return Result::bad_config;
   }
   *settings = read;

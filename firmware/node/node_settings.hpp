@@ -39,6 +39,9 @@ struct SettingsRecord {
   AuthenticationKey table_key;            ///< zero without one
 };
 
+/// Is each number one of those that it may be (settings_numbers.hpp)?
+bool numbers_are_in_range(const NodeSettings& settings);
+
 SettingsRecord to_record(const NodeSettings& settings);
 
 /// Reads a record of `size` bytes, or the one that begins there if there are more. Returns ok, or
