@@ -1,5 +1,6 @@
 """Many small causes at once: the generator, the refits beside it, and the judge."""
 
+import contextlib
 import json
 import os
 import pathlib
@@ -29,9 +30,12 @@ def nominal(folder, name="kr270", **words):
     return descriptions.load(folder / "robot.yaml")
 
 
-def only_shipped():
-    """Without the packages of other robots, so that cases are the same everywhere."""
-    return mock.patch.object(robots, "available", lambda: ["kr100", "kr270", "kr360", "kr500"])
+@contextlib.contextmanager
+def small():
+    """Fewer rows, and without the packages of other robots, so that cases are the same everywhere."""
+    with (mock.patch.object(robots, "available", lambda: ["kr100", "kr270", "kr360", "kr500"]),
+          mock.patch.object(frame_refit, "ROWS", 120), mock.patch.object(frames, "RATE", 10.0)):
+        yield
 
 
 class InFolder(unittest.TestCase):
@@ -121,9 +125,12 @@ class Courses(InFolder):
 
 
 class Cases(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.enterContext(small())
+
     def written(self, kind, number):
-        with only_shipped():
-            truth = cases.CLASSES[kind].write_case(5, number, self.folder)
+        truth = cases.CLASSES[kind].write_case(5, number, self.folder)
         read = {part: recording.read(self.folder / f"{part}.csv") for part in cases.PARTS}
         return truth, read, descriptions.load(self.folder / "robot.yaml")
 
@@ -240,7 +247,7 @@ class Command(InFolder):
         tool.write_text(CHEAT)
         tool.chmod(0o755)
         out = self.folder / "out"
-        with only_shipped(), mock.patch("sys.stdout"), mock.patch("sys.stderr"):
+        with small(), mock.patch("sys.stdout"), mock.patch("sys.stderr"):
             code = command.main(["--seed", "5", "--cases", "1", "--class", "frames", "--jobs", "1",
                                  "--tool", str(tool), "--out", str(out)])
         self.assertEqual(code, 0)

@@ -137,6 +137,7 @@ def main(words=None):
     if options.again:
         truths = json.loads((options.out / seal.OPENED).read_text())["truth"]
         tasks = [task for task in tasks if task[3].name in truths]
+        truths = {task[3].name: truths[task[3].name] for task in tasks}
         shutil.rmtree(options.out / "answers", ignore_errors=True)
         sealed = None
     else:
