@@ -190,6 +190,12 @@ class Judging(InFolder):
                                          self.truth)
             self.assertEqual(bool(found), wrong, torque)
 
+    def test_offsets_that_cancel_each_other_cannot_be(self):
+        truth = {"class": "frames", "length": 2e-4, "angle": 2e-4}
+        for size, wrong in ((7e-3, True), (4e-4, False)):
+            found = plausible.impossible([self.finding("link_offset", 4, y=size)], "{}", truth)
+            self.assertEqual(bool(found), wrong, size)
+
     def test_a_negative_number_of_the_model_cannot_be(self):
         text = "joints: {joint_a1: {compliance: 1e-6, viscous: -1e-1}}"
         self.assertTrue(plausible.impossible([], text, self.truth))

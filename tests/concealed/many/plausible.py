@@ -7,12 +7,14 @@ number of its own, a finding of the opposite sign, or of many times its size, ca
 import yaml
 
 MANY = 4.0  # times the concealed size
+ADDED = 8.0  # the same of a frame, one standard deviation: several frames may show in one number
 
 # effect -> parameter -> largest size of a change that can be (SI)
 LIMITS = {
     "joint_offset": {"offset": 0.05},
     "joint_axis": {"tilt_x": 0.05, "tilt_y": 0.05, "tilt_z": 0.05},
     "link_length": {"length": 0.02},
+    "link_offset": {"x": 0.02, "y": 0.02, "z": 0.02},
     "tcp_offset": {"x": 0.1, "y": 0.1, "z": 0.1},
     "base_frame": {"x": 3.0, "y": 3.0, "z": 3.0, "rx": 0.8, "ry": 0.8, "rz": 0.8},
     "backlash": {"gap": 0.01},
@@ -24,12 +26,13 @@ LIMITS = {
 # Numbers of a joint in robot.yaml that are nothing or more.
 NOT_NEGATIVE = "compliance", "viscous", "coulomb", "rotor_inertia", "backlash"
 
-GEOMETRY = {"joint_offset", "joint_axis", "link_length", "tcp_offset", "base_frame", "link_frame"}
+GEOMETRY = {"joint_offset", "joint_axis", "link_length", "tcp_offset", "base_frame", "link_frame",
+            "link_offset"}
 ALWAYS = {"law"}  # says itself what it is
 PRESENT = {
     "frames": GEOMETRY | {"joint_stiffness", "transmission_ripple", "thermal_drift"},
     "friction": {"coulomb_friction", "viscous_friction", "friction_hysteresis", "rotor_inertia",
-                 "torque_offset", "link_mass", "torque_ripple"},
+                 "torque_offset", "link_mass", "link_inertia", "torque_ripple"},
 }
 
 
@@ -41,7 +44,7 @@ def present(truth):
         names |= {"base_compliance"} if truth["has_base_compliance"] else set()
         return names
     has = truth["has"]
-    # A link's mass at the flange is a payload too, friction that wanes with time is Stribeck's not.
+    # A last link of another mass is a payload too.
     names |= {"payload"}
     names |= {"stribeck_friction"} if has["stribeck"] else set()
     names |= {"load_friction", "friction_load"} if has["load"] else set()
@@ -69,10 +72,22 @@ def _beyond_limits(finding):
             if name in limits and abs(value) > limits[name]]
 
 
+def _off_frames(finding, truth):
+    """Lengths and angles that many concealed ones together do not make, as where two large ones that a
+    recording cannot tell apart cancel."""
+    length, angle = (max(least, ADDED * truth[name])
+                     for name, least in (("length", 2e-3), ("angle", 4e-3)))
+    sizes = {"link_length": length, "link_offset": length, "joint_axis": angle,
+             "joint_offset": angle}
+    size = sizes.get(finding["effect"])
+    return [f"{finding['effect']} {finding.get('joint') or ''} {name} {value:.3g}"
+            for name, value in _values(finding).items() if size and abs(value) > size]
+
+
 def _against_truth(finding, truth):
     """Friction, rotors and masses of a sign or a size that cannot be."""
     if truth["class"] != "friction":
-        return []
+        return _off_frames(finding, truth)
     joint, effect, values = finding.get("joint"), finding["effect"], _values(finding)
     place = f"{effect} {joint or ''}".strip()
     if effect == "payload" and values.get("mass", 0.0) < 0:
