@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "flexcomp/chain.hpp"
+#include "model/chain_kinematics.hpp"
 #include "simulation/inverse_dynamics.hpp"
 
 namespace flexcomp::check {
@@ -11,18 +11,20 @@ Eigen::Index joint_count(const model::Robot& robot) {
   return static_cast<Eigen::Index>(robot.elastic.joints.size());
 }
 
-const Joint<double>& joint_of(const model::Robot& robot, Eigen::Index joint) {
+const model::ChainJoint& joint_of(const model::Robot& robot, Eigen::Index joint) {
   return robot.elastic.joints[static_cast<std::size_t>(joint)];
 }
 
-bool turns(const model::Robot&, Eigen::Index) { return true; }
+bool turns(const model::Robot& robot, Eigen::Index joint) {
+  return !joint_of(robot, joint).slides();
+}
 
 Pose<double> tcp_at(const model::Robot& robot, const Eigen::RowVectorXd& q) {
-  return forward_kinematics<double, 6>(robot.elastic, q.transpose()).tcp;
+  return forward_kinematics(robot.elastic, q.transpose()).tcp;
 }
 
 Eigen::MatrixXd jacobian_at(const model::Robot& robot, const Eigen::RowVectorXd& q) {
-  return geometric_jacobian<double, 6>(forward_kinematics<double, 6>(robot.elastic, q.transpose()));
+  return geometric_jacobian(robot.elastic, forward_kinematics(robot.elastic, q.transpose()));
 }
 
 Eigen::RowVectorXd torque_at(const model::Robot& robot, const Eigen::RowVectorXd& q,
@@ -40,7 +42,7 @@ model::Robot with_gravity(model::Robot robot, const Vector3<double>& gravity) {
 
 bool has_masses(const model::Robot& robot) {
   return std::any_of(robot.elastic.joints.begin(), robot.elastic.joints.end(),
-                     [](const Joint<double>& joint) { return joint.mass > 0; });
+                     [](const model::ChainJoint& joint) { return joint.mass > 0; });
 }
 
 }  // namespace flexcomp::check

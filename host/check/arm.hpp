@@ -9,7 +9,7 @@ namespace flexcomp::check {
 
 Eigen::Index joint_count(const model::Robot& robot);
 
-const Joint<double>& joint_of(const model::Robot& robot, Eigen::Index joint);
+const model::ChainJoint& joint_of(const model::Robot& robot, Eigen::Index joint);
 
 /// Does the joint turn? Angles of one that slides are lengths.
 bool turns(const model::Robot& robot, Eigen::Index joint);

@@ -13,12 +13,13 @@ Checks check_against_robot(const std::string& file, const Config& config,
                            const model::Robot& robot) {
   constexpr double kLoose = 3;  // times the limit: a jump of a setpoint passes
   Checks checks;
-  if (config.model_hash != model_hash(robot.elastic)) {
+  const std::uint64_t hash = model_hash(model::six_axis_model(robot));
+  if (config.model_hash != hash) {
     checks.push_back(
         {Severity::error, "config", "config.model",
          fmt::format("{}: model-hash {:016x} is of another robot, tool or payload than "
                      "the model ({:016x})",
-                     file, config.model_hash, model_hash(robot.elastic)),
+                     file, config.model_hash, hash),
          "make the configuration anew: flexcomp configure"});
   }
   for (Eigen::Index joint = 0; joint < joint_count(robot); ++joint) {
@@ -66,7 +67,7 @@ Checks check_config(const std::string& file, const Options& options, const model
                     const Table* table) {
   const Config& config = options.settings.node.compensator;
   Checks checks;
-  if (robot != nullptr && joint_count(*robot) == 6) {
+  if (robot != nullptr && model::six_axis_model(robot->elastic)) {
     add(check_against_robot(file, config, *robot), &checks);
   }
   if (table != nullptr) {

@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "check/angles.hpp"
 #include "check/arm.hpp"
@@ -145,11 +146,12 @@ Checks check_path(const model::Robot& robot, recording::Recording path) {
 
 Checks check_process(const model::Robot& robot, const recording::Recording& path,
                      const simulation::Process& process, const CorrectionLoop& loop) {
+  const std::optional<RobotModel<double, 6>> core = model::six_axis_model(robot.elastic);
   if (!path.q_cmd || !path.wrench || path.wrench->isZero(0) || !path.wrench->allFinite() ||
-      !path.q_cmd->allFinite() || joint_count(robot) != 6) {
+      !path.q_cmd->allFinite() || !core) {
     return {};
   }
-  const GainLimit limit = gain_limit(control::feedback_along(robot.elastic, path, process), loop);
+  const GainLimit limit = gain_limit(control::feedback_along(*core, path, process), loop);
   if (!limit.digs_in()) {
     return {};
   }
@@ -165,7 +167,7 @@ Checks check_process(const model::Robot& robot, const recording::Recording& path
 }
 
 Checks check_table(const model::Robot& robot, const std::string& file, const Table& table) {
-  if (table.model_hash() != model_hash(robot.elastic)) {
+  if (table.model_hash() != model_hash(model::six_axis_model(robot))) {
     return {{Severity::error, "table", "table.other",
              file + ": the table is of another robot, tool or payload than the model",
              "make the table from this model: flexcomp table"}};

@@ -30,14 +30,15 @@ struct CheckOptions {
 
 /// A recording whose times need not increase: what does not is told, and left out.
 recording::Recording read_with_times(const std::string& file, const char* about,
-                                     check::Checks* checks) {
+                                     const model::Robot* robot, check::Checks* checks) {
   recording::NumberTable table = recording::read_csv(file);
   check::Checks order = check::check_order_of_times(&table);
   for (check::Check& each : order) {
     each.about = about;
   }
   check::add(std::move(order), checks);
-  return recording::recording_of(table);
+  return robot == nullptr ? recording::recording_of(table)
+                          : recording::recording_of(table, robot->joints());
 }
 
 bool holds(const check::Checks& checks) {
@@ -66,7 +67,8 @@ check::Checks check_all(const CheckOptions& options) {
   }
   const model::Robot* known = robot ? &*robot : nullptr;
   for (const std::string& file : options.recordings) {
-    check::add(check::check_recording(known, read_with_times(file, "recording", &checks)), &checks);
+    check::add(check::check_recording(known, read_with_times(file, "recording", known, &checks)),
+               &checks);
   }
   std::optional<TableFile> table;
   bool is_of_robot = false;
@@ -78,7 +80,7 @@ check::Checks check_all(const CheckOptions& options) {
     check::add(found, &checks);
   }
   if (!options.path.empty()) {
-    const recording::Recording path = read_with_times(options.path, "path", &checks);
+    const recording::Recording path = read_with_times(options.path, "path", known, &checks);
     const check::Checks found = robot ? check::check_path(*robot, path) : check::Checks{};
     const bool is_usable = robot.has_value() && holds(found);
     check::add(found, &checks);

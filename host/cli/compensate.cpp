@@ -43,7 +43,7 @@ double offline_gain(const Table& table) {
 Core::Config offline_config(const model::Robot& robot, const Table& table) {
   Core::Config config;
   config.period = 1;
-  config.model_hash = model_hash(robot.elastic);
+  config.model_hash = model_hash(model::six_axis_model(robot));
   config.gain = offline_gain(table);
   // The certificate holds up to these; rounding to float in the header may have shaved a bit off.
   config.force_range = 1.000001 * table.header().force_bound + 1e-6;
@@ -123,11 +123,10 @@ class OfflineCompensator {
 };
 
 /// Distance of the bent TCP from where it should be.
-TableError<double> tcp_error(const RobotModel<double, 6>& model,
-                             const JointVector<double, 6>& wanted,
+TableError<double> tcp_error(const model::Chain& model, const JointVector<double, 6>& wanted,
                              const JointVector<double, 6>& commanded,
                              const Wrench<double>& wrench) {
-  const Twist<double> off = pose_difference(forward_kinematics<double, 6>(model, wanted).tcp,
+  const Twist<double> off = pose_difference(forward_kinematics(model, wanted).tcp,
                                             simulation::settle(model, commanded, wrench).tcp);
   return {off.head<3>().norm(), off.tail<3>().norm()};
 }
@@ -136,8 +135,8 @@ TableError<double> tcp_error(const RobotModel<double, 6>& model,
 recording::Samples wanted_positions(const model::Robot& robot, const recording::Samples& q_cmd) {
   recording::Samples wanted(q_cmd.rows(), 3);
   for (Eigen::Index row = 0; row < q_cmd.rows(); ++row) {
-    const JointVector<double, 6> q = q_cmd.row(row).transpose();
-    wanted.row(row) = forward_kinematics<double, 6>(robot.elastic, q).tcp.position.transpose();
+    wanted.row(row) =
+        forward_kinematics(robot.elastic, q_cmd.row(row).transpose()).tcp.position.transpose();
   }
   return wanted;
 }

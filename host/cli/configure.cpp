@@ -49,7 +49,7 @@ std::string configuration(const ConfigureOptions& options, const model::Robot& r
       "# Every option of flexcompd --help may stand here; those left out have their defaults.\n\n"
       "# fingerprint of {}: geometry, springs, weights\n"
       "model-hash = \"{:016x}\"\n",
-      robot.name, options.model, model_hash(robot.elastic));
+      robot.name, options.model, model_hash(model::six_axis_model(robot)));
   if (!options.table.empty()) {
     text += fmt::format("table = \"{}\"\n", std::filesystem::absolute(options.table).string());
   }
@@ -70,6 +70,7 @@ std::string configuration(const ConfigureOptions& options, const model::Robot& r
 
 int run(const ConfigureOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   double largest_gain = 0;
   if (!options.table.empty()) {
     largest_gain =
@@ -87,7 +88,7 @@ int run(const ConfigureOptions& options) {
     stream << configuration(options, robot, largest_gain);
   });
   fmt::print("{}: robot {:016x}; start with: flexcompd --config {} --can can0\n", options.out,
-             model_hash(robot.elastic), options.out);
+             model_hash(elastic), options.out);
   if (!options.table.empty() && largest_gain <= 0) {
     fmt::print("the largest safe gain is not known: the table was made without a process\n");
   } else if (!options.table.empty()) {

@@ -60,12 +60,12 @@ void refuse_unlike(const recording::Recording& first, const recording::Recording
   }
 }
 
-std::vector<simulation::Scene> read_scenes(const DiagnoseOptions& options,
+std::vector<simulation::Scene> read_scenes(const DiagnoseOptions& options, int joints,
                                            std::vector<diagnosis::Quality>* qualities) {
   std::vector<recording::Recording> recordings;
   for (const auto* files : {&options.recordings, &options.holdouts}) {
     for (const std::string& file : *files) {
-      recordings.push_back(recording::read_recording(file));
+      recordings.push_back(recording::read_recording(file, joints));
     }
   }
   std::vector<simulation::Scene> scenes;
@@ -112,7 +112,7 @@ int run(const DiagnoseOptions& options) {
   }
   const model::Robot robot = model::load_robot(options.model);
   std::vector<diagnosis::Quality> qualities;
-  std::vector<simulation::Scene> scenes = read_scenes(options, &qualities);
+  std::vector<simulation::Scene> scenes = read_scenes(options, robot.joints(), &qualities);
   simulation::Machine machine = effects::machine_of(robot, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes),
                                        options.holdouts.size());

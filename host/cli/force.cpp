@@ -58,9 +58,10 @@ int run(const ForceOptions& options) {
     study::Spindle spindle = options.spindle;
     spindle.is_mean = spindle.speed == 0;
     const model::Robot robot = model::load_robot(options.model);
+    const RobotModel<double, 6> elastic = model::six_axis_model(robot);
     recording::Recording path = recording::read_recording_of(robot.elastic, options.path);
     recording::write_recording(
-        options.out, study::with_milling_wrench(robot.elastic, std::move(path), milling, spindle));
+        options.out, study::with_milling_wrench(elastic, std::move(path), milling, spindle));
   }
   const Wrench<double> mean = study::mean_wrench(milling);
   const double peak = peak_force(milling);

@@ -165,10 +165,11 @@ int run(const IdentifyOptions& options) {
     throw InputError("identify: --model and --recording are required (see --help)");
   }
   model::Robot robot = model::load_robot(options.model);
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   const recording::Recording recording =
       recording::read_recording_of(robot.elastic, options.recording);
   const study::Identification found = study::identify_springs(
-      robot.elastic, recording, options.sought,
+      elastic, recording, options.sought,
       {options.deviations[0], options.deviations[1], options.deviations[2]});
   refuse_impossible(found);
   const bool is_told = is_any_told(found);
@@ -191,11 +192,12 @@ int run(const IdentifyOptions& options) {
 
 int run_plan(const LoadTestPlanOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   Progress progress("planning", 1000);
   const study::LoadTestPlan plan = study::plan_load_tests(
-      robot.elastic, options.request,
+      elastic, options.request,
       [&](std::size_t done, std::size_t most) { progress.show(1000 * done / most); });
-  const double gain = study::gain_over_random(robot.elastic, plan, options.request);
+  const double gain = study::gain_over_random(elastic, plan, options.request);
   recording::write_recording(options.out, study::as_recording(plan));
   Json widths = Json::object();
   std::string text;

@@ -81,7 +81,7 @@ struct Study {
   }
 };
 
-Study study_of(const model::Robot& robot, const MapOptions& options) {
+Study study_of(const RobotModel<double, 6>& elastic, const MapOptions& options) {
   Study study;
   study.circle = circle_of(options);
   Progress progress("mapping", 1000);
@@ -89,14 +89,14 @@ Study study_of(const model::Robot& robot, const MapOptions& options) {
     progress.show(1000 * done / count);
   };
   if (options.plane == "xz") {
-    const study::CircleStudy at(robot.elastic, study.circle);
+    const study::CircleStudy at(elastic, study.circle);
     study.arm = at.arm();
     study.map = study::map_circularity(at, options.step, show);
   } else {
     study.circle.point = study::ToolPoint::tcp;
     const Vector3<double> tool_axis =
         options.plane == "xy" ? Vector3<double>(0, 0, -1) : Vector3<double>(1, 0, 0);
-    study.map = study::map_section(robot.elastic, study.circle, tool_axis, options.step, show);
+    study.map = study::map_section(elastic, study.circle, tool_axis, options.step, show);
   }
   study.summary = study::summarize(study.map);
   for (const double size : options.regions) {
@@ -197,7 +197,7 @@ int run(const MapOptions& options) {
   if (study::ranks_from_environment().rank != 0) {
     return kDone;  // a plane is done before processes could share it
   }
-  const Study study = study_of(robot, options);
+  const Study study = study_of(model::six_axis_model(robot), options);
   const Json summary = summary_json(robot, options, study);
   const std::string script = study::map_script(
       study.map, study.arm, study.squares,

@@ -89,7 +89,7 @@ void print(const Json& summary) {
 
 int map_volume(const model::Robot& robot, const study::VolumeRequest& request,
                const std::string& folder, bool json) {
-  const study::VolumeMap map(robot.elastic, request);
+  const study::VolumeMap map(model::six_axis_model(robot), request);
   const study::Ranks ranks = study::ranks_from_environment();
   const std::filesystem::path out = output_folder(folder);
   const std::filesystem::path unfinished =

@@ -37,14 +37,14 @@ bool is_on_bound(const study::Placement& place, const study::PlacementRequest& r
 
 int run(const PlaceOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   const recording::Recording path = recording::read_recording_of(robot.elastic, options.path);
   study::PlacementRequest request = options.request;
   request.most_shift = {options.most_shift[0], options.most_shift[1], options.most_shift[2]};
   Progress progress("placing", static_cast<std::size_t>(request.evaluations));
-  const study::PlacedJob before = study::as_placed(robot.elastic, path);
-  const study::PlacedJob after = study::best_placement(robot.elastic, path, request, [&](int done) {
-    progress.show(static_cast<std::size_t>(done));
-  });
+  const study::PlacedJob before = study::as_placed(elastic, path);
+  const study::PlacedJob after = study::best_placement(
+      elastic, path, request, [&](int done) { progress.show(static_cast<std::size_t>(done)); });
   recording::write_recording(options.out, after.path);
   const study::Placement& place = after.placement;
   if (options.json) {

@@ -52,8 +52,9 @@ int run(const PlanOptions& options, bool has_tool_axis) {
   }
   const model::Robot robot = model::load_robot(options.model);
   Progress progress("planning", static_cast<std::size_t>(plan.points));
-  const recording::Recording recording = planning::plan_circle(
-      robot.elastic, plan, [&](int done) { progress.show(static_cast<std::size_t>(done)); });
+  const recording::Recording recording =
+      planning::plan_circle(model::six_axis_model(robot), plan,
+                            [&](int done) { progress.show(static_cast<std::size_t>(done)); });
   recording::write_recording(options.out, recording);
   return kDone;
 }

@@ -48,7 +48,7 @@ NodeConfig node_config(const PlantOptions& options, const model::Robot& robot) {
   config.compensator.period = static_cast<float>(options.plant.period);
   config.compensator.gain = static_cast<float>(options.gain);
   config.compensator.filter_cutoff = static_cast<float>(options.filter_cutoff);
-  config.compensator.model_hash = model_hash(robot.elastic);
+  config.compensator.model_hash = model_hash(model::six_axis_model(robot));
   return config;
 }
 
@@ -59,8 +59,8 @@ GainLimit gain_limit_of(const PlantOptions& options, const model::Robot& known,
   loop.period = loop.delay = options.plant.period;
   loop.filter_cutoff = options.filter_cutoff;
   const FeedbackRange feedback = control::feedback_along(
-      simulation::with_scaled_compliance(known.elastic, options.compliance_scale), path,
-      options.process.process);
+      simulation::with_scaled_compliance(model::six_axis_model(known), options.compliance_scale),
+      path, options.process.process);
   return gain_limit(feedback, loop, options.compliance_scale);
 }
 
@@ -115,7 +115,7 @@ nlohmann::ordered_json summary(const simulation::PlantRun& run) {
 }
 
 /// The model that the compensator needs: with link encoders the joint springs are the controller's.
-RobotModel<double, 6> compensated_model(const PlantOptions& options, const model::Robot& robot) {
+model::Chain compensated_model(const PlantOptions& options, const model::Robot& robot) {
   return options.arc ? simulation::without_joint_springs(robot.elastic) : robot.elastic;
 }
 
@@ -162,11 +162,12 @@ int run(const PlantOptions& options) {
   }
   model::Robot known = model::load_robot(options.model);
   const model::Robot robot = known;
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   known.elastic = compensated_model(options, robot);
   std::unique_ptr<simulation::PlantBus> bus;
   simulation::PlantOptions plant_options = options.plant;
   plant_options.compensate = !options.without_compensation;
-  plant_options.model_hash = model_hash(known.elastic);
+  plant_options.model_hash = model_hash(model::six_axis_model(known));
   std::unique_ptr<TableFile> table;
   if (options.bus.empty()) {
     table = std::make_unique<TableFile>(read_table(options.table, known));
@@ -177,7 +178,7 @@ int run(const PlantOptions& options) {
   }
   const recording::Recording path = recording::read_recording(options.path);
   const GainLimit limit = gain_limit_of(options, known, path);
-  simulation::Contour contour(robot.elastic, path, options.process.process.side);
+  simulation::Contour contour(elastic, path, options.process.process.side);
   if (!options.allow_unstable && limit.digs_in()) {
     fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));
     return kDoesNotHold;

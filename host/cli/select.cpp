@@ -56,7 +56,7 @@ Entry entry_of(const std::string& word, const SelectOptions& options, study::Mil
   const auto [file, payload] = file_and_payload(word);
   const model::Robot robot = model::load_robot(file);
   circle.radius = options.radius;
-  const study::CircleStudy at(robot.elastic, circle);
+  const study::CircleStudy at(model::six_axis_model(robot), circle);
   Progress progress("mapping " + robot.name, 1000);
   const study::CircularityMap map = study::map_circularity(
       at, options.step,

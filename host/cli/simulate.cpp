@@ -68,8 +68,8 @@ int run_recording(const SimulateOptions& options) {
     throw InputError("--compliance-scale goes with --path, not with --recording");
   }
   const model::Robot robot = model::load_robot(options.model);
-  recording::write_recording(options.out,
-                             expected(robot, recording::read_recording(options.recording)));
+  recording::write_recording(
+      options.out, expected(robot, recording::read_recording(options.recording, robot.joints())));
   return kDone;
 }
 
@@ -78,7 +78,7 @@ int run_path(const SimulateOptions& options) {
     throw InputError("--compliance-scale: expected a number above zero");
   }
   const model::Robot robot = model::load_robot(options.model);
-  const RobotModel<double, 6> plant =
+  const model::Chain plant =
       simulation::with_scaled_compliance(robot.elastic, options.compliance_scale);
   recording::Recording recording = recording::read_recording_of(robot.elastic, options.path);
   const recording::Samples& q_cmd =

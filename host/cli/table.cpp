@@ -88,6 +88,7 @@ int run_build(const BuildOptions& options) {
     throw InputError("--tolerance: expected a length above zero");
   }
   const model::Robot robot = model::load_robot(options.model);
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   const recording::Recording path = recording::read_program_of(robot.elastic, options.path);
   const recording::Samples& q_cmd = recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
   std::vector<JointVector<double, 6>> points;
@@ -99,13 +100,13 @@ int run_build(const BuildOptions& options) {
   GainLimit gain;
   if (!options.process.is_none) {
     wanted.gain_basis =
-        control::gain_basis(control::feedback_along(robot.elastic, path, options.process.process),
+        control::gain_basis(control::feedback_along(elastic, path, options.process.process),
                             options.process.process, options.process.loop);
     gain = gain_limit(wanted.gain_basis);
     wanted.largest_gain = gain.safe;
   }
   try {
-    words = build(robot.elastic, points, wanted);
+    words = build(elastic, points, wanted);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", options.path, error.what()));
   }

@@ -34,11 +34,12 @@ TableFile read_any_table(const std::filesystem::path& path) {
 }
 
 TableFile read_unproven_table(const std::filesystem::path& path, const model::Robot& robot) {
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   TableFile file = read_any_table(path);
-  if (file.table.model_hash() != model_hash(robot.elastic)) {
+  if (file.table.model_hash() != model_hash(elastic)) {
     refuse(path, describe(Result::table_other_model));
   }
-  switch (check_against_model<double, 6>(robot.elastic, file.table)) {
+  switch (check_against_model<double, 6>(elastic, file.table)) {
     case Result::ok:
       return file;
     case Result::table_other_model:
@@ -55,15 +56,16 @@ TableFile read_unproven_table(const std::filesystem::path& path, const model::Ro
 Certificate derive_certificate(const std::filesystem::path& path, const model::Robot& robot,
                                const Table& table) {
   Certificate certificate;
-  const Result derived =
-      flexcomp::derive_certificate<double, 6>(robot.elastic, table, &certificate.error);
+  const Result derived = flexcomp::derive_certificate<double, 6>(model::six_axis_model(robot),
+                                                                 table, &certificate.error);
   if (derived != Result::ok) {
     refuse(path, fmt::format("no table of this model: {}", describe(derived)));
   }
   const InsideError stated = inside_error(table.header());
   certificate.states_inside = stated.position > 0 || table.header().position_error == 0;
   if (table.chart() == Chart::path &&
-      derive_inside_error<double, 6>(robot.elastic, table, &certificate.inside) != Result::ok) {
+      derive_inside_error<double, 6>(model::six_axis_model(robot), table, &certificate.inside) !=
+          Result::ok) {
     refuse(path, "no table of this model: its bound for angles off the program is no builder's");
   }
   certificate.inside_holds =

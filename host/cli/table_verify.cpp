@@ -60,6 +60,7 @@ Places program_places(const recording::Samples& q_cmd) {
 
 TableError<double> largest_error(const model::Robot& robot, const Table& table, std::size_t samples,
                                  const Places& places) {
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   Progress progress("verifying", samples);
   std::mt19937_64 random(20170601);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -71,7 +72,7 @@ TableError<double> largest_error(const model::Robot& robot, const Table& table, 
     if (look_up<double, 6>(table, q, &cursor).outside > 0) {
       locate<double, 6>(table, q, &cursor);
     }
-    const auto error = table_error_at<double, 6>(robot.elastic, table, q, &cursor);
+    const auto error = table_error_at<double, 6>(elastic, table, q, &cursor);
     worst.position = std::max(worst.position, error.position);
     worst.orientation = std::max(worst.orientation, error.orientation);
     progress.show(i);
@@ -139,14 +140,14 @@ Part check_gain(const VerifyOptions& options, const model::Robot& robot, const T
     return gain;
   }
   const ProcessOptions& process = options.process;
-  const double found =
-      process.is_none
-          ? 0
-          : gain_limit(control::feedback_along(
-                           robot.elastic, recording::read_program_of(robot.elastic, options.path),
-                           process.process),
-                       process.loop)
-                .safe;
+  const double found = process.is_none
+                           ? 0
+                           : gain_limit(control::feedback_along(
+                                            model::six_axis_model(robot),
+                                            recording::read_program_of(robot.elastic, options.path),
+                                            process.process),
+                                        process.loop)
+                                 .safe;
   gain.holds = std::abs(stated - found) <= 1e-6 * found;
   gain.text += fmt::format(
       "; found {}{}\n",

@@ -103,7 +103,7 @@ class CircleMill {
         turn_(path.time[path.size() - 1] - path.time[0]),
         angles_(path.q_cmd->topRows(path.size() - 1)),
         wrenches_(path.wrench->topRows(path.size() - 1)),
-        rigid_(without_joint_springs(trial.arm.model)) {}
+        rigid_(model::chain_of(without_joint_springs(trial.arm.model))) {}
 
   CircleRun run(const std::string& name, bool adaptive, bool compensated) {
     CircleRun result;
@@ -203,7 +203,7 @@ class CircleMill {
   double turn_;  ///< s
   PeriodicPath angles_;
   PeriodicPath wrenches_;
-  RobotModel<double, 6> rigid_;
+  model::Chain rigid_;
 };
 
 }  // namespace

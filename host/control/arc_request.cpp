@@ -1,5 +1,6 @@
 #include "control/arc_request.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -132,7 +133,9 @@ ArcBandwidth read_bandwidth(const YamlMap& yaml) {
 
 /// The robot as an arm: dynamics from its files.
 simulation::FlexibleArm<6> flexible_arm(const model::Robot& robot) {
-  simulation::FlexibleArm<6> arm{robot.elastic, robot.link_inertia};
+  simulation::FlexibleArm<6> arm;
+  arm.model = model::six_axis_model(robot);
+  std::copy(robot.link_inertia.begin(), robot.link_inertia.end(), arm.inertia.begin());
   for (std::size_t i = 0; i < 6; ++i) {
     const auto joint = static_cast<Eigen::Index>(i);
     arm.rotor_inertia[joint] = robot.dynamics[i].rotor_inertia;

@@ -31,7 +31,7 @@ DynamicMillingRobot::DynamicMillingRobot(const simulation::FlexibleArm<6>& arm,
                                          Controller<6> controller, double period,
                                          double control_period)
     : arm_(arm),
-      structure_(simulation::without_joint_springs(arm.model)),
+      structure_(model::chain_of(simulation::without_joint_springs(arm.model))),
       process_(process),
       controller_(std::move(controller)),
       plant_(arm),

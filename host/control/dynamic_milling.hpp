@@ -25,7 +25,7 @@ class DynamicMillingRobot : public simulation::RobotInCut {
   void step(const Reference<6>& reference, const simulation::Contour::Point& point, double load);
 
   simulation::FlexibleArm<6> arm_;
-  RobotModel<double, 6> structure_;  ///< without joint springs
+  model::Chain structure_;  ///< without joint springs
   simulation::Process process_;
   Controller<6> controller_;
   simulation::FlexibleJointPlant<6> plant_;

@@ -72,7 +72,7 @@ std::vector<Cue> cues_of(const Scene& scene, const Prediction& prediction,
                          const Simulation& simulation) {
   std::vector<Cue> cues;
   const Eigen::MatrixXd& load = shown_load(scene, prediction);
-  for (int joint = 1; joint <= 6; ++joint) {
+  for (int joint = 1; joint <= scene.joints(); ++joint) {
     const Eigen::Index column = joint - 1;
     const auto add = [&](const char* what, Eigen::VectorXi kind, int classes) {
       cues.push_back({fmt::format("{} joint {}", what, joint), joint, std::move(kind), classes});

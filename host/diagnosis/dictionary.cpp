@@ -75,8 +75,7 @@ Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) 
     hypothesis.apply(values, &machine);
     return observations_.stacked(predict(machine, observations_.scenes)) - predicted_;
   }
-  Machine machine;
-  machine.robot = observations_.machine.robot;
+  Machine machine(observations_.machine.robot);
   if (hypothesis.is_sketched) {
     machine.terms.push_back(hypothesis.law->sketch(values, hypothesis.joint));
   } else {

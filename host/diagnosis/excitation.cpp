@@ -54,7 +54,7 @@ std::vector<Excitation> excitation(const Observations& observations,
                                    const std::vector<Hypothesis>& hypotheses,
                                    const Dictionary& dictionary) {
   std::vector<Excitation> all;
-  for (int joint = 1; joint <= 6; ++joint) {
+  for (int joint = 1; joint <= observations.machine.robot.joints(); ++joint) {
     const auto of = [&](effects::Measures property) {
       return observations.noise_is_known ? resolution(hypotheses, dictionary, property, joint)
                                          : kUnknownSize;

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "diagnosis/diagnosis.hpp"
 #include "error.hpp"
@@ -18,6 +20,12 @@ struct Experiment {
   recording::Recording recording;
 };
 
+/// Where a joint can go; half a turn either way where it turns without end.
+std::pair<double, double> range_of(const model::ChainJoint& joint) {
+  return joint.type == model::JointType::continuous ? std::pair(-M_PI, M_PI)
+                                                    : std::pair(joint.lower, joint.upper);
+}
+
 /// Poses within the middle of the joint limits, each under a force along and against an axis.
 std::vector<Experiment> load_tests(const model::Robot& robot) {
   constexpr int kPoses = 12;
@@ -25,10 +33,10 @@ std::vector<Experiment> load_tests(const model::Robot& robot) {
   std::uniform_real_distribution<double> within(0.2, 0.8);
   std::vector<Experiment> all;
   for (int pose = 0; pose < kPoses; ++pose) {
-    Eigen::RowVectorXd q(6);
-    for (Eigen::Index joint = 0; joint < 6; ++joint) {
-      const Joint<double>& limits = robot.elastic.joints[static_cast<std::size_t>(joint)];
-      q[joint] = limits.lower + within(random) * (limits.upper - limits.lower);
+    Eigen::RowVectorXd q(robot.elastic.size());
+    for (Eigen::Index joint = 0; joint < q.size(); ++joint) {
+      const auto [lower, upper] = range_of(robot.elastic.joint(joint));
+      q[joint] = lower + within(random) * (upper - lower);
     }
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       Experiment experiment;
@@ -38,9 +46,9 @@ std::vector<Experiment> load_tests(const model::Robot& robot) {
       recording.wrench = recording::Samples(recording::Samples::Zero(4, 6));
       recording.wrench->col(axis) << kForce, -kForce, 0.5 * kForce, -0.5 * kForce;
       experiment.description = fmt::format(
-          "a load test with {:.0f} and {:.0f} N along and against {} at the joint angles {:.2f}, "
-          "{:.2f}, {:.2f}, {:.2f}, {:.2f}, {:.2f} rad",
-          0.5 * kForce, kForce, "xyz"[axis], q[0], q[1], q[2], q[3], q[4], q[5]);
+          "a load test with {:.0f} and {:.0f} N along and against {} at the joint angles {:.2f} "
+          "rad",
+          0.5 * kForce, kForce, "xyz"[axis], fmt::join(q.data(), q.data() + q.size(), ", "));
       all.push_back(std::move(experiment));
     }
   }
@@ -52,7 +60,7 @@ std::vector<Experiment> motions(const Scene& scene) {
   constexpr double kSwing = 0.3;  // rad
   constexpr Eigen::Index kRows = 600;
   std::vector<Experiment> all;
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+  for (Eigen::Index joint = 0; joint < scene.joints(); ++joint) {
     for (const double speed : {0.02, 0.1, 0.5}) {
       Experiment experiment;
       recording::Recording& recording = experiment.recording;
@@ -84,10 +92,10 @@ std::vector<Experiment> experiments(const Observations& observations) {
       recording.position = nothing(3);
     }
     if (observations.has(simulation::joint_torque)) {
-      recording.tau = nothing(6);
+      recording.tau = nothing(observations.machine.robot.joints());
     }
     if (observations.has(simulation::joint_deflection)) {
-      recording.q_link = nothing(6);
+      recording.q_link = nothing(observations.machine.robot.joints());
     }
     // A drift by temperature can be simulated only where there is one; it stays as it is.
     const Eigen::VectorXd& temperature = observations.scenes.front().temperature;

@@ -232,7 +232,7 @@ std::vector<Coupling> propose_couplings(const Observations& observations, const 
   const Eigen::VectorXd known = observations.stacked(predict(fit.machine, observations.scenes));
   const auto left = fit.remainder.head(observations.train);
   std::vector<Coupling> all;
-  for (const int joint : law->joints) {
+  for (const int joint : law->joints(observations.machine.robot.joints())) {
     if (fit.machine.robot.transmission(joint - 1, joint - 2) != 0) {
       continue;
     }

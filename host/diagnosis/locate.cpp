@@ -79,7 +79,8 @@ class Locator {
   Correlate correlate(std::size_t number) const {
     const Cue& cue = cues_.front()[number];
     // Torque and angle have means of their own: a cue of the machine has one for every component.
-    const int groups = cue.joint > 0 ? 2 : 15;
+    const Eigen::Index joints = observations_.machine.robot.joints();
+    const Eigen::Index groups = cue.joint > 0 ? 2 : 3 + 2 * joints;
     Eigen::MatrixXd product = Eigen::MatrixXd::Zero(groups, cue.classes);
     Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(groups, cue.classes);
     for (Eigen::Index i = 0; i < observations_.train; ++i) {
@@ -87,7 +88,7 @@ class Locator {
       const double l = cue.joint > 0 ? lever(at, i, cue.joint) : 1;
       const auto channel = static_cast<Eigen::Index>(at.channel);
       const Eigen::Index own =
-          at.channel == tcp_position ? at.component : 6 * channel - 3 + at.component;
+          at.channel == tcp_position ? at.component : 3 + joints * (channel - 1) + at.component;
       const Eigen::Index group =
           cue.joint == 0 ? own : (at.channel == simulation::joint_torque ? 1 : 0);
       const int kind = cues_[at.scene][number].kind[at.row];

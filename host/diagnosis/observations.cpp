@@ -115,7 +115,7 @@ PredictionNoise Observations::prediction_noise(std::size_t s) const {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, 1);
   for (Eigen::Index row = 0; row < noisy.rows(); ++row) {
-    for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    for (Eigen::Index joint = 0; joint < noisy.joints(); ++joint) {
       noisy.velocity(row, joint) += noisy.velocity_noise[joint] * normal(random);
       noisy.acceleration(row, joint) += noisy.acceleration_noise[joint] * normal(random);
     }

@@ -104,8 +104,8 @@ class Observations {
   void renew_residual();
 };
 
-/// Torques (n×6, N·m) on the joints' springs as what was measured shows them: with inertia where
-/// only link encoders do, else at rest.
+/// Torques (N·m, a column a joint) on the joints' springs as what was measured shows them: with
+/// inertia where only link encoders do, else at rest.
 const Eigen::MatrixXd& shown_load(const Scene& scene, const Prediction& prediction);
 
 }  // namespace flexcomp::diagnosis

@@ -33,31 +33,31 @@ std::string why_not(const Parameter& parameter, const Range& range, double value
 }
 
 /// Joint-space inertia matrix of the arm with its rotors, kg·m².
-Eigen::Matrix<double, 6, 6> inertia_matrix(const model::Robot& robot,
-                                           const JointVector<double, 6>& q) {
+model::JointMatrix inertia_matrix(const model::Robot& robot, const model::JointValues& q) {
   model::Robot weightless = robot;
   weightless.elastic.gravity.setZero();
-  const JointVector<double, 6> at_rest = JointVector<double, 6>::Zero();
-  Eigen::Matrix<double, 6, 6> inertia;
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
-    inertia.col(joint) =
-        simulation::inverse_dynamics(weightless, q, at_rest, JointVector<double, 6>::Unit(joint));
+  const Eigen::Index joints = q.size();
+  const model::JointValues at_rest = model::JointValues::Zero(joints);
+  model::JointMatrix inertia(joints, joints);
+  for (Eigen::Index joint = 0; joint < joints; ++joint) {
+    inertia.col(joint) = simulation::inverse_dynamics(weightless, q, at_rest,
+                                                      model::JointValues::Unit(joints, joint));
     inertia(joint, joint) += robot.dynamics[static_cast<std::size_t>(joint)].rotor_inertia;
   }
   return inertia;
 }
 
-bool is_positive(const Eigen::Matrix<double, 6, 6>& inertia) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(inertia,
-                                                                          Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] > kFullyPositive * solver.eigenvalues()[5];
+bool is_positive(const model::JointMatrix& inertia) {
+  const Eigen::SelfAdjointEigenSolver<model::JointMatrix> solver(inertia, Eigen::EigenvaluesOnly);
+  const auto& eigenvalues = solver.eigenvalues();  // in rising order
+  return eigenvalues[0] > kFullyPositive * eigenvalues[eigenvalues.size() - 1];
 }
 
 bool can_move(const Observations& observations, const model::Robot& learned) {
   for (const Scene& scene : observations.scenes) {
     const Eigen::Index step = std::max<Eigen::Index>(scene.rows() / kPostures, 1);
     for (Eigen::Index row = 0; row < scene.rows(); row += step) {
-      const JointVector<double, 6> q = scene.q.row(row).transpose();
+      const model::JointValues q = scene.q.row(row).transpose();
       if (!is_positive(inertia_matrix(learned, q)) &&
           is_positive(inertia_matrix(observations.machine.robot, q))) {
         return false;
@@ -86,7 +86,7 @@ std::string why_no_body(const Observations& observations, const MachineSize& siz
 
 MachineSize size_of(const Observations& observations) {
   MachineSize size = size_of(observations.machine.robot);
-  for (int joint = 1; joint <= 6; ++joint) {
+  for (int joint = 1; joint <= observations.machine.robot.joints(); ++joint) {
     size.load[static_cast<std::size_t>(joint - 1)] = observations.largest_load(joint);
   }
   for (const Scene& scene : observations.scenes) {

@@ -92,7 +92,7 @@ std::string unit_of(const Feature& feature, const std::string& output) {
 
 std::vector<Feature> features(const Observations& observations) {
   std::vector<Feature> all;
-  for (int joint = 1; joint <= 6; ++joint) {
+  for (int joint = 1; joint <= observations.machine.robot.joints(); ++joint) {
     for (const Feature::Shape shape : {Feature::plain, Feature::size, Feature::square}) {
       if (shape != Feature::size) {  // an angle's size depends on where its zero is
         all.push_back({Feature::angle, shape, joint});
@@ -173,7 +173,7 @@ std::vector<Hypothesis> library_of(const Observations& observations) {
   for (const bool is_torque : {false, true}) {
     const bool is_seen =
         is_torque ? observations.has(simulation::joint_torque) : sees_angles(observations);
-    for (int joint = 1; joint <= 6 && is_seen; ++joint) {
+    for (int joint = 1; joint <= observations.machine.robot.joints() && is_seen; ++joint) {
       for (const Feature& feature : inputs) {
         if (!is_known(feature, joint, is_torque, observations.follows_command())) {
           all.push_back(term_of(observations, feature, joint, is_torque));

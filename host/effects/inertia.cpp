@@ -1,11 +1,9 @@
 #include "effects/inertia.hpp"
 
-#include "simulation/inverse_dynamics.hpp"
-
 namespace flexcomp::effects {
 namespace {
 
-using Row = JointVector<double, 6>;
+using Row = simulation::JointValues;
 
 model::Robot without_gravity(model::Robot robot) {
   robot.elastic.gravity.setZero();
@@ -13,7 +11,8 @@ model::Robot without_gravity(model::Robot robot) {
 }
 
 double inertia_at(const model::Robot& weightless, const Row& q, int joint) {
-  return simulation::inverse_dynamics(weightless, q, Row::Zero(), Row::Unit(joint - 1))[joint - 1];
+  return simulation::inverse_dynamics(weightless, q, Row::Zero(q.size()),
+                                      Row::Unit(q.size(), joint - 1))[joint - 1];
 }
 
 }  // namespace

@@ -59,11 +59,14 @@ struct Traits {
   Measures measures = Measures::none;
 };
 
-/// A law of physics in one form. Acts at a joint (1 to 6) or on the whole machine (joint 0).
+/// Where a law may act on a machine of so many joints: joints from 1 on, and 0 for all of it.
+using Places = std::vector<int> (*)(int joints);
+
+/// A law of physics in one form. Acts at a joint (from 1 on) or on the whole machine (joint 0).
 struct Law {
   std::string effect;       ///< of the contract's vocabulary
   std::string form;         ///< which of the effect's forms; may be empty
-  std::vector<int> joints;  ///< where it may act
+  Places joints = nullptr;  ///< where it may act
   Traits traits;
   /// Its parameters; their names may depend on the direction of the joint's axis.
   std::function<std::vector<Parameter>(const model::Robot&, int joint)> parameters;

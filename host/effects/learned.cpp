@@ -41,14 +41,14 @@ LawPointer law_of(const model::Robot& robot, const model::LearnedEffect& learned
 
 void refuse_wrong_joint(const model::Robot& robot, const model::LearnedEffect& learned,
                         const Law& law) {
-  const std::vector<int>& known = law.joints;
+  const std::vector<int> known = law.joints(robot.joints());
   if (std::find(known.begin(), known.end(), learned.joint) == known.end()) {
     const std::string found =
         learned.joint == 0 ? "has no joint" : fmt::format("has joint {}", learned.joint);
+    const bool has_none = known.empty() || known.back() == 0;
     refuse(robot,
-           fmt::format(
-               "{} {}; expected {}", learned.effect, found,
-               known.back() == 0 ? "none" : fmt::format("one of: {}", fmt::join(known, ", "))));
+           fmt::format("{} {}; expected {}", learned.effect, found,
+                       has_none ? "none" : fmt::format("one of: {}", fmt::join(known, ", "))));
   }
   const std::string why = law.impossible ? law.impossible(robot, learned.joint) : "";
   if (!why.empty()) {
@@ -81,7 +81,7 @@ Values values_of(const model::Robot& robot, const model::LearnedEffect& learned,
 /// Play by a key, and whatever else a key says that only terms can simulate.
 void apply_keys(const model::Robot& robot, Machine* machine) {
   for (const Effect& effect : catalogue()) {
-    for (int joint = 1; effect.apply_keys && joint <= 6; ++joint) {
+    for (int joint = 1; effect.apply_keys && joint <= robot.joints(); ++joint) {
       const bool is_listed = std::any_of(
           robot.effects.begin(), robot.effects.end(),
           [&](const auto& each) { return each.effect == effect.name && each.joint == joint; });
@@ -125,8 +125,7 @@ std::vector<Placed> listed_effects(const model::Robot& robot) {
 }
 
 Machine machine_of(const model::Robot& robot) {
-  Machine machine;
-  machine.robot = robot;
+  Machine machine(robot);
   add_effects(listed_effects(robot), &machine);
   apply_keys(robot, &machine);
   return machine;

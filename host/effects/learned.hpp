@@ -7,7 +7,7 @@ namespace flexcomp::effects {
 /// A law at a place with its values: what is learnt of a machine.
 struct Placed {
   LawPointer law;
-  int joint = 0;  ///< 1 to 6, 0 for the whole machine
+  int joint = 0;  ///< from 1 on, 0 for the whole machine
   Values values;
 };
 

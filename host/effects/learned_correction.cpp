@@ -38,15 +38,17 @@ Scene scene_of(const recording::Recording& program, const recording::Samples& q_
 }
 
 /// Angles that move the TCP by `error` and turn it by nothing.
-JointVector<double, 6> angles_for(const Jacobian<double, 6>& jacobian,
-                                  const Vector3<double>& error) {
+model::JointValues angles_for(const model::ChainJacobian& jacobian, const Vector3<double>& error) {
   Eigen::Matrix<double, 6, 6> gram = jacobian * jacobian.transpose();
   gram.diagonal().array() += kDamping * kDamping;
   Twist<double> twist = Twist<double>::Zero();
   twist.head<3>() = error;
-  const JointVector<double, 6> angles = jacobian.transpose() * gram.ldlt().solve(twist);
-  const double largest = angles.cwiseAbs().maxCoeff();
-  return largest > kLargest ? JointVector<double, 6>(angles * (kLargest / largest)) : angles;
+  model::JointValues angles = jacobian.transpose() * gram.ldlt().solve(twist);
+  const double largest = angles.lpNorm<Eigen::Infinity>();
+  if (largest > kLargest) {
+    angles *= kLargest / largest;
+  }
+  return angles;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace flexcomp::effects {
 /// Distances (m) of the TCP, as the machine with all that was learnt of it is believed to go, from
 /// where it should pass: the largest of a program.
 struct LearnedCorrection {
-  recording::Samples q_cmd;  ///< n×6, rad, corrected
+  recording::Samples q_cmd;  ///< rad, corrected
   double before = 0;
   double after = 0;
 };

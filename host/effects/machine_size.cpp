@@ -1,6 +1,7 @@
 #include "effects/machine_size.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "effects/plausible_range.hpp"
@@ -14,11 +15,14 @@ MachineSize size_of(const model::Robot& robot) {
   double mass = 0;
   for (std::size_t i = 0; i < robot.elastic.joints.size(); ++i) {
     const model::JointDynamics& limits = robot.dynamics[i];
-    mass += robot.elastic.joints[i].mass;
+    const model::ChainJoint& joint = robot.elastic.joints[i];
+    mass += joint.mass;
     // The first joint's distance from the base lies below all that moves.
-    size.reach += i > 0 ? robot.elastic.joints[i].origin.position.norm() : 0;
-    size.effort[i] = limits.effort > 0 ? limits.effort : kEndless;
-    size.velocity[i] = limits.velocity > 0 ? limits.velocity : kEndless;
+    size.reach += i > 0 ? joint.origin.position.norm() : 0;
+    size.reach += joint.slides() ? std::max(std::abs(joint.lower), std::abs(joint.upper)) : 0;
+    size.effort.push_back(limits.effort > 0 ? limits.effort : kEndless);
+    size.velocity.push_back(limits.velocity > 0 ? limits.velocity : kEndless);
+    size.load.push_back(0);
   }
   size.reach += robot.elastic.tool.position.norm();
   size.payload = mass > 0 ? std::max(mass, robot.elastic.payload_mass) : kLargestPayload;

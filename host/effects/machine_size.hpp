@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "model/robot.hpp"
 
 namespace flexcomp::effects {
@@ -14,9 +12,9 @@ struct MachineSize {
   double weight = 0;         ///< N, of the links that move; zero where the model has no masses
   double weight_torque = 0;  ///< N·m, of that weight on the stretched arm
   double force = 0;          ///< N, the largest on the tool
-  std::array<double, 6> effort{};    ///< N·m, the largest torque of each joint's drive
-  std::array<double, 6> velocity{};  ///< rad/s, the largest speed
-  std::array<double, 6> load{};      ///< N·m, the largest that each joint's spring bore
+  model::PerJoint<double> effort;    ///< N·m or N, the largest torque of each joint's drive
+  model::PerJoint<double> velocity;  ///< rad/s or m/s, the largest speed
+  model::PerJoint<double> load;      ///< N·m or N, the largest that each joint's spring bore
 };
 
 /// The size of a robot as its model describes it, without loads and force.

@@ -23,11 +23,11 @@ struct Range {
 struct Subject {
   const model::Robot& robot;
   const MachineSize& size;
-  int place;  ///< joint, 1 to 6; 0 where the law acts on the whole machine
+  int place;  ///< joint, from 1 on; 0 where the law acts on the whole machine
   const std::string& parameter;
 
   std::size_t index() const;
-  const Joint<double>& joint() const { return robot.elastic.joints[index()]; }
+  const model::ChainJoint& joint() const { return robot.elastic.joints[index()]; }
   const model::JointDynamics& dynamics() const { return robot.dynamics[index()]; }
   double effort() const { return size.effort[index()]; }
   double velocity() const { return size.velocity[index()]; }

@@ -13,11 +13,17 @@ bool is_plausible(const DiagonalCompliance<double>& compliance) {
 
 }  // namespace
 
-bool has_plausible_springs(const RobotModel<double, 6>& model) {
-  return is_plausible(model.base_compliance) && is_plausible(model.tool_compliance) &&
-         std::all_of(model.joints.begin(), model.joints.end(), [](const Joint<double>& joint) {
-           return joint.compliance <= kMostTurn &&
-                  std::abs(joint.cubic_compliance) <= kMostCubicTurn &&
+double softest_of(const ChainJoint& joint) { return joint.slides() ? kMostShift : kMostTurn; }
+
+double softest_cubic_of(const ChainJoint& joint) {
+  return joint.slides() ? kMostCubicShift : kMostCubicTurn;
+}
+
+bool has_plausible_springs(const Chain& chain) {
+  return is_plausible(chain.base_compliance) && is_plausible(chain.tool_compliance) &&
+         std::all_of(chain.joints.begin(), chain.joints.end(), [](const ChainJoint& joint) {
+           return joint.compliance <= softest_of(joint) &&
+                  std::abs(joint.cubic_compliance) <= softest_cubic_of(joint) &&
                   is_plausible(joint.link_compliance);
          });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flexcomp/model.hpp"
+#include "model/chain.hpp"
 
 namespace flexcomp::model {
 
@@ -13,10 +13,15 @@ namespace flexcomp::model {
 constexpr double kMostTurn = 0.1;  ///< rad/(N·m)
 /// Foundations give 1e-10 to 1e-7 m/N, spindles and their holders up to 1e-6, rubber feet 1e-4.
 constexpr double kMostShift = 0.01;  ///< m/N
-/// A spring's cubic part, which may not be the larger one at a newton metre either.
-constexpr double kMostCubicTurn = 0.1;  ///< rad/(N·m)³
+/// A spring's cubic part, which may not be the larger one at a newton metre, or newton, either.
+constexpr double kMostCubicTurn = 0.1;    ///< rad/(N·m)³
+constexpr double kMostCubicShift = 0.01;  ///< m/N³
 
-/// Is no spring of the model softer than that?
-bool has_plausible_springs(const RobotModel<double, 6>& model);
+/// The softest spring that a joint can have, linear and cubic: by whether it turns or slides.
+double softest_of(const ChainJoint& joint);
+double softest_cubic_of(const ChainJoint& joint);
+
+/// Is no spring of the chain softer than that?
+bool has_plausible_springs(const Chain& chain);
 
 }  // namespace flexcomp::model

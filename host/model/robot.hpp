@@ -1,16 +1,16 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "flexcomp/model.hpp"
+#include "model/chain.hpp"
 
 namespace flexcomp::model {
 
-/// What a joint adds to the torque balance, on the joint side of its gear.
+/// What a joint adds to the torque balance, on the joint side of its gear; metres and newtons in
+/// place of radians and newton metres for one that slides.
 struct JointDynamics {
   double viscous = 0;        ///< N·m·s/rad
   double coulomb = 0;        ///< N·m
@@ -23,7 +23,7 @@ struct JointDynamics {
 /// Physics of a machine that the other keys cannot say, as a diagnosis found it.
 struct LearnedEffect {
   std::string effect;  ///< of the diagnosis' vocabulary, such as transmission_ripple
-  int joint = 0;       ///< 1 to 6, 0 where the effect has no joint
+  int joint = 0;       ///< from 1 on, 0 where the effect has no joint
   std::string form;    ///< which of its forms; empty where there is one
   std::map<std::string, double> parameters;  ///< SI
 };
@@ -35,22 +35,27 @@ struct Robot {
   std::filesystem::path urdf;
   std::string base_link;
   std::string tool_link;
-  std::array<std::string, 6> joint_names;  ///< base to tip
-  RobotModel<double, 6> elastic;           ///< geometry, springs and weights: what the core needs
-  std::array<JointDynamics, 6> dynamics;
+  Chain elastic;                      ///< geometry, springs and weights
+  PerJoint<std::string> joint_names;  ///< base to tip
+  PerJoint<JointDynamics> dynamics;
   /// Speeds of the motors by those of the joints, in units of the joints: a coupled wrist's motor
   /// turns with the joint before its own as well. A motor's friction and rotor act by its own
   /// speed, and its torque on every joint that turns it. Recordings hold angles and torques of the
   /// joints.
-  Eigen::Matrix<double, 6, 6> transmission = Eigen::Matrix<double, 6, 6>::Identity();
+  JointMatrix transmission;
   /// Inertia (kg·m²) of each moved link about its centre of mass, in the link frame; bodies fixed
   /// to the link are part of it.
-  std::array<Matrix3<double>, 6> link_inertia;
+  PerJoint<Matrix3<double>> link_inertia;
   std::vector<LearnedEffect> effects;  ///< for simulations; the core does not know them
+
+  int joints() const { return static_cast<int>(elastic.joints.size()); }
+
+  /// Makes it a robot of so many joints about which nothing is known yet, each with its own motor.
+  void set_joints(std::size_t count);
 };
 
 /// Do the motors tell the joints' angles?
-bool is_transmission(const Eigen::Matrix<double, 6, 6>& transmission);
+bool is_transmission(const JointMatrix& transmission);
 
 /// Reads a robot (schema flexcomp/robot/1). Throws InputError naming the file and the line, key,
 /// link or joint for anything that is missing, unknown, misspelt, of the wrong type or impossible.
@@ -59,9 +64,14 @@ bool is_transmission(const Eigen::Matrix<double, 6, 6>& transmission);
 ///
 /// Beside the schema's keys a joint may have `link_compliance`: six numbers, m/N (3) and rad/(N·m)
 /// (3), of the link that the joint moves, diagonal in the link's frame, at the joint's origin; and
-/// the robot `transmission`, a list of six rows of six numbers, and `effects`, a list of maps:
-/// `effect`, `joint` (1 to 6) and `form` where it has them, and the effect's parameters by name.
+/// the robot `transmission`, a list of as many rows as joints of as many numbers, and `effects`, a
+/// list of maps: `effect`, `joint` (from 1 on) and `form` where it has them, and the effect's
+/// parameters by name.
 Robot load_robot(const std::filesystem::path& file);
+
+/// The core's model of a robot. Throws InputError naming the URDF and the first joint that is no
+/// revolute one with limits, or how many there are, unless it has six such joints.
+RobotModel<double, 6> six_axis_model(const Robot& robot);
 
 /// Writes a robot's YAML file, whole or not at all; it names `robot.urdf` by a path relative to it.
 ///

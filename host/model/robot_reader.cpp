@@ -43,14 +43,15 @@ DiagonalCompliance<double> read_compliance(const YamlMap& yaml, const std::strin
   return vector<DiagonalCompliance<double>>(values);
 }
 
-void read_joint(const YamlMap& yaml, Joint<double>* spring, JointDynamics* dynamics) {
+void read_joint(const YamlMap& yaml, ChainJoint* spring, JointDynamics* dynamics) {
   yaml.allow_only({"compliance", "viscous", "coulomb", "rotor_inertia", "backlash",
                    "cubic_compliance", "link_compliance"});
   spring->compliance = yaml.non_negative("compliance");
-  refuse_softer_than(kMostTurn, "rad/(N·m)", spring->compliance, yaml, "compliance");
+  refuse_softer_than(softest_of(*spring), spring->slides() ? "m/N" : "rad/(N·m)",
+                     spring->compliance, yaml, "compliance");
   spring->cubic_compliance = yaml.number_or("cubic_compliance", 0);
-  refuse_softer_than(kMostCubicTurn, "rad/(N·m)³", spring->cubic_compliance, yaml,
-                     "cubic_compliance");
+  refuse_softer_than(softest_cubic_of(*spring), spring->slides() ? "m/N³" : "rad/(N·m)³",
+                     spring->cubic_compliance, yaml, "cubic_compliance");
   spring->link_compliance = read_compliance(yaml, "link_compliance");
   dynamics->viscous = yaml.non_negative_or("viscous", 0);
   dynamics->coulomb = yaml.non_negative_or("coulomb", 0);
@@ -61,14 +62,14 @@ void read_joint(const YamlMap& yaml, Joint<double>* spring, JointDynamics* dynam
 void read_joints(const YamlMap& yaml, Robot* robot) {
   yaml.allow_only(
       {robot->joint_names.begin(), robot->joint_names.end()},
-      fmt::format("no revolute joint between '{}' and '{}' has this name",
+      fmt::format("no joint that moves between '{}' and '{}' has this name",
                   files::one_line(robot->base_link), files::one_line(robot->tool_link)));
   for (std::size_t i = 0; i < robot->joint_names.size(); ++i) {
     read_joint(yaml.map(robot->joint_names[i]), &robot->elastic.joints[i], &robot->dynamics[i]);
   }
 }
 
-void read_payload(const YamlMap& yaml, RobotModel<double, 6>* elastic) {
+void read_payload(const YamlMap& yaml, Chain* elastic) {
   yaml.allow_only({"mass", "com"});
   elastic->payload_mass = yaml.non_negative("mass");
   if (yaml.has("com")) {
@@ -76,26 +77,21 @@ void read_payload(const YamlMap& yaml, RobotModel<double, 6>* elastic) {
   }
 }
 
-Eigen::Matrix<double, 6, 6> read_transmission(const YamlMap& yaml) {
-  const auto rows = yaml.square<6>("transmission");
-  Eigen::Matrix<double, 6, 6> transmission;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    transmission.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::Matrix<double, 1, 6>>(rows[i].data());
-  }
+JointMatrix read_transmission(const YamlMap& yaml, Eigen::Index joints) {
+  JointMatrix transmission = yaml.square("transmission", joints);
   if (!is_transmission(transmission)) {
     yaml.refuse("transmission", "the motors must tell the joints' angles: it has no inverse");
   }
   return transmission;
 }
 
-LearnedEffect read_effect(const YamlMap& yaml) {
+LearnedEffect read_effect(const YamlMap& yaml, int joints) {
   LearnedEffect learned;
   learned.effect = yaml.text("effect");
   learned.form = yaml.has("form") ? yaml.text("form") : "";
   const double joint = yaml.number_or("joint", 0);
-  if (yaml.has("joint") && !(joint >= 1 && joint <= 6 && joint == std::floor(joint))) {
-    yaml.refuse("joint", "expected a joint, 1 to 6");
+  if (yaml.has("joint") && !(joint >= 1 && joint <= joints && joint == std::floor(joint))) {
+    yaml.refuse("joint", fmt::format("expected a joint, 1 to {}", joints));
   }
   learned.joint = static_cast<int>(joint);
   for (const std::string& key : yaml.keys()) {
@@ -122,6 +118,34 @@ bool is_computable(const Robot& robot) {
 }
 
 }  // namespace
+
+void Robot::set_joints(std::size_t count) {
+  elastic.joints.assign(count, {});
+  joint_names.assign(count, {});
+  dynamics.assign(count, {});
+  link_inertia.assign(count, Matrix3<double>::Zero());
+  transmission = JointMatrix::Identity(elastic.size(), elastic.size());
+}
+
+RobotModel<double, 6> six_axis_model(const Robot& robot) {
+  const std::string expected =
+      fmt::format("expected six revolute joints between '{}' and '{}'",
+                  files::one_line(robot.base_link), files::one_line(robot.tool_link));
+  for (std::size_t i = 0; i < robot.elastic.joints.size(); ++i) {
+    const JointType type = robot.elastic.joints[i].type;
+    if (type != JointType::revolute) {
+      throw InputError(fmt::format(
+          "{}: joint '{}': is {}{}; {}", robot.urdf.string(), files::one_line(robot.joint_names[i]),
+          name_of(type), type == JointType::continuous ? ", so without limits" : "", expected));
+    }
+  }
+  const std::optional<RobotModel<double, 6>> model = six_axis_model(robot.elastic);
+  if (!model) {
+    throw InputError(
+        fmt::format("{}: {}, found {}", robot.urdf.string(), expected, robot.joints()));
+  }
+  return *model;
+}
 
 Robot load_robot(const std::filesystem::path& file) {
   const YamlMap yaml = load_yaml(file);
@@ -151,11 +175,11 @@ Robot load_robot(const std::filesystem::path& file) {
     read_payload(yaml.map("payload"), &robot.elastic);
   }
   if (yaml.has("transmission")) {
-    robot.transmission = read_transmission(yaml);
+    robot.transmission = read_transmission(yaml, robot.elastic.size());
   }
   if (yaml.has("effects")) {
     for (const YamlMap& effect : yaml.maps("effects")) {
-      robot.effects.push_back(read_effect(effect));
+      robot.effects.push_back(read_effect(effect, robot.joints()));
     }
   }
   if (!is_computable(robot)) {

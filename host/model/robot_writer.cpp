@@ -51,7 +51,7 @@ void write_number_unless_zero(YAML::Emitter* out, const std::string& key, double
   }
 }
 
-void write_joint(YAML::Emitter* out, const std::string& name, const Joint<double>& spring,
+void write_joint(YAML::Emitter* out, const std::string& name, const ChainJoint& spring,
                  const JointDynamics& dynamics) {
   *out << YAML::Key << name << YAML::Value << YAML::BeginMap;
   *out << YAML::Key << "compliance" << YAML::Value << number(spring.compliance);
@@ -64,7 +64,7 @@ void write_joint(YAML::Emitter* out, const std::string& name, const Joint<double
   *out << YAML::EndMap;
 }
 
-void write_payload(YAML::Emitter* out, const RobotModel<double, 6>& elastic) {
+void write_payload(YAML::Emitter* out, const Chain& elastic) {
   if (elastic.payload_mass == 0 && elastic.payload_center.isZero(0)) {
     return;
   }
@@ -78,14 +78,14 @@ void write_text(YAML::Emitter* out, const std::string& key, const std::string& t
   *out << YAML::Key << key << YAML::Value << text;
 }
 
-void write_transmission(YAML::Emitter* out, const Eigen::Matrix<double, 6, 6>& transmission) {
+void write_transmission(YAML::Emitter* out, const JointMatrix& transmission) {
   if (transmission.isIdentity(0)) {
     return;
   }
   *out << YAML::Key << "transmission" << YAML::Value << YAML::BeginSeq;
-  for (Eigen::Index row = 0; row < 6; ++row) {
+  for (Eigen::Index row = 0; row < transmission.rows(); ++row) {
     *out << YAML::Flow << YAML::BeginSeq;
-    for (Eigen::Index column = 0; column < 6; ++column) {
+    for (Eigen::Index column = 0; column < transmission.cols(); ++column) {
       *out << number(transmission(row, column));
     }
     *out << YAML::EndSeq;
@@ -138,6 +138,12 @@ std::string document(const Robot& robot, const std::string& urdf) {
   return out.c_str();
 }
 
+bool has_joints(const Robot& robot) {
+  const std::size_t count = robot.elastic.joints.size();
+  return robot.joint_names.size() == count && robot.dynamics.size() == count &&
+         robot.transmission.rows() == robot.joints() && robot.transmission.cols() == robot.joints();
+}
+
 bool is_valid(const JointDynamics& dynamics) {
   const double sum =
       dynamics.viscous + dynamics.coulomb + dynamics.rotor_inertia + dynamics.backlash;
@@ -146,9 +152,9 @@ bool is_valid(const JointDynamics& dynamics) {
 }
 
 void refuse_impossible(const Robot& robot) {
-  bool valid = is_transmission(robot.transmission) && validate(robot.elastic) == Result::ok &&
-               has_plausible_springs(robot.elastic) && !robot.name.empty() &&
-               printable_line(robot.name) == robot.name;
+  bool valid = has_joints(robot) && is_transmission(robot.transmission) &&
+               validate(robot.elastic) == Result::ok && has_plausible_springs(robot.elastic) &&
+               !robot.name.empty() && printable_line(robot.name) == robot.name;
   for (const JointDynamics& dynamics : robot.dynamics) {
     valid = valid && is_valid(dynamics);
   }
@@ -170,10 +176,11 @@ std::string relative_urdf(const std::filesystem::path& file, const Robot& robot)
 
 }  // namespace
 
-bool is_transmission(const Eigen::Matrix<double, 6, 6>& transmission) {
+bool is_transmission(const JointMatrix& transmission) {
   constexpr double kSmallest = 1e-6;  // of the largest singular value
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(transmission);
-  return transmission.allFinite() && svd.singularValues()[5] > kSmallest * svd.singularValues()[0];
+  const Eigen::JacobiSVD<JointMatrix> svd(transmission);
+  return transmission.allFinite() &&
+         svd.singularValues().minCoeff() > kSmallest * svd.singularValues()[0];
 }
 
 std::string robot_text(const std::filesystem::path& file, const Robot& robot) {

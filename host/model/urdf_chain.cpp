@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,14 +42,21 @@ bool has_negative_principal_moment(const Matrix3<double>& inertia) {
   return moments.minCoeff() < -1e-6 * moments.cwiseAbs().maxCoeff();
 }
 
-const char* type_name(const urdf::Joint& joint) {
+std::optional<JointType> type_of(const urdf::Joint& joint) {
   switch (joint.type) {
     case urdf::Joint::REVOLUTE:
-      return "revolute";
+      return JointType::revolute;
     case urdf::Joint::CONTINUOUS:
-      return "continuous, so without limits";
+      return JointType::continuous;
     case urdf::Joint::PRISMATIC:
-      return "prismatic";
+      return JointType::prismatic;
+    default:
+      return std::nullopt;
+  }
+}
+
+const char* name_of_unusable(const urdf::Joint& joint) {
+  switch (joint.type) {
     case urdf::Joint::FLOATING:
       return "floating";
     case urdf::Joint::PLANAR:
@@ -65,7 +73,7 @@ class ChainReader {
 
   void read() {
     const std::vector<urdf::JointConstSharedPtr> joints = joints_between();
-    refuse_unless_six_revolute(joints);
+    robot_.set_joints(count_of(joints));
     Pose<double> offset;
     std::size_t index = 0;
     for (const urdf::JointConstSharedPtr& joint : joints) {
@@ -116,43 +124,54 @@ class ChainReader {
     return joints;
   }
 
-  void refuse_unless_six_revolute(const std::vector<urdf::JointConstSharedPtr>& joints) const {
-    const std::string expected =
-        fmt::format("expected six revolute joints between '{}' and '{}'",
-                    files::one_line(robot_.base_link), files::one_line(robot_.tool_link));
-    std::size_t revolute = 0;
+  /// How many joints move; fixed ones do not count.
+  std::size_t count_of(const std::vector<urdf::JointConstSharedPtr>& joints) const {
+    const std::string expected = fmt::format(
+        "expected 1 to {} revolute, continuous or prismatic joints between '{}' and '{}'",
+        kMostJoints, files::one_line(robot_.base_link), files::one_line(robot_.tool_link));
+    std::size_t count = 0;
     for (const urdf::JointConstSharedPtr& joint : joints) {
       if (joint->type == urdf::Joint::FIXED) {
         continue;
       }
-      if (joint->type != urdf::Joint::REVOLUTE) {
-        fail(*joint, fmt::format("is {}; {}", type_name(*joint), expected));
+      if (!type_of(*joint)) {
+        fail(*joint, fmt::format("is {}; {}", name_of_unusable(*joint), expected));
       }
-      ++revolute;
+      ++count;
     }
-    if (revolute != robot_.joint_names.size()) {
-      fail(fmt::format("{}, found {}", expected, revolute));
+    if (count < 1 || count > static_cast<std::size_t>(kMostJoints)) {
+      fail(fmt::format("{}, found {}", expected, count));
     }
+    return count;
   }
 
   void read_joint(const urdf::Joint& from, const Pose<double>& origin, std::size_t index) {
     if (from.mimic) {
       fail(from, "mimics another; expected joints that move by themselves");
     }
-    if (!from.limits || !(from.limits->lower < from.limits->upper)) {
+    ChainJoint& to = robot_.elastic.joints[index];
+    to.type = *type_of(from);
+    to.origin = origin;
+    to.axis = axis(from);
+    read_limits(from, &to, &robot_.dynamics[index]);
+    robot_.joint_names[index] = from.name;
+  }
+
+  void read_limits(const urdf::Joint& from, ChainJoint* to, JointDynamics* drive) const {
+    const bool has_ends = to->type != JointType::continuous;
+    if (has_ends && (!from.limits || !(from.limits->lower < from.limits->upper))) {
       fail(from, "expected limits with lower below upper");
+    }
+    to->lower = has_ends ? from.limits->lower : -kEndless;
+    to->upper = has_ends ? from.limits->upper : kEndless;
+    if (!from.limits) {
+      return;
     }
     if (from.limits->effort < 0 || from.limits->velocity < 0) {
       fail(from, "the limits of effort and velocity must not be negative");
     }
-    Joint<double>& to = robot_.elastic.joints[index];
-    to.origin = origin;
-    to.axis = axis(from);
-    to.lower = from.limits->lower;
-    to.upper = from.limits->upper;
-    robot_.joint_names[index] = from.name;
-    robot_.dynamics[index].effort = from.limits->effort;
-    robot_.dynamics[index].velocity = from.limits->velocity;
+    drive->effort = from.limits->effort;
+    drive->velocity = from.limits->velocity;
   }
 
   /// Takes figures that were rounded to three digits, but nothing that was not meant as a unit

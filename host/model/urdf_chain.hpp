@@ -14,8 +14,8 @@ namespace flexcomp::model {
 /// it stands at zero.
 ///
 /// Throws InputError naming the file and the link or joint if the file is no URDF, a link is not
-/// there, a body is impossible, or there are not exactly six revolute joints with limits between
-/// the two links.
+/// there, a body is impossible, or there are not 1 to 12 joints between the two links that are
+/// revolute, continuous or prismatic, with limits where they end.
 void read_urdf_chain(const std::filesystem::path& urdf, Robot* robot);
 
 }  // namespace flexcomp::model

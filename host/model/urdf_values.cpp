@@ -143,18 +143,24 @@ class ValueCheck {
     check_only_attributes(axis, {"xyz"});
     numbers(axis, "xyz", 3);
     if (type != "continuous") {
-      check_limit(required(joint, "limit"));
+      check_limit(required(joint, "limit"), "");
+    } else if (const TiXmlElement* const limit = joint.FirstChildElement("limit")) {
+      check_limit(*limit, "lower upper");  // it has none, whatever stands there
     }
   }
 
-  void check_limit(const TiXmlElement& limit) const {
+  /// `optional` names the attributes that may be left out.
+  void check_limit(const TiXmlElement& limit, std::string_view optional) const {
     const Names known = {"lower", "upper", "effort", "velocity"};
     for (const TiXmlAttribute* each = limit.FirstAttribute(); each != nullptr;
          each = each->Next()) {
       refuse_slip(limit, each->Name(), known);
     }
     for (const std::string_view name : known) {
-      number(limit, name);
+      const bool is_required = optional.find(name) == std::string_view::npos;
+      if (is_required || limit.Attribute(std::string(name).c_str()) != nullptr) {
+        number(limit, name);
+      }
     }
   }
 

@@ -11,8 +11,8 @@ namespace flexcomp::model {
 /// element or is missing.
 ///
 /// An origin, its xyz or rpy, and an inertial may be left out, as the standard says; a joint that
-/// moves must say its axis, and unless it is continuous its limits. What flexcomp does not read
-/// (pictures, collision shapes, transmissions) is not looked at.
+/// moves must say its axis and its limits; of a continuous one they may be left out. What flexcomp
+/// does not read (pictures, collision shapes, transmissions) is not looked at.
 ///
 /// Throws InputError with file, line and element. `file` is for messages.
 void refuse_unreadable_values(const std::string& file, const TiXmlDocument& document);

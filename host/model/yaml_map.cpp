@@ -163,19 +163,24 @@ double YamlMap::non_negative_or(const std::string& key, double fallback) const {
   return has(key) ? non_negative(key) : fallback;
 }
 
-void YamlMap::read_square(const std::string& key, double* values, std::size_t count) const {
+Eigen::MatrixXd YamlMap::square(const std::string& key, Eigen::Index count) const {
   const YAML::Node rows = required(key);
-  if (!rows.IsSequence() || rows.size() != count) {
+  const auto size = static_cast<std::size_t>(count);
+  if (!rows.IsSequence() || rows.size() != size) {
     refuse(key, fmt::format("expected a list of {} rows, found {}", count, description(rows)));
   }
-  for (const YAML::Node& row : rows) {
-    if (!row.IsSequence() || row.size() != count) {
-      refuse(key, fmt::format("expected rows of {} numbers, found {}", count, description(row)));
+  Eigen::MatrixXd values(count, count);
+  for (std::size_t row = 0; row < size; ++row) {
+    if (!rows[row].IsSequence() || rows[row].size() != size) {
+      refuse(key,
+             fmt::format("expected rows of {} numbers, found {}", count, description(rows[row])));
     }
-    for (const YAML::Node& value : row) {
-      *values++ = scalar(value, key);
+    for (std::size_t column = 0; column < size; ++column) {
+      values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+          scalar(rows[row][column], key);
     }
   }
+  return values;
 }
 
 void YamlMap::read_numbers(const std::string& key, double* values, std::size_t count) const {

@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -45,13 +46,8 @@ class YamlMap {
     return values;
   }
 
-  /// A list of so many rows, each a list of as many finite numbers; row by row.
-  template <std::size_t Count>
-  std::array<std::array<double, Count>, Count> square(const std::string& key) const {
-    std::array<std::array<double, Count>, Count> rows{};
-    read_square(key, rows.front().data(), Count);
-    return rows;
-  }
+  /// A list of so many rows, each a list of as many finite numbers.
+  Eigen::MatrixXd square(const std::string& key, Eigen::Index count) const;
 
   /// A list of finite numbers, however many.
   std::vector<double> list(const std::string& key) const;
@@ -62,7 +58,6 @@ class YamlMap {
  private:
   YAML::Node required(const std::string& key) const;
   void read_numbers(const std::string& key, double* values, std::size_t count) const;
-  void read_square(const std::string& key, double* values, std::size_t count) const;
   double scalar(const YAML::Node& node, const std::string& key) const;
   std::string location(const YAML::Node& node, const std::string& key) const;
 

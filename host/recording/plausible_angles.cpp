@@ -10,25 +10,36 @@
 namespace flexcomp::recording {
 namespace {
 
+using model::Chain;
+using model::ChainJoint;
+
 constexpr double kHalfTurn = 3.141592653589793;
 
-[[noreturn]] void refuse(const std::string& place, const std::string& column, double angle,
-                         const Joint<double>& joint) {
-  const double beyond = std::max(joint.lower - angle, angle - joint.upper);
-  throw InputError(fmt::format(
-      "{}: column '{}': {:.6g} rad lies outside the joint's limits, {:.4g} to {:.4g} rad{}", place,
-      column, angle, joint.lower, joint.upper,
-      beyond > kHalfTurn ? "; expected radians: are these degrees?" : ""));
+/// What is taken for a slip of the unit, beyond which a robot's own limits may be a little off.
+double slip_of(const ChainJoint& joint) {
+  return joint.slides() ? joint.upper - joint.lower : kHalfTurn;
 }
 
+[[noreturn]] void refuse(const std::string& place, const std::string& column, double angle,
+                         const ChainJoint& joint) {
+  const double beyond = std::max(joint.lower - angle, angle - joint.upper);
+  const char* const asked = joint.slides() ? "; expected metres: are these millimetres?"
+                                           : "; expected radians: are these degrees?";
+  const char* const unit = joint.slides() ? "m" : "rad";
+  throw InputError(fmt::format(
+      "{}: column '{}': {:.6g} {} lies outside the joint's limits, {:.4g} to {:.4g} {}{}", place,
+      column, angle, unit, joint.lower, joint.upper, unit, beyond > slip_of(joint) ? asked : ""));
+}
+
+/// `margin`: let pass beyond the limits, as a share of a slip.
 void refuse_angles_outside_limits(const Recording& recording, const std::optional<Samples>& angles,
-                                  const char* columns, const RobotModel<double, 6>& model,
-                                  double margin) {
+                                  const char* columns, const Chain& chain, double margin) {
   for (Eigen::Index row = 0; angles && row < angles->rows(); ++row) {
     for (Eigen::Index i = 0; i < angles->cols(); ++i) {
-      const Joint<double>& joint = model.joints[static_cast<std::size_t>(i)];
+      const ChainJoint& joint = chain.joint(i);
       const double angle = (*angles)(row, i);
-      if (angle < joint.lower - margin || angle > joint.upper + margin) {
+      const double beyond = margin * slip_of(joint);
+      if (angle < joint.lower - beyond || angle > joint.upper + beyond) {
         refuse(recording.place(row), fmt::format("{}_{}", columns, i + 1), angle, joint);
       }
     }
@@ -37,17 +48,17 @@ void refuse_angles_outside_limits(const Recording& recording, const std::optiona
 
 }  // namespace
 
-Recording read_recording_of(const RobotModel<double, 6>& model, const std::filesystem::path& path) {
-  Recording recording = read_recording(path);
-  refuse_angles_outside_limits(recording, recording.q_cmd, "q_cmd", model, kHalfTurn);
-  refuse_angles_outside_limits(recording, recording.q_meas, "q_meas", model, kHalfTurn);
+Recording read_recording_of(const Chain& chain, const std::filesystem::path& path) {
+  Recording recording = read_recording(path, static_cast<int>(chain.size()));
+  refuse_angles_outside_limits(recording, recording.q_cmd, "q_cmd", chain, 1);
+  refuse_angles_outside_limits(recording, recording.q_meas, "q_meas", chain, 1);
   return recording;
 }
 
-Recording read_program_of(const RobotModel<double, 6>& model, const std::filesystem::path& path) {
-  Recording program = read_recording_of(model, path);
-  // The limits that the core compares with are these, rounded to float.
-  refuse_angles_outside_limits(program, program.q_cmd, "q_cmd", model, 1e-6);
+Recording read_program_of(const Chain& chain, const std::filesystem::path& path) {
+  constexpr double kRounded = 3e-7;  // the limits that the core compares with are these, as floats
+  Recording program = read_recording_of(chain, path);
+  refuse_angles_outside_limits(program, program.q_cmd, "q_cmd", chain, kRounded);
   return program;
 }
 

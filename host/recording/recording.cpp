@@ -10,6 +10,7 @@
 #include "error.hpp"
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
+#include "model/chain.hpp"
 
 namespace flexcomp::recording {
 namespace {
@@ -21,26 +22,37 @@ struct Columns {
   std::vector<std::string> names;
 };
 
-std::vector<std::string> numbered(const std::string& prefix) {
+std::vector<std::string> numbered(const std::string& prefix, int joints) {
   std::vector<std::string> names;
-  for (int joint = 1; joint <= 6; ++joint) {
+  for (int joint = 1; joint <= joints; ++joint) {
     names.push_back(fmt::format("{}_{}", prefix, joint));
   }
   return names;
 }
 
-/// The groups in the order in which they are written.
-const std::vector<Columns>& layout() {
-  static const std::vector<Columns> kLayout = {
-      {&Recording::q_cmd, numbered("q_cmd")},
-      {&Recording::q_meas, numbered("q_meas")},
-      {&Recording::q_link, numbered("q_link")},
-      {&Recording::tau, numbered("tau")},
+/// The groups of a robot of so many joints, in the order in which they are written.
+std::vector<Columns> layout(int joints) {
+  return {
+      {&Recording::q_cmd, numbered("q_cmd", joints)},
+      {&Recording::q_meas, numbered("q_meas", joints)},
+      {&Recording::q_link, numbered("q_link", joints)},
+      {&Recording::tau, numbered("tau", joints)},
       {&Recording::wrench, {"fx", "fy", "fz", "mx", "my", "mz"}},
       {&Recording::position, {"x", "y", "z"}},
       {&Recording::temperature, {"temp_c"}},
   };
-  return kLayout;
+}
+
+/// Joints of a recording by the first of its groups that tells; as many as any robot has if none
+/// does.
+int joints_of(const Recording& recording) {
+  for (const Group group :
+       {&Recording::q_cmd, &Recording::q_meas, &Recording::q_link, &Recording::tau}) {
+    if (recording.*group) {
+      return static_cast<int>((recording.*group)->cols());
+    }
+  }
+  return model::kMostJoints;
 }
 
 std::optional<std::size_t> find_column(const NumberTable& table, const std::string& name) {
@@ -51,18 +63,19 @@ std::optional<std::size_t> find_column(const NumberTable& table, const std::stri
   return static_cast<std::size_t>(found - table.columns.begin());
 }
 
-void refuse_unknown_columns(const NumberTable& table) {
+void refuse_unknown_columns(const NumberTable& table, const std::vector<Columns>& groups,
+                            int joints) {
   for (const std::string& column : table.columns) {
     bool known = column == "t";
-    for (const Columns& group : layout()) {
+    for (const Columns& group : groups) {
       known = known || std::count(group.names.begin(), group.names.end(), column) > 0;
     }
     if (!known) {
+      const std::string all = joints == 1 ? "1" : fmt::format("1..{}", joints);
       throw InputError(
-          fmt::format("{}:1: column '{}' is unknown; expected t, q_cmd_1..6, q_meas_1..6, "
-                      "q_link_1..6, tau_1..6, "
-                      "fx..mz, x,y,z or temp_c",
-                      table.file, files::one_line(column)));
+          fmt::format("{0}:1: column '{1}' is unknown; expected t, q_cmd_{2}, q_meas_{2}, "
+                      "q_link_{2}, tau_{2}, fx..mz, x,y,z or temp_c",
+                      table.file, files::one_line(column), all));
     }
   }
 }
@@ -131,7 +144,11 @@ void check_readable(const Recording& recording) {
       fail_to_write("has a time that does not increase");
     }
   }
-  for (const Columns& group : layout()) {
+  const int joints = joints_of(recording);
+  if (joints < 1 || joints > model::kMostJoints) {
+    fail_to_write(fmt::format("has {} joints", joints));
+  }
+  for (const Columns& group : layout(joints)) {
     const std::optional<Samples>& samples = recording.*group.group;
     if (samples && (samples->rows() != recording.size() ||
                     samples->cols() != static_cast<Eigen::Index>(group.names.size()))) {
@@ -153,15 +170,18 @@ std::string Recording::place(Eigen::Index row) const {
                               : fmt::format("{}: row {}", file, row + 1);
 }
 
-Recording read_recording(const std::filesystem::path& path) { return recording_of(read_csv(path)); }
+Recording read_recording(const std::filesystem::path& path, int joints) {
+  return recording_of(read_csv(path), joints);
+}
 
-Recording recording_of(const NumberTable& table) {
-  refuse_unknown_columns(table);
+Recording recording_of(const NumberTable& table, int joints) {
+  const std::vector<Columns> groups = layout(joints);
+  refuse_unknown_columns(table, groups, joints);
   Recording recording;
   recording.file = table.file;
   recording.lines = table.lines;
   recording.time = read_time(table);
-  for (const Columns& group : layout()) {
+  for (const Columns& group : groups) {
     recording.*group.group = read_group(table, group.names);
   }
   return recording;
@@ -171,7 +191,8 @@ void write_recording(const std::filesystem::path& path, const Recording& recordi
   check_readable(recording);
   files::write_file(path, [&](std::ostream& stream) {
     std::string line = "t";
-    for (const Columns& group : layout()) {
+    const std::vector<Columns> groups = layout(joints_of(recording));
+    for (const Columns& group : groups) {
       if (recording.*group.group) {
         for (const std::string& name : group.names) {
           line += "," + name;
@@ -182,7 +203,7 @@ void write_recording(const std::filesystem::path& path, const Recording& recordi
     for (Eigen::Index row = 0; row < recording.size(); ++row) {
       line.clear();
       append_number(recording.time[row], &line);
-      for (const Columns& group : layout()) {
+      for (const Columns& group : groups) {
         const std::optional<Samples>& samples = recording.*group.group;
         for (Eigen::Index column = 0; samples && column < samples->cols(); ++column) {
           line += ',';

@@ -1,6 +1,6 @@
 #include "simulation/inverse_dynamics.hpp"
 
-#include "flexcomp/chain.hpp"
+#include "model/chain_kinematics.hpp"
 
 namespace flexcomp::simulation {
 namespace {
@@ -35,35 +35,57 @@ struct Effort {
   }
 };
 
-Motion next(const Motion& before, const Joint<double>& joint, double q, double velocity,
-            double acceleration, Vector* axis) {
-  Motion motion;
+/// How one joint moves: angle or travel and its derivatives.
+struct JointMotion {
+  double q, velocity, acceleration;
+};
+
+void turn(const model::ChainJoint& joint, const JointMotion& by, const Vector& axis,
+          Motion* motion) {
+  const Vector spin = by.velocity * axis;
+  motion->rotation = motion->rotation * axis_rotation<double>(joint.axis, by.q);
+  motion->angular_acceleration =
+      motion->angular_acceleration + by.acceleration * axis + motion->spin.cross(spin);
+  motion->spin += spin;
+}
+
+/// On a link that turns, what slides is turned as well (Coriolis).
+void slide(const JointMotion& by, const Vector& axis, Motion* motion) {
+  const Vector along = by.q * axis;
+  motion->acceleration = motion->acceleration_at(along) + by.acceleration * axis +
+                         2 * motion->spin.cross(by.velocity * axis);
+  motion->origin += along;
+}
+
+Motion next(const Motion& before, const model::ChainJoint& joint, const JointMotion& by,
+            Vector* axis) {
+  Motion motion = before;
   const Vector arm = before.rotation * joint.origin.position;
-  const Matrix rotation = before.rotation * joint.origin.rotation;
-  *axis = rotation * joint.axis;
-  motion.rotation = rotation * axis_rotation<double>(joint.axis, q);
   motion.origin = before.origin + arm;
-  motion.spin = before.spin + velocity * *axis;
-  motion.angular_acceleration =
-      before.angular_acceleration + acceleration * *axis + before.spin.cross(velocity * *axis);
   motion.acceleration = before.acceleration_at(arm);
+  motion.rotation = before.rotation * joint.origin.rotation;
+  *axis = motion.rotation * joint.axis;
+  if (joint.slides()) {
+    slide(by, *axis, &motion);
+  } else {
+    turn(joint, by, *axis, &motion);
+  }
   return motion;
 }
 
 }  // namespace
 
-JointVector<double, 6> inverse_dynamics(const model::Robot& robot, const JointVector<double, 6>& q,
-                                        const JointVector<double, 6>& velocity,
-                                        const JointVector<double, 6>& acceleration) {
-  const RobotModel<double, 6>& elastic = robot.elastic;
-  std::array<Effort, 6> efforts;
+JointValues inverse_dynamics(const model::Robot& robot, const JointValues& q,
+                             const JointValues& velocity, const JointValues& acceleration) {
+  const model::Chain& chain = robot.elastic;
+  model::PerJoint<Effort> efforts(chain.joints.size());
   Motion motion;
-  motion.acceleration = -elastic.gravity;
+  motion.acceleration = -chain.gravity;
   for (std::size_t i = 0; i < efforts.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const Joint<double>& joint = elastic.joints[i];
+    const model::ChainJoint& joint = chain.joints[i];
     Effort& effort = efforts[i];
-    motion = next(motion, joint, q[at], velocity[at], acceleration[at], &effort.axis);
+    motion = next(motion, joint, {q[at], velocity[at], acceleration[at]}, &effort.axis);
     effort.origin = motion.origin;
     const Vector arm = motion.rotation * joint.center_of_mass;
     effort.add(arm, joint.mass * motion.acceleration_at(arm));
@@ -73,12 +95,13 @@ JointVector<double, 6> inverse_dynamics(const model::Robot& robot, const JointVe
     effort.moment += turned(motion.angular_acceleration) + motion.spin.cross(turned(motion.spin));
   }
   const Vector payload =
-      motion.rotation * (elastic.tool.position + elastic.tool.rotation * elastic.payload_center);
-  efforts.back().add(payload, elastic.payload_mass * motion.acceleration_at(payload));
-  JointVector<double, 6> torque;
+      motion.rotation * (chain.tool.position + chain.tool.rotation * chain.payload_center);
+  efforts.back().add(payload, chain.payload_mass * motion.acceleration_at(payload));
+  JointValues torque(chain.size());
   for (std::size_t i = efforts.size(); i-- > 0;) {
     const Effort& effort = efforts[i];
-    torque[static_cast<Eigen::Index>(i)] = effort.axis.dot(effort.moment);
+    torque[static_cast<Eigen::Index>(i)] =
+        joint_load(chain.joints[i], effort.axis, effort.force, effort.moment);
     if (i > 0) {
       efforts[i - 1].moment += effort.moment;
       efforts[i - 1].add(effort.origin - efforts[i - 1].origin, effort.force);

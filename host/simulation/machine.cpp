@@ -9,7 +9,10 @@
 namespace flexcomp::simulation {
 namespace {
 
-using Row = JointVector<double, 6>;
+using model::Chain;
+using model::ChainJoint;
+using model::wrench_torque;
+using Row = JointValues;
 
 Row row_of(const Eigen::MatrixXd& matrix, Eigen::Index row) { return matrix.row(row).transpose(); }
 
@@ -17,7 +20,7 @@ void move(const Machine& machine, const Scene& scene, Simulation* at) {
   at->q = scene.q.rowwise() + machine.encoder_offset.transpose();
   at->velocity = scene.velocity;
   at->acceleration = scene.acceleration;
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+  for (Eigen::Index joint = 0; joint < at->q.cols(); ++joint) {
     const double constant = machine.lag[joint];
     if (constant > 0 && !scene.is_static && scene.follows_command) {
       const Eigen::VectorXd command = at->q.col(joint);
@@ -39,7 +42,7 @@ void correct_wrench(const Machine& machine, const Scene& scene, Simulation* at) 
   }
   for (Eigen::Index row = 0; row < scene.rows(); ++row) {
     const Matrix3<double> tool =
-        forward_kinematics<double, 6>(machine.robot.elastic, row_of(at->q, row)).tcp.rotation;
+        forward_kinematics(machine.robot.elastic, row_of(at->q, row)).tcp.rotation;
     Wrench<double> wrench;
     wrench << tool.transpose() * at->wrench.row(row).head<3>().transpose(),
         tool.transpose() * at->wrench.row(row).tail<3>().transpose();
@@ -52,7 +55,7 @@ void correct_wrench(const Machine& machine, const Scene& scene, Simulation* at) 
 }
 
 Row balance(const Machine& machine, const Row& q) {
-  Row torque = Row::Zero();
+  Row torque = Row::Zero(q.size());
   for (const auto& balancer : machine.balancers) {
     torque += balancer(q);
   }
@@ -75,7 +78,7 @@ Equilibrium settle_balanced(const Machine& machine, const Row& q, const Wrench<d
 /// this one.
 void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index row,
           Springs* springs, Simulation* at) {
-  const RobotModel<double, 6>& elastic = machine.robot.elastic;
+  const Chain& elastic = machine.robot.elastic;
   const Wrench<double> wrench = at->wrench.row(row).transpose();
   const Equilibrium equilibrium =
       settle_balanced(machine, row_of(at->q, row), wrench, at->joint_compliance, springs);
@@ -84,12 +87,12 @@ void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index 
   }
   if (levers) {
     const auto i = static_cast<std::size_t>(row);
-    at->bent[i] = forward_kinematics<double, 6>(elastic, equilibrium.q_link);
-    at->jacobian[i] = geometric_jacobian<double, 6>(at->bent[i]);
-    at->compliance[i] = tcp_compliance<double, 6>(elastic, at->bent[i]);
+    at->bent[i] = forward_kinematics(elastic, equilibrium.q_link);
+    at->jacobian[i] = geometric_jacobian(elastic, at->bent[i]);
+    at->compliance[i] = tcp_compliance(elastic, at->bent[i]);
     at->prediction.load.row(row) =
-        (wrench_torque<double, 6>(at->jacobian[i], wrench) +
-         weight_torque<double, 6>(elastic, at->bent[i]) + balance(machine, equilibrium.q_link))
+        (wrench_torque(at->jacobian[i], wrench) + weight_torque(elastic, at->bent[i]) +
+         balance(machine, equilibrium.q_link))
             .transpose();
   }
 }
@@ -106,18 +109,18 @@ Row drive_torque(const Machine& machine, const Scene& scene, const Simulation& a
   if (!scene.has_wrench) {
     return held;
   }
-  const Kinematics<double, 6> straight = forward_kinematics<double, 6>(machine.robot.elastic, q);
+  const Chain& elastic = machine.robot.elastic;
   const Wrench<double> wrench = at.wrench.row(row).transpose();
-  return held - wrench_torque<double, 6>(geometric_jacobian<double, 6>(straight), wrench);
+  return held - wrench_torque(geometric_jacobian(elastic, forward_kinematics(elastic, q)), wrench);
 }
 
 /// Torque of the motors' friction and rotors on the joints.
 Row friction(const Machine& machine, const Simulation& at, Eigen::Index row) {
-  const Eigen::Matrix<double, 6, 6>& transmission = machine.robot.transmission;
+  const model::JointMatrix& transmission = machine.robot.transmission;
   const Row speed = transmission * at.velocity.row(row).transpose();
   const Row acceleration = transmission * at.acceleration.row(row).transpose();
-  Row torque;
-  for (Eigen::Index motor = 0; motor < 6; ++motor) {
+  Row torque(speed.size());
+  for (Eigen::Index motor = 0; motor < speed.size(); ++motor) {
     const model::JointDynamics& dynamics = machine.robot.dynamics[static_cast<std::size_t>(motor)];
     torque[motor] = dynamics.viscous * speed[motor] +
                     dynamics.coulomb * direction_of_motion(speed[motor]) +
@@ -140,13 +143,13 @@ void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Sim
           (straight + friction(machine, *at, row)).transpose();
     }
     if (deflection) {
-      const Row first = joint_windup<double, 6>(machine.robot.elastic, -straight);
+      const Row first = joint_windup(machine.robot.elastic, -straight);
       const Row bent = q + first;
       const Row load =
           -drive_torque(machine, scene, *at, rigid_torque(machine, *at, bent, row), bent, row);
       prediction.dynamic_load.row(row) = load.transpose();
       prediction.channel[joint_deflection].row(row) =
-          (q + joint_windup<double, 6>(machine.robot.elastic, load)).transpose() - scene.q.row(row);
+          (q + joint_windup(machine.robot.elastic, load)).transpose() - scene.q.row(row);
     } else if (prediction.dynamic_load.cols() > 0) {
       prediction.dynamic_load.row(row) = -straight.transpose();
     }
@@ -155,11 +158,16 @@ void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Sim
 
 }  // namespace
 
+Machine::Machine(model::Robot of)
+    : robot(std::move(of)),
+      encoder_offset(Row::Zero(robot.joints())),
+      lag(Row::Zero(robot.joints())) {}
+
 RigidTorque::RigidTorque(const Machine& machine, const Scene& scene)
     : robot_(machine.robot),
       encoder_offset_(machine.encoder_offset),
       lag_(machine.lag),
-      torque_(Eigen::MatrixXd::Zero(scene.rows(), 6)) {
+      torque_(Eigen::MatrixXd::Zero(scene.rows(), scene.joints())) {
   Simulation at;
   move(machine, scene, &at);
   for (Eigen::Index row = 0; row < scene.rows(); ++row) {
@@ -168,14 +176,14 @@ RigidTorque::RigidTorque(const Machine& machine, const Scene& scene)
 }
 
 bool RigidTorque::holds_for(const Machine& machine) const {
-  const RobotModel<double, 6>& own = robot_.elastic;
-  const RobotModel<double, 6>& other = machine.robot.elastic;
+  const Chain& own = robot_.elastic;
+  const Chain& other = machine.robot.elastic;
   const auto is_same = [](const Pose<double>& a, const Pose<double>& b) {
     return a.position == b.position && a.rotation == b.rotation;
   };
   for (std::size_t i = 0; i < own.joints.size(); ++i) {
-    const Joint<double>& a = own.joints[i];
-    const Joint<double>& b = other.joints[i];
+    const ChainJoint& a = own.joints[i];
+    const ChainJoint& b = other.joints[i];
     if (!is_same(a.origin, b.origin) || a.axis != b.axis || a.mass != b.mass ||
         a.center_of_mass != b.center_of_mass ||
         robot_.link_inertia[i] != machine.robot.link_inertia[i]) {
@@ -196,11 +204,11 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
     at.prediction.channel[channel] = Eigen::MatrixXd::Zero(n, scene.measured[channel].cols());
   }
   const bool moves = scene.has(joint_torque) || scene.has(joint_deflection);
-  at.prediction.load = Eigen::MatrixXd::Zero(n, 6);
-  at.prediction.dynamic_load = Eigen::MatrixXd::Zero(n, moves ? 6 : 0);
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
-    at.joint_compliance[joint] =
-        machine.robot.elastic.joints[static_cast<std::size_t>(joint)].compliance;
+  at.prediction.load = Eigen::MatrixXd::Zero(n, scene.joints());
+  at.prediction.dynamic_load = Eigen::MatrixXd::Zero(n, moves ? scene.joints() : 0);
+  at.joint_compliance.resize(scene.joints());
+  for (Eigen::Index joint = 0; joint < scene.joints(); ++joint) {
+    at.joint_compliance[joint] = machine.robot.elastic.joint(joint).compliance;
   }
   if (wanted.levers) {
     at.bent.resize(static_cast<std::size_t>(n));
@@ -208,7 +216,7 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
     at.compliance.resize(static_cast<std::size_t>(n));
   }
   if (wanted.levers || (wanted.channel[tcp_position] && scene.has(tcp_position))) {
-    Springs springs;
+    Springs springs(machine.robot.elastic);
     for (Eigen::Index row = 0; row < n; ++row) {
       rest(machine, scene, wanted.levers, row, &springs, &at);
     }

@@ -3,29 +3,33 @@
 #include <functional>
 #include <vector>
 
-#include "flexcomp/compliance.hpp"
+#include "model/chain_kinematics.hpp"
 #include "model/robot.hpp"
 #include "simulation/scene.hpp"
 
 namespace flexcomp::simulation {
 
-/// What a recording should show, by channel (n×3 m, n×6 N·m, n×6 rad), and the loads behind it.
+using model::JointValues;
+
+/// What a recording should show, by channel (n×3 m; N·m and rad, a column a joint), and the loads
+/// behind it.
 struct Prediction {
   std::array<Eigen::MatrixXd, 3> channel;  ///< no columns where the scene does not have it
-  Eigen::MatrixXd load;          ///< n×6, N·m, torque of wrench and weight on each joint's spring
-  Eigen::MatrixXd dynamic_load;  ///< n×6, the same with inertia; no columns without that channel
+  Eigen::MatrixXd load;          ///< N·m, torque of wrench and weight on each joint's spring
+  Eigen::MatrixXd dynamic_load;  ///< the same with inertia; no columns without that channel
 };
 
 /// A machine along a scene: motion, levers and springs at every row, and what follows from them.
+/// Where there is one number a joint, a joint that slides has m and N.
 struct Simulation {
-  Eigen::MatrixXd q;             ///< n×6, motors as the machine has them, rad
-  Eigen::MatrixXd velocity;      ///< n×6, rad/s
-  Eigen::MatrixXd acceleration;  ///< n×6, rad/s²
+  Eigen::MatrixXd q;             ///< a column a joint, motors as the machine has them, rad
+  Eigen::MatrixXd velocity;      ///< rad/s
+  Eigen::MatrixXd acceleration;  ///< rad/s²
   Eigen::MatrixXd wrench;        ///< n×6, on the tool, as the machine's sensor is believed
-  std::vector<Kinematics<double, 6>> bent;     ///< links and TCP of the robot at rest under load
-  std::vector<Jacobian<double, 6>> jacobian;   ///< of the TCP, bent
+  std::vector<model::ChainKinematics> bent;    ///< links and TCP of the robot at rest under load
+  std::vector<model::ChainJacobian> jacobian;  ///< of the TCP, bent
   std::vector<Compliance<double>> compliance;  ///< at the TCP, bent
-  JointVector<double, 6> joint_compliance;     ///< rad/(N·m)
+  JointValues joint_compliance;                ///< rad/(N·m)
   Prediction prediction;                       ///< of everything but the terms
 };
 
@@ -38,31 +42,33 @@ struct Term {
 
 /// What is believed of a machine: its model, and physics that the model has no keys for.
 struct Machine {
+  Machine() = default;
+  explicit Machine(model::Robot of);
+
   model::Robot robot;
-  JointVector<double, 6> encoder_offset =
-      JointVector<double, 6>::Zero();                           ///< rad, q = reading + it
-  JointVector<double, 6> lag = JointVector<double, 6>::Zero();  ///< s, behind the command
-  double wrench_delay = 0;  ///< s, by which the force sensor is late
+  JointValues encoder_offset;  ///< rad, q = reading + it
+  JointValues lag;             ///< s, behind the command
+  double wrench_delay = 0;     ///< s, by which the force sensor is late
   /// What the force sensor's readings stand for, tool frame, one correction after another.
   std::vector<std::function<Wrench<double>(const Wrench<double>& read)>> sensor;
   /// Torques (N·m) in parallel to the drives, by the joint angles: gravity compensators.
-  std::vector<std::function<JointVector<double, 6>(const JointVector<double, 6>& q)>> balancers;
+  std::vector<std::function<JointValues(const JointValues& q)>> balancers;
   std::vector<Term> terms;
 };
 
-/// Torques (n×6, N·m) of inertia and weight in a scene, with straight springs: what of a simulation
+/// Torques (N·m) of inertia and weight in a scene, with straight springs: what of a simulation
 /// costs most, and stays while geometry, masses and motion do.
 class RigidTorque {
  public:
   RigidTorque(const Machine& machine, const Scene& scene);
 
   bool holds_for(const Machine& machine) const;
-  JointVector<double, 6> at(Eigen::Index row) const { return torque_.row(row).transpose(); }
+  JointValues at(Eigen::Index row) const { return torque_.row(row).transpose(); }
 
  private:
   model::Robot robot_;
-  JointVector<double, 6> encoder_offset_;
-  JointVector<double, 6> lag_;
+  JointValues encoder_offset_;
+  JointValues lag_;
   Eigen::MatrixXd torque_;
 };
 
@@ -73,10 +79,10 @@ struct Wanted {
   const RigidTorque* rigid = nullptr;  ///< of the same scene; used where it holds for the machine
 };
 
-/// Simulates a scene without the machine's terms. TCP position: forward kinematics and the elastic
-/// deflection under wrench and weight (Klimchik et al. 2017). Torque: rigid-body inverse dynamics
-/// (recursive Newton–Euler), friction and rotor inertia, less Jᵀ·wrench. Joint
-/// deflection: wind-up under the torque at the link, inertia included.
+/// Simulates a scene of as many joints without the machine's terms. TCP position: forward
+/// kinematics and the elastic deflection under wrench and weight (Klimchik et al. 2017). Torque:
+/// rigid-body inverse dynamics (recursive Newton–Euler), friction and rotor inertia, less
+/// Jᵀ·wrench. Joint deflection: wind-up under the torque at the link, inertia included.
 Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wanted = {});
 
 /// The simulation's prediction with terms added in the order of their stages.

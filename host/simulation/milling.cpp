@@ -86,7 +86,7 @@ RobotInCut::State MillingRobot::stand(const JointVector<double, 6>& q_motor,
   Vector3<double> position = point.position;
   const auto engagement_after = [&](double engagement) {
     const Wrench<double> wrench = load * engagement * point.wrench;
-    position = settle(model_, q_motor, wrench).tcp.position;
+    position = settle(chain_, q_motor, wrench).tcp.position;
     const double deeper = point.normal.dot(position - point.position);
     return 1 + deeper / process_.depth_of_cut;
   };

@@ -77,14 +77,14 @@ class RobotInCut {
 /// The robot in the cut, at rest at every moment.
 class MillingRobot : public RobotInCut {
  public:
-  MillingRobot(RobotModel<double, 6> model, const Process& process)
-      : model_(std::move(model)), process_(process) {}
+  MillingRobot(model::Chain chain, const Process& process)
+      : chain_(std::move(chain)), process_(process) {}
 
   State stand(const JointVector<double, 6>& q_motor, const Contour::Point& point,
               double load) override;
 
  private:
-  RobotModel<double, 6> model_;
+  model::Chain chain_;
   Process process_;
   double engagement_ = 1;
 };

@@ -1,25 +1,26 @@
 #pragma once
 
-#include <array>
-
-#include "flexcomp/compliance.hpp"
+#include "model/chain_kinematics.hpp"
 
 namespace flexcomp::simulation {
+
+using model::JointValues;
 
 /// What every spring of a robot has given, each in its own frame (m, rad); at first nothing.
 struct Springs {
   Twist<double> base = Twist<double>::Zero();
-  JointVector<double, 6> windup = JointVector<double, 6>::Zero();
-  std::array<Twist<double>, 6> link;
+  JointValues windup;
+  model::PerJoint<Twist<double>> link;
   Twist<double> tool = Twist<double>::Zero();
 
-  Springs() { link.fill(Twist<double>::Zero()); }
+  explicit Springs(const model::Chain& chain)
+      : windup(JointValues::Zero(chain.size())), link(chain.joints.size(), Twist<double>::Zero()) {}
 };
 
 /// Where a loaded robot stands.
 struct Equilibrium {
-  Pose<double> tcp;               ///< base frame
-  JointVector<double, 6> q_link;  ///< rad, motor angles plus wind-up
+  Pose<double> tcp;    ///< base frame
+  JointValues q_link;  ///< rad, motor angles plus wind-up
 };
 
 /// The flexible robot at rest with its motors at `q_motor` (rad), under a wrench on the tool at the
@@ -29,18 +30,35 @@ struct Equilibrium {
 /// itself, not its linearisation, found by repeated substitution until no spring gives by more than
 /// `tolerance` (rad, m) more. Throws InputError if the springs are so soft that there is no
 /// equilibrium nearby.
-Equilibrium settle(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
+Equilibrium settle(const model::Chain& chain, const JointValues& q_motor,
                    const Wrench<double>& wrench, double tolerance = 1e-13);
 
 /// The same, sought from what the springs have given in a state nearby, like the one before; left
 /// in them is what they give in this one.
-Equilibrium settle_from(const RobotModel<double, 6>& model, const JointVector<double, 6>& q_motor,
+Equilibrium settle_from(const model::Chain& chain, const JointValues& q_motor,
                         const Wrench<double>& wrench, double tolerance, Springs* springs);
 
-/// The model with all of its springs `factor` times as soft.
-RobotModel<double, 6> with_scaled_compliance(RobotModel<double, 6> model, double factor);
+/// A chain, or a model of the core, with all of its springs `factor` times as soft.
+template <typename Model>
+Model with_scaled_compliance(Model model, double factor) {
+  for (auto& joint : model.joints) {
+    joint.compliance *= factor;
+    joint.cubic_compliance *= factor;
+    joint.link_compliance *= factor;
+  }
+  model.base_compliance *= factor;
+  model.tool_compliance *= factor;
+  return model;
+}
 
-/// The model with stiff joints: what bends beyond encoders on the links.
-RobotModel<double, 6> without_joint_springs(RobotModel<double, 6> model);
+/// The same with stiff joints: what bends beyond encoders on the links.
+template <typename Model>
+Model without_joint_springs(Model model) {
+  for (auto& joint : model.joints) {
+    joint.compliance = 0;
+    joint.cubic_compliance = 0;
+  }
+  return model;
+}
 
 }  // namespace flexcomp::simulation

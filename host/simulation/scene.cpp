@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "error.hpp"
+#include "model/chain.hpp"
 #include "recording/noise.hpp"
 
 namespace flexcomp::simulation {
@@ -29,12 +30,23 @@ bool is_load_test(const Eigen::VectorXd& time) {
   return true;
 }
 
+/// So many numbers of every joint.
+template <typename Scalar, int Rows>
+using Columns =
+    Eigen::Matrix<Scalar, Rows, Eigen::Dynamic, Rows == 1 ? Eigen::RowMajor : Eigen::ColMajor, Rows,
+                  model::kMostJoints>;
+
 /// Motion at one row, and how much of the angles' noise gets into it.
 struct LocalMotion {
-  Eigen::Matrix<double, 2, 6> values;  ///< velocity, acceleration
-  Eigen::Vector2d gain;                ///< 1/s, 1/s²
-  Eigen::Matrix<double, 1, 6> doubt;   ///< of the acceleration, rad/s²
-  Eigen::Matrix<int, 1, 6> stands;
+  explicit LocalMotion(Eigen::Index joints)
+      : values(Columns<double, 2>::Zero(2, joints)),
+        doubt(Columns<double, 1>::Zero(joints)),
+        stands(Columns<int, 1>::Zero(joints)) {}
+
+  Columns<double, 2> values;                       ///< velocity, acceleration
+  Eigen::Vector2d gain = Eigen::Vector2d::Zero();  ///< 1/s, 1/s²
+  Columns<double, 1> doubt;                        ///< of the acceleration, rad/s²
+  Columns<int, 1> stands;
 };
 
 /// A joint that stands still all the while has no speed, whatever a polynomial says.
@@ -42,7 +54,7 @@ void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
                    const Eigen::RowVectorXd& angle_noise, Eigen::Index first, Eigen::Index last,
                    LocalMotion* motion) {
   constexpr double kStanding = 1e-5;  // rad/s, far below any programmed motion
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+  for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
     Eigen::Index standing = 0;
     for (Eigen::Index i = first; i < last; ++i) {
       const double moved = std::abs(q(i + 1, joint) - q(i, joint));
@@ -60,7 +72,7 @@ void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
 /// break away (Armstrong-Helouvry, Dupont and Canudas de Wit 1994, presliding).
 void mark_creeping(Scene* scene) {
   constexpr double kCreeping = 0.02;  // of the largest speed
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+  for (Eigen::Index joint = 0; joint < scene->joints(); ++joint) {
     const auto speed = scene->velocity.col(joint).array().abs();
     const double limit = kCreeping * speed.maxCoeff();
     scene->stands.col(joint) = (speed < limit).select(1, scene->stands.col(joint).array());
@@ -80,9 +92,8 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
   const Eigen::Index row = window.row;
   const double span = std::max(time[window.last] - time[row], time[row] - time[window.first]);
   Eigen::Matrix<double, kCount + 1, kCount + 1> gram;
-  Eigen::Matrix<double, kCount + 1, 6> moment;
+  Columns<double, kCount + 1> moment = Columns<double, kCount + 1>::Zero(kCount + 1, q.cols());
   gram.setZero();
-  moment.setZero();
   Eigen::Index used = 0;
   for (Eigen::Index i = window.first; i <= window.last; ++i) {
     if (q.row(i).allFinite()) {
@@ -97,16 +108,13 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
       ++used;
     }
   }
-  LocalMotion motion;
-  motion.values.setZero();
-  motion.gain.setZero();
-  motion.doubt.setZero();
+  LocalMotion motion(q.cols());
   if (used < kCount) {
     return motion;
   }
   using Square = Eigen::Matrix<double, kCount, kCount>;
   const auto factors = gram.topLeftCorner<kCount, kCount>().ldlt();
-  const Eigen::Matrix<double, kCount, 6> fit = factors.solve(moment.topRows<kCount>());
+  const Columns<double, kCount> fit = factors.solve(moment.topRows<kCount>());
   motion.values.row(0) = fit.row(1) / span;
   motion.values.row(1) = 2 * fit.row(2) / (span * span);
   const Square covariance = factors.solve(Square::Identity());
@@ -114,14 +122,13 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
       2 * std::sqrt(covariance(2, 2)) / (span * span);
   if (used > kCount) {
     const auto higher = gram.ldlt();
-    const Eigen::Matrix<double, 1, 6> change = higher.solve(moment).row(2) - fit.row(2);
+    const Columns<double, 1> change = higher.solve(moment).row(2) - fit.row(2);
     // Nested least squares: the variance of the change is the difference of the variances.
     const double gained =
         higher.solve(Eigen::Matrix<double, kCount + 1, kCount + 1>::Identity())(2, 2) -
         covariance(2, 2);
-    const Eigen::Array<double, 1, 6> limit =
-        kBeyondNoise * std::sqrt(std::max(gained, 0.0)) * angle_noise.array();
-    motion.doubt = (change.array().abs() > limit).select(2 * change / (span * span), 0.0);
+    const Eigen::RowVectorXd limit = kBeyondNoise * std::sqrt(std::max(gained, 0.0)) * angle_noise;
+    motion.doubt = (change.array().abs() > limit.array()).select(2 * change / (span * span), 0.0);
   }
   return motion;
 }
@@ -304,15 +311,15 @@ Scene scene_of(const recording::Recording& recording, Eigen::Index most_rows,
   scene.has_wrench = recording.wrench.has_value();
   scene.q = picked(q, rows);
   const Eigen::Index n = scene.rows();
-  scene.velocity = Eigen::MatrixXd::Zero(n, 6);
-  scene.acceleration = Eigen::MatrixXd::Zero(n, 6);
-  scene.stands = Eigen::MatrixXi::Zero(n, 6);
-  Eigen::RowVectorXd angle_noise(6);
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+  scene.velocity = Eigen::MatrixXd::Zero(n, scene.joints());
+  scene.acceleration = Eigen::MatrixXd::Zero(n, scene.joints());
+  scene.stands = Eigen::MatrixXi::Zero(n, scene.joints());
+  Eigen::RowVectorXd angle_noise(scene.joints());
+  for (Eigen::Index joint = 0; joint < scene.joints(); ++joint) {
     angle_noise[joint] = recording::encoder_noise(recording.time, q.col(joint));
   }
-  scene.acceleration_doubt = Eigen::MatrixXd::Zero(n, 6);
-  scene.velocity_noise = scene.acceleration_noise = Eigen::RowVectorXd::Zero(6);
+  scene.acceleration_doubt = Eigen::MatrixXd::Zero(n, scene.joints());
+  scene.velocity_noise = scene.acceleration_noise = Eigen::RowVectorXd::Zero(scene.joints());
   for (Eigen::Index i = 0; i < n && !scene.is_static; ++i) {
     const LocalMotion motion =
         local_motion(recording.time, q, angle_noise, rows[static_cast<std::size_t>(i)]);

@@ -11,35 +11,38 @@ namespace flexcomp::simulation {
 enum Channel : std::size_t { tcp_position, joint_torque, joint_deflection };
 constexpr std::array<const char*, 3> kChannels = {"tcp_position", "joint_torque",
                                                   "joint_deflection"};
+/// Of joints that turn; those that slide have N and m.
 constexpr std::array<const char*, 3> kChannelUnits = {"m", "N·m", "rad"};
 
 /// A recording made ready for simulation: what drove the robot, and what was measured of it. SI
-/// units, base frame, one row a sample.
+/// units, base frame, one row a sample, and a column a joint where it is about joints; what is said
+/// of angles and torques holds for travels (m) and forces (N) of joints that slide.
 struct Scene {
   std::string file;
   Eigen::VectorXd time;          ///< n, s
   bool is_static = false;        ///< a load test: one row a pose and load, no motion between rows
   bool follows_command = false;  ///< `q` is the command, because there are no encoders
   bool has_wrench = false;
-  Eigen::MatrixXd q;             ///< n×6, motor side, rad
-  Eigen::MatrixXd velocity;      ///< n×6, rad/s; zero in a static test
-  Eigen::MatrixXd acceleration;  ///< n×6, rad/s²
+  Eigen::MatrixXd q;             ///< motor side, rad
+  Eigen::MatrixXd velocity;      ///< rad/s; zero in a static test
+  Eigen::MatrixXd acceleration;  ///< rad/s²
   Eigen::MatrixXd wrench;        ///< n×6, zero where none was recorded
-  /// n×6, 1 where a joint stands, starts, stops or creeps: friction may hold any torque up to
+  /// 1 where a joint stands, starts, stops or creeps: friction may hold any torque up to
   /// break-away there, so that its torque tells nothing of the speed.
   Eigen::MatrixXi stands;
   /// Standard deviations that the encoders' noise leaves in velocity (rad/s) and acceleration
   /// (rad/s²) of each joint.
   Eigen::RowVectorXd velocity_noise, acceleration_noise;
-  /// n×6, rad/s²: by how much the acceleration may be wrong where the motion is too abrupt for the
+  /// rad/s²: by how much the acceleration may be wrong where the motion is too abrupt for the
   /// samples; zero elsewhere.
   Eigen::MatrixXd acceleration_doubt;
   Eigen::VectorXd temperature;  ///< n, °C, gaps filled; empty where not recorded
-  /// What was measured, by channel (n×3, n×6, n×6): no columns where not recorded, NaN where a
+  /// What was measured, by channel (TCP: n×3): no columns where not recorded, NaN where a
   /// sample is missing. Joint deflection is q_link − q_meas.
   std::array<Eigen::MatrixXd, 3> measured;
 
   Eigen::Index rows() const { return time.size(); }
+  Eigen::Index joints() const { return q.cols(); }
   bool has(Channel channel) const { return measured[channel].cols() > 0; }
 };
 

@@ -25,9 +25,9 @@ namespace {
 constexpr double kStudyStep = 0.05;  // m
 
 const RobotModel<double, 6>& robot() {
-  static const model::Robot loaded =
-      model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml");
-  return loaded.elastic;
+  static const RobotModel<double, 6> loaded =
+      model::six_axis_model(model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml"));
+  return loaded;
 }
 
 /// The default of the study: preset strict, without joint limits.

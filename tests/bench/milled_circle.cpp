@@ -59,7 +59,8 @@ std::vector<std::uint32_t> built(const Build& build) {
 
 MilledCircle milled_circle() {
   MilledCircle circle;
-  circle.robot = model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml").elastic;
+  circle.robot =
+      model::six_axis_model(model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml"));
   const recording::Recording path = planned(circle.robot);
   for (Eigen::Index row = 0; row < path.size(); ++row) {
     circle.program.emplace_back(path.q_cmd->row(row).transpose());

@@ -6,7 +6,7 @@
 #include "check/recording_checks.hpp"
 #include "check/times.hpp"
 #include "effects/moving_robot.hpp"
-#include "flexcomp/chain.hpp"
+#include "model/chain_kinematics.hpp"
 #include "unity_main.hpp"
 
 using Eigen::Index;
@@ -75,7 +75,7 @@ struct Measured {
 
   Eigen::Matrix3d tool_at(Index row) const {
     const Eigen::VectorXd q = recording.q_meas->row(row).transpose();
-    return flexcomp::forward_kinematics<double, 6>(moving.robot.elastic, q).tcp.rotation;
+    return forward_kinematics(moving.robot.elastic, q).tcp.rotation;
   }
 };
 

@@ -274,6 +274,8 @@ class BadInput(PathCommand):
         urdf = (robot / "kr270.urdf").read_text()
         (robot / "kr270.urdf").write_text(urdf.replace(
             '<joint name="joint_a4" type="revolute">', '<joint name="joint_a4" type="fixed">'))
+        keys = (robot / "robot.yaml").read_text().splitlines(keepends=True)
+        (robot / "robot.yaml").write_text("".join(key for key in keys if "joint_a4" not in key))
         self.assert_refused("plan", "circle", "--model", robot / "robot.yaml", "--center", "1.6,0,1.2",
                             "--out", self.folder / "p.csv", saying="six revolute joints")
 

@@ -1,5 +1,6 @@
 // A vibration that no formula of the diagnosis made: the recording is of an arm with flexible
 // joints as differential equations, on rigid-body dynamics of another library.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -35,8 +36,8 @@ struct SoftFirstJoint {
     for (std::size_t i = 0; i < 6; ++i) {
       robot.elastic.joints[i].compliance = i == 0 ? 5e-7 : 5e-8;
     }
-    arm.model = robot.elastic;
-    arm.inertia = robot.link_inertia;
+    arm.model = six_axis_model(robot);
+    std::copy(robot.link_inertia.begin(), robot.link_inertia.end(), arm.inertia.begin());
     arm.rotor_inertia << 400, 450, 300, 60, 50, 25;
     arm.torque_limit.setConstant(1e9);
   }

@@ -53,7 +53,7 @@ template <typename Check>
 void at_every_place(const model::Robot& robot, const Check& check) {
   for (const effects::Effect& effect : effects::catalogue()) {
     for (const LawPointer& law : effect.forms) {
-      for (const int joint : law->joints) {
+      for (const int joint : law->joints(robot.joints())) {
         if (!law->impossible || law->impossible(robot, joint).empty()) {
           check(law, joint);
         }

@@ -8,6 +8,7 @@
 #include "complaint.hpp"
 #include "flexcomp/chain.hpp"
 #include "host/scratch_folder.hpp"
+#include "model/chain_kinematics.hpp"
 #include "model/robot.hpp"
 
 using namespace flexcomp;
@@ -37,8 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::expect_one_line_or_none((folder() / "robot").string(), [&] {
     const model::Robot robot = model::load_robot(yaml);
     expect(validate(robot.elastic) == Result::ok, "a robot that was read is computable");
-    const JointVector<double, 6> q = JointVector<double, 6>::Zero();
-    expect(forward_kinematics<double, 6>(robot.elastic, q).tcp.position.allFinite(),
+    const model::JointValues q = model::JointValues::Zero(robot.joints());
+    expect(forward_kinematics(robot.elastic, q).tcp.position.allFinite(),
            "its kinematics are finite");
     const std::filesystem::path again = folder() / "robot.again.yaml";
     model::write_robot(again, robot);

@@ -22,7 +22,7 @@ model::Robot robot_named(const std::string& name) {
 const study::MilledCircle& preset(const std::string& name) { return study::preset(name).circle; }
 
 study::CircularityMap map_of(const std::string& robot, const study::MilledCircle& circle) {
-  const study::CircleStudy of(robot_named(robot).elastic, circle);
+  const study::CircleStudy of(model::six_axis_model(robot_named(robot)), circle);
   return study::map_circularity(of, 0.05, [](std::size_t, std::size_t) {});
 }
 
@@ -77,7 +77,7 @@ void counter_preset_gives_the_figures_of_the_prototype() {
     const study::MapSummary got = study::summarize(map_of(robot.robot, circle));
     TEST_ASSERT_DOUBLE_WITHIN(kHundredth, robot.values[0] * 1e-3, got.min);
     TEST_ASSERT_DOUBLE_WITHIN(kHundredth, robot.values[1] * 1e-3, got.max);
-    const study::CircleStudy of(robot_named(robot.robot).elastic, circle);
+    const study::CircleStudy of(model::six_axis_model(robot_named(robot.robot)), circle);
     TEST_ASSERT_DOUBLE_WITHIN(kHundredth, robot.values[2] * 1e-3,
                               study::counter_middle(of.arm(), circle));
   }
@@ -104,7 +104,7 @@ void first_order_agrees_with_the_closed_form() {
   circle.is_first_order = true;
   circle.points = 720;
   circle.radius = 1;  // so that the deflection is small beside it
-  const study::CircleStudy of(robot_named("kr360").elastic, circle);
+  const study::CircleStudy of(model::six_axis_model(robot_named("kr360")), circle);
   const study::PlanarArm& arm = of.arm();
   const study::Planar center(1.9, 1.4);
   const study::Planar reach = center - arm.shoulder;
@@ -123,8 +123,9 @@ void the_core_gives_the_same_where_a_spring_needs_it() {
   for (const study::ToolPoint point : {study::ToolPoint::wrist, study::ToolPoint::tcp}) {
     study::MilledCircle circle;
     circle.point = point;
-    const double planar = study::CircleStudy(robot.elastic, circle).circularity({1.7, 1.2});
-    RobotModel<double, 6> other = robot.elastic;
+    const double planar =
+        study::CircleStudy(model::six_axis_model(robot), circle).circularity({1.7, 1.2});
+    RobotModel<double, 6> other = model::six_axis_model(robot);
     other.base_compliance[3] = 1e-30;  // a spring, but a stiff one: the core computes
     const double full = study::CircleStudy(other, circle).circularity({1.7, 1.2});
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, planar, full);
@@ -136,7 +137,7 @@ void the_core_gives_the_same_where_a_spring_needs_it() {
 void a_circle_is_in_reach_only_if_all_of_it_is() {
   study::MilledCircle circle;
   circle.has_limits = false;
-  const study::CircleStudy of(robot_named("kr270").elastic, circle);
+  const study::CircleStudy of(model::six_axis_model(robot_named("kr270")), circle);
   const study::PlanarArm& arm = of.arm();
   const double edge = arm.shoulder.real() + arm.reach[1];
   TEST_ASSERT_FALSE(std::isnan(of.circularity({edge - 0.11, arm.shoulder.imag()})));
@@ -157,7 +158,7 @@ void a_square_too_large_for_the_reach_has_no_place() {
 }
 
 void a_robot_that_is_not_planar_is_refused() {
-  RobotModel<double, 6> model = robot_named("kr270").elastic;
+  RobotModel<double, 6> model = model::six_axis_model(robot_named("kr270"));
   model.joints[1].axis = {0, std::cos(0.1), std::sin(0.1)};
   try {
     study::CircleStudy(model, {});

@@ -1,5 +1,6 @@
 // The arm with flexible joints against conservation of energy, its equilibrium, the frequencies of
 // a two-mass oscillator, and a second rigid-body algorithm.
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/flexible_joint_plant.hpp"
@@ -17,7 +18,9 @@ using Six = JointVector<double, 6>;
 
 FlexibleArm<6> kr360() {
   const model::Robot robot = model::load_robot(FLEXCOMP_ROBOTS "/kr360/robot.yaml");
-  FlexibleArm<6> arm{robot.elastic, robot.link_inertia};
+  FlexibleArm<6> arm;
+  arm.model = six_axis_model(robot);
+  std::copy(robot.link_inertia.begin(), robot.link_inertia.end(), arm.inertia.begin());
   arm.model.gravity = {0.2, -0.4, -9.7};
   arm.model.payload_mass = 150;
   arm.model.payload_center = {0.1, -0.05, 0.2};
@@ -99,7 +102,7 @@ void plant_and_controller_agree_on_six_axes() {
 void the_core_and_the_host_have_one_inverse_dynamics() {
   const FlexibleArm<6> arm = kr360();
   model::Robot robot = model::load_robot(FLEXCOMP_ROBOTS "/kr360/robot.yaml");
-  robot.elastic = arm.model;
+  robot.elastic = model::chain_of(arm.model);
   InverseDynamics<double, 6> dynamics;
   TEST_ASSERT_EQUAL(Result::ok, dynamics.configure(arm.model, arm.inertia));
   InverseDynamics<float, 6> coarse;

@@ -19,7 +19,7 @@ namespace {
 /// With a tool whose tip lies off the axis of joint 6, so that a force there turns that joint too.
 RobotModel<double, 6> some_robot() {
   RobotModel<double, 6> robot =
-      model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml").elastic;
+      model::six_axis_model(model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml"));
   robot.tool.position = {0.2, 0.1, 0.3};
   return robot;
 }

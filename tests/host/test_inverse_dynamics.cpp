@@ -80,7 +80,7 @@ void a_payload_is_moved_by_newtons_law() {
     const Row acceleration = drawn(&random, 5);
     const auto at = [&](double t) {
       const Row moved = q + velocity * t + acceleration * (t * t / 2);
-      return flexcomp::forward_kinematics<double, 6>(robot.elastic, moved);
+      return flexcomp::forward_kinematics<double, 6>(six_axis_model(robot), moved);
     };
     const auto position = [&](double t) -> Vector3<double> {
       const Kinematics<double, 6> posture = at(t);

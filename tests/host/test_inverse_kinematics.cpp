@@ -19,7 +19,8 @@ namespace {
 constexpr const char* kRobots[] = {"kr100", "kr270", "kr360", "kr500"};
 
 RobotModel<double, 6> robot_named(const std::string& name) {
-  return model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/" + name + "/robot.yaml").elastic;
+  return model::six_axis_model(
+      model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/" + name + "/robot.yaml"));
 }
 
 Angles some_angles(const RobotModel<double, 6>& robot, std::mt19937_64* draw) {

@@ -48,7 +48,7 @@ void the_engagement_is_that_of_a_linear_spring() {
   const RobotModel<double, 6> model = kr270<double>();
   const Contour contour(model, loop_path(), MaterialSide::outside);
   for (const double depth : {0.01, 0.004}) {
-    MillingRobot robot(model, {depth, MaterialSide::outside});
+    MillingRobot robot(model::chain_of(model), {depth, MaterialSide::outside});
     for (int i = 0; i < 50; ++i) {
       const Contour::Point point = contour.at(i / 50.0);
       const auto kinematics = forward_kinematics<double, 6>(model, point.q);
@@ -64,7 +64,7 @@ void the_engagement_is_that_of_a_linear_spring() {
 void in_the_air_nothing_bends() {
   const RobotModel<double, 6> model = kr270<double>();
   const Contour contour(model, loop_path(), MaterialSide::outside);
-  MillingRobot robot(model, {});
+  MillingRobot robot(model::chain_of(model), {});
   const Contour::Point point = contour.at(0.3);
   const MillingRobot::State state = robot.stand(point.q, point, 0);
   TEST_ASSERT_TRUE(state.position.isApprox(point.position, 1e-12));
@@ -75,7 +75,7 @@ void a_tool_that_digs_in_is_stopped() {
   const RobotModel<double, 6> model = kr270<double>();
   const Contour contour(model, loop_path(), MaterialSide::outside);
   double most = 0;
-  MillingRobot robot(model, {1e-5, MaterialSide::outside});
+  MillingRobot robot(model::chain_of(model), {1e-5, MaterialSide::outside});
   for (int i = 0; i < 50; ++i) {
     const Contour::Point point = contour.at(i / 50.0);
     most = std::max(most, robot.stand(point.q, point, 1).engagement);

@@ -15,7 +15,8 @@ using namespace flexcomp::study;
 namespace {
 
 RobotModel<double, 6> some_robot() {
-  return model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml").elastic;
+  return model::six_axis_model(
+      model::load_robot(std::string(FLEXCOMP_ROBOTS) + "/kr270/robot.yaml"));
 }
 
 /// A circle far out, where the robot is soft.

@@ -7,7 +7,6 @@
 #include "unity_main.hpp"
 
 using namespace flexcomp;
-using flexcomp::simulation::settle;
 using flexcomp::test::kr270;
 using flexcomp::test::kr270_with_everything;
 using flexcomp::test::loop_angles;
@@ -15,6 +14,11 @@ using flexcomp::test::loop_angles;
 namespace {
 
 using Angles = JointVector<double, 6>;
+
+simulation::Equilibrium settle(const RobotModel<double, 6>& model, const Angles& q,
+                               const Wrench<double>& wrench, double tolerance = 1e-13) {
+  return simulation::settle(model::chain_of(model), q, wrench, tolerance);
+}
 
 Wrench<double> milling_wrench(double scale) {
   Wrench<double> wrench;
@@ -115,12 +119,13 @@ void scaled_springs_bend_in_proportion() {
 void the_equilibrium_is_the_same_wherever_it_is_sought_from() {
   constexpr double kTolerance = 1e-13;
   const auto model = kr270_with_everything<double>();
-  simulation::Springs springs;
+  const model::Chain chain = model::chain_of(model);
+  simulation::Springs springs(chain);
   for (const double place : {0.0, 0.01, 0.02, 3.0}) {
     const Angles q = loop_angles<double>(place);
     const Wrench<double> wrench = milling_wrench(1 - place);
     const auto afresh = settle(model, q, wrench, kTolerance);
-    const auto at = simulation::settle_from(model, q, wrench, kTolerance, &springs);
+    const auto at = simulation::settle_from(chain, q, wrench, kTolerance, &springs);
     TEST_ASSERT_TRUE((at.q_link - q - springs.windup).isZero(1e-15));
     TEST_ASSERT_TRUE((at.q_link - afresh.q_link).isZero(10 * kTolerance));
     TEST_ASSERT_TRUE(pose_difference(afresh.tcp, at.tcp).isZero(10 * kTolerance));

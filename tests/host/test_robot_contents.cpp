@@ -5,13 +5,12 @@
 #include <stdexcept>
 
 #include "error.hpp"
-#include "flexcomp/chain.hpp"
 #include "host/arm_robot.hpp"
+#include "model/chain_kinematics.hpp"
 #include "model/robot.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::InputError;
-using flexcomp::Joint;
 using flexcomp::JointVector;
 using flexcomp::Matrix3;
 using flexcomp::Vector3;
@@ -32,7 +31,7 @@ Robot full_robot(const ScratchFolder& folder) {
   robot.name = "Name: with \"marks\" #1 ä";
   for (std::size_t i = 0; i < 6; ++i) {
     const double n = static_cast<double>(i) + 1;
-    Joint<double>& joint = robot.elastic.joints[i];
+    flexcomp::model::ChainJoint& joint = robot.elastic.joints[i];
     joint.compliance = n / 3 * 1e-6;
     joint.cubic_compliance = -n * 1e-17;
     joint.link_compliance << 1e-3 * n, 0, 1e-3 / n, 1e-9, 0.02, 0.03;
@@ -61,8 +60,8 @@ void assert_same_yaml(const Robot& expected, const Robot& actual) {
   TEST_ASSERT_TRUE(expected.elastic.payload_center == actual.elastic.payload_center);
   TEST_ASSERT_TRUE(expected.transmission == actual.transmission);
   for (std::size_t i = 0; i < 6; ++i) {
-    const Joint<double>& spring = expected.elastic.joints[i];
-    const Joint<double>& read = actual.elastic.joints[i];
+    const flexcomp::model::ChainJoint& spring = expected.elastic.joints[i];
+    const flexcomp::model::ChainJoint& read = actual.elastic.joints[i];
     TEST_ASSERT_TRUE(spring.compliance == read.compliance);
     TEST_ASSERT_TRUE(spring.cubic_compliance == read.cubic_compliance);
     TEST_ASSERT_TRUE(spring.link_compliance == read.link_compliance);
@@ -77,7 +76,7 @@ void keys_that_are_left_out_are_zero() {
   const ScratchFolder folder;
   put_arm(folder, {"payload: {mass: 7}\n", ""});
   const Robot robot = load_robot(folder / "robot.yaml");
-  TEST_ASSERT_FALSE(flexcomp::has_structure_springs(robot.elastic));
+  TEST_ASSERT_FALSE(has_structure_springs(robot.elastic));
   TEST_ASSERT_TRUE(robot.elastic.payload_mass == 0);
   TEST_ASSERT_TRUE(robot.elastic.payload_center.isZero(0));
   TEST_ASSERT_TRUE(robot.transmission.isIdentity(0));
@@ -111,7 +110,7 @@ void odd_axes_and_fixed_joints_move_the_tool_as_in_kdl() {
   q.data << 0.3, -0.5, 0.7, -0.9, 0.2, 0.4;
   KDL::Frame frame;
   KDL::ChainFkSolverPos_recursive(chain).JntToCart(q, frame);
-  const auto ours = flexcomp::forward_kinematics<double, 6>(robot.elastic, q.data);
+  const auto ours = forward_kinematics(robot.elastic, q.data);
   for (int row = 0; row < 3; ++row) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, frame.p(row), ours.tcp.position[row]);
     for (int column = 0; column < 3; ++column) {
@@ -195,7 +194,7 @@ void a_robot_written_elsewhere_still_finds_its_urdf() {
                    std::string::npos);
   const Robot moved = load_robot(folder / "out/deep/robot.yaml");
   TEST_ASSERT_TRUE(fs::equivalent(robot.urdf, moved.urdf));
-  TEST_ASSERT_TRUE(flexcomp::model_hash(robot.elastic) == flexcomp::model_hash(moved.elastic));
+  TEST_ASSERT_TRUE(model_hash(six_axis_model(robot)) == model_hash(six_axis_model(moved)));
 }
 
 void a_robot_that_cannot_be_is_not_written() {

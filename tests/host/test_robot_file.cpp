@@ -82,10 +82,11 @@ void a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key() {
       {{"joints:", "joints: 6\npayload:"}, "robot.yaml:15: 'payload': the key appears twice"},
       {{"  j3: {compliance: 3e-6}\n", ""}, "robot.yaml:8: 'joints.j3': missing"},
       {{"  j3:", "  j7:"},
-       "robot.yaml:10: 'joints.j7': no revolute joint between 'base' and 'tool' has this name; "
+       "robot.yaml:10: 'joints.j7': no joint that moves between 'base' and 'tool' has this name; "
        "expected one of: j1, j2, j3, j4, j5, j6"},
       {{"  j3:", "  slide: {compliance: 0}\n  j3:"},
-       "robot.yaml:10: 'joints.slide': no revolute joint between 'base' and 'tool' has this name"},
+       "robot.yaml:10: 'joints.slide': no joint that moves between 'base' and 'tool' has this "
+       "name"},
       {{"{compliance: 3e-6}", "3e-6"},
        "robot.yaml:10: 'joints.j3': expected keys and values, found '3e-6'"},
       {{"{compliance: 3e-6}", "{}"}, "robot.yaml:10: 'joints.j3.compliance': missing"},
@@ -154,7 +155,8 @@ void springs_of_a_desktop_arm_and_softer_are_read() {
 
 void a_urdf_that_is_wrong_is_refused_with_the_link_or_joint() {
   const std::string limit = "<limit lower='-1' upper='1' effort='10' velocity='2'/>";
-  const std::string expected = "expected six revolute joints between 'base' and 'tool'";
+  const std::string expected =
+      "expected 1 to 12 revolute, continuous or prismatic joints between 'base' and 'tool'";
   const Refusal refusals[] = {
       {{"<link name='base'/>", "<link name='base'>"}, "arm.urdf:"},
       {{"<robot name='arm'>", "<robot>"},
@@ -171,16 +173,8 @@ void a_urdf_that_is_wrong_is_refused_with_the_link_or_joint() {
        "arm.urdf: joint 'j1': the axis has length 0; expected a unit vector"},
       {{"'0.6 0 0.8'", "'0 0 2'"},
        "arm.urdf: joint 'j1': the axis has length 2; expected a unit vector"},
-      {{"'j1' type='revolute'", "'j1' type='continuous'"},
-       "arm.urdf: joint 'j1': is continuous, so without limits; " + expected},
-      {{"'j1' type='revolute'", "'j1' type='prismatic'"},
-       "arm.urdf: joint 'j1': is prismatic; " + expected},
       {{"'j1' type='revolute'", "'j1' type='floating'"},
        "arm.urdf: joint 'j1': is floating; " + expected},
-      {{"'j1' type='revolute'", "'j1' type='fixed'"}, "arm.urdf: " + expected + ", found 5"},
-      {{"'plate' type='fixed'><parent link='l6'/>",
-        "'plate' type='revolute'><axis xyz='0 0 1'/>" + limit + "<parent link='l6'/>"},
-       "arm.urdf: " + expected + ", found 7"},
       {{limit, limit + "<mimic joint='j2'/>"},
        "arm.urdf: joint 'j1': mimics another; expected joints that move by themselves"},
       {{"<mass value='1'/>", "<mass value='-1'/>"},
@@ -198,6 +192,49 @@ void a_urdf_that_is_wrong_is_refused_with_the_link_or_joint() {
     const std::string message = load_refusal(folder);
     TEST_ASSERT_EQUAL_STRING(one.message.c_str(), message.substr(0, one.message.size()).c_str());
     TEST_ASSERT_TRUE_MESSAGE(message.find('\n') == std::string::npos, message.c_str());
+  }
+}
+
+void more_joints_than_there_is_room_for_are_refused() {
+  std::string more;
+  std::string parent = "flange";
+  for (int number = 7; number <= 13; ++number) {
+    const std::string link = "more" + std::to_string(number);
+    more += "<joint name='" + link + "' type='continuous'><axis xyz='0 0 1'/><parent link='" +
+            parent + "'/><child link='" + link + "'/></joint><link name='" + link + "'/>";
+    parent = link;
+  }
+  const ScratchFolder folder;
+  put_arm(folder, {},
+          {"<joint name='holder' type='fixed'><parent link='flange'/>",
+           more + "<joint name='holder' type='fixed'><parent link='" + parent + "'/>"});
+  TEST_ASSERT_EQUAL_STRING(
+      "arm.urdf: expected 1 to 12 revolute, continuous or prismatic joints between 'base' and "
+      "'tool', found 13",
+      load_refusal(folder).c_str());
+}
+
+/// What a command that needs the core says of the arm with a joint of another type, or without it.
+void the_core_is_given_six_revolute_joints_only() {
+  const std::string expected = "expected six revolute joints between 'base' and 'tool'";
+  const Refusal refusals[] = {
+      {{"", ""}, "accepted"},
+      {{"'j1' type='revolute'", "'j1' type='continuous'"},
+       "arm.urdf: joint 'j1': is continuous, so without limits; " + expected},
+      {{"'j3' type='revolute'", "'j3' type='prismatic'"},
+       "arm.urdf: joint 'j3': is prismatic; " + expected},
+      {{"'j1' type='revolute'", "'j1' type='fixed'"}, "arm.urdf: " + expected + ", found 5"},
+  };
+  const ScratchFolder folder;
+  for (const Refusal& one : refusals) {
+    const bool has_five = one.edit.to.find("fixed") != std::string::npos;
+    put_arm(folder, has_five ? Edit{"  j1: {compliance: 1e-6}\n", ""} : Edit{}, one.edit);
+    const flexcomp::model::Robot robot = load_robot(folder / "robot.yaml");
+    const std::string message = refusal([&] { six_axis_model(robot); });
+    const std::string start = (folder / "").string();
+    TEST_ASSERT_EQUAL_STRING(
+        one.message.c_str(),
+        (message.rfind(start, 0) == 0 ? message.substr(start.size()) : message).c_str());
   }
 }
 
@@ -382,7 +419,8 @@ void links_that_are_not_there_are_named() {
   TEST_ASSERT_EQUAL_STRING("arm.urdf: has no link 'tol'", load_refusal(folder).c_str());
   put_arm(folder, {"tool_link: tool", "tool_link: other"});
   TEST_ASSERT_EQUAL_STRING(
-      "arm.urdf: expected six revolute joints between 'base' and 'other', found 0",
+      "arm.urdf: expected 1 to 12 revolute, continuous or prismatic joints between 'base' and "
+      "'other', found 0",
       load_refusal(folder).c_str());
   put_arm(folder, {"base_link: base", "base_link: other"});
   TEST_ASSERT_EQUAL_STRING("arm.urdf: link 'tool' does not lie beyond link 'other'",
@@ -427,6 +465,8 @@ int main() {
   RUN_TEST(a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key);
   RUN_TEST(springs_of_a_desktop_arm_and_softer_are_read);
   RUN_TEST(a_urdf_that_is_wrong_is_refused_with_the_link_or_joint);
+  RUN_TEST(more_joints_than_there_is_room_for_are_refused);
+  RUN_TEST(the_core_is_given_six_revolute_joints_only);
   RUN_TEST(a_urdf_value_that_cannot_be_read_is_refused_with_its_line);
   RUN_TEST(what_the_urdf_standard_leaves_out_may_be_left_out);
   RUN_TEST(a_file_that_is_none_is_refused);

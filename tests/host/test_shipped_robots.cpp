@@ -103,8 +103,8 @@ void springs_are_those_of_the_study() {
       TEST_ASSERT_DOUBLE_WITHIN(1e-20, figures.springs[i] * 1e-6,
                                 robot.elastic.joints[i].compliance);
     }
-    TEST_ASSERT_FALSE(flexcomp::has_structure_springs(robot.elastic));
-    TEST_ASSERT_FALSE(flexcomp::has_weight(robot.elastic));
+    TEST_ASSERT_FALSE(has_structure_springs(robot.elastic));
+    TEST_ASSERT_FALSE(has_weight(six_axis_model(robot)));
   }
 }
 
@@ -127,7 +127,7 @@ void joints_have_the_published_limits() {
 void at_zero_the_arm_lies_along_x_and_the_flange_looks_along_x() {
   for (const Figures& figures : kRobots) {
     const auto at_zero =
-        forward_kinematics<double, 6>(robot_of(figures.folder).elastic, Angles::Zero());
+        forward_kinematics<double, 6>(six_axis_model(robot_of(figures.folder)), Angles::Zero());
     assert_point({figures.shoulder_x + figures.arm + figures.forearm + figures.flange, 0,
                   figures.shoulder_z + kForearmOffset},
                  at_zero.tcp.position, 1e-14, figures.folder);
@@ -138,7 +138,7 @@ void at_zero_the_arm_lies_along_x_and_the_flange_looks_along_x() {
 
 void at_minus_90_degrees_of_a2_the_arm_stands_upright() {
   for (const Figures& figures : kRobots) {
-    const auto upright = forward_kinematics<double, 6>(robot_of(figures.folder).elastic,
+    const auto upright = forward_kinematics<double, 6>(six_axis_model(robot_of(figures.folder)),
                                                        planar_angles(-90 * kDegree, 0));
     assert_point({figures.shoulder_x - kForearmOffset, 0,
                   figures.shoulder_z + figures.arm + figures.forearm + figures.flange},
@@ -149,8 +149,8 @@ void at_minus_90_degrees_of_a2_the_arm_stands_upright() {
 void stretched_out_the_wrist_is_at_the_published_reach() {
   for (const Figures& figures : kRobots) {
     const double q3 = std::atan2(kForearmOffset, figures.forearm);
-    const auto stretched =
-        forward_kinematics<double, 6>(robot_of(figures.folder).elastic, planar_angles(0, q3));
+    const auto stretched = forward_kinematics<double, 6>(six_axis_model(robot_of(figures.folder)),
+                                                         planar_angles(0, q3));
     const Vector3<double> wrist = stretched.links[4].position;
     const double reach =
         figures.shoulder_x + figures.arm + std::hypot(figures.forearm, kForearmOffset);
@@ -209,7 +209,7 @@ Angles angles_at(const ReferencePath& path, Complex point) {
 void assert_deflected_point(const ReferencePath& path, const Robot& robot, double angle,
                             Complex expected) {
   const Complex wanted = path.center + std::polar(0.1, angle);
-  const auto at = forward_kinematics<double, 6>(robot.elastic, angles_at(path, wanted));
+  const auto at = forward_kinematics<double, 6>(six_axis_model(robot), angles_at(path, wanted));
   const Vector3<double> point = at.tcp.position + path.beyond_flange * at.tcp.rotation.col(2);
   assert_point({wanted.real(), 0, wanted.imag()}, point, 1e-14, path.name);
 

@@ -5,6 +5,7 @@
 
 #include "flexcomp/compliance.hpp"
 #include "geometry/circularity.hpp"
+#include "model/chain_kinematics.hpp"
 #include "model/robot.hpp"
 #include "recording/csv.hpp"
 #include "unity_main.hpp"
@@ -58,7 +59,7 @@ geometry::Points deflected_circle(const model::Robot& robot, Complex center, int
     wrench[0] = force.real();
     wrench[2] = force.imag();
     const auto q = posture(robot, point);
-    const auto kinematics = forward_kinematics<double, 6>(robot.elastic, q);
+    const auto kinematics = forward_kinematics(robot.elastic, q);
     const Twist<double> shift = tcp_compliance(robot.elastic, kinematics) * wrench;
     points.emplace_back(kinematics.tcp.position.x() + shift[0] - center.real(),
                         kinematics.tcp.position.z() + shift[2] - center.imag());
@@ -69,7 +70,7 @@ geometry::Points deflected_circle(const model::Robot& robot, Complex center, int
 /// First-order circularity with the wrench turning with the path: |F| times the difference of the
 /// principal compliances in the plane, taken at the circle's centre.
 double closed_form(const model::Robot& robot, Complex center) {
-  const auto kinematics = forward_kinematics<double, 6>(robot.elastic, posture(robot, center));
+  const auto kinematics = forward_kinematics(robot.elastic, posture(robot, center));
   const Compliance<double> c = tcp_compliance(robot.elastic, kinematics);
   const double half_difference = (c(0, 0) - c(2, 2)) / 2;
   return std::abs(kForce) * 2 * std::hypot(half_difference, c(0, 2));
@@ -80,7 +81,7 @@ bool reachable(const model::Robot& robot, Complex center) {
     const auto q = posture(robot, center + std::polar(kRadius, 2 * kPi * i / 72));
     for (std::size_t joint = 1; joint < 3; ++joint) {
       const double angle = q[static_cast<Eigen::Index>(joint)];
-      const Joint<double>& limits = robot.elastic.joints[joint];
+      const model::ChainJoint& limits = robot.elastic.joints[joint];
       if (!(angle >= limits.lower && angle <= limits.upper)) {
         return false;
       }

@@ -1,13 +1,13 @@
-"""A robot of six revolute joints, as a reader describes it."""
+"""A machine of joints that turn or slide, as a reader describes it."""
 
 import dataclasses
 import math
 
 import numpy as np
 
-from .geometry import Frame, turned
+from .geometry import Frame, moved, turned
 
-JOINTS = 6
+JOINTS = 6  # of most arms
 
 
 def tensor(xx, yy, zz, xy, yz, xz):
@@ -43,21 +43,23 @@ def joined(bodies):
 
 @dataclasses.dataclass
 class Joint:
-    """A joint that turns about its frame's z axis, and what hangs on the link that it moves.
+    """A joint that turns about its frame's z axis or slides along it, and what hangs on the link
+    that it moves.
 
     place: the joint's frame in the frame of the joint before it; bodies: in the joint's frame.
     """
 
     place: Frame
     bodies: list = dataclasses.field(default_factory=list)
-    lower: float = -4 * math.pi  # rad
+    lower: float = -4 * math.pi  # rad, or m
     upper: float = 4 * math.pi
-    rotor_inertia: float = 0.0  # kg·m², reflected to the joint
+    rotor_inertia: float = 0.0  # kg·m² or kg, reflected to the joint
+    slides: bool = False
 
 
 @dataclasses.dataclass
 class Chain:
-    """Six joints, base to tip; tool: the TCP in the last joint's frame."""
+    """Joints, base to tip; tool: the TCP in the last joint's frame."""
 
     name: str
     joints: list
@@ -65,10 +67,11 @@ class Chain:
     gravity: float = -9.81  # m/s², along the base's z
 
     def frames(self, angles):
-        """The six joints' frames, turned, and the tool's, in the base; angles (6,) in rad."""
+        """The joints' frames, moved, and the tool's, in the base; angles (joints,) in rad or m."""
         found = [Frame()]
         for joint, angle in zip(self.joints, angles, strict=True):
-            found.append(found[-1] @ joint.place @ turned("z", angle))
+            motion = moved(z=angle) if joint.slides else turned("z", angle)
+            found.append(found[-1] @ joint.place @ motion)
         return found[1:] + [found[-1] @ self.tool]
 
 

@@ -8,7 +8,7 @@ from .chain import joined
 from .geometry import rpy_of
 
 # A URDF must state them; they limit nothing here.
-EFFORT, SPEED = "100000", "100"  # N·m, rad/s
+EFFORT, SPEED = "100000", "100"  # N·m, rad/s; N, m/s
 
 
 def _numbers(values):
@@ -42,7 +42,8 @@ def _urdf(chain):
     parent = "base_link"
     for number, joint in enumerate(chain.joints, 1):
         link = f"link_{number}"
-        element = _add_joint(robot, f"joint_{number}", "revolute", parent, link, joint.place)
+        kind = "prismatic" if joint.slides else "revolute"
+        element = _add_joint(robot, f"joint_{number}", kind, parent, link, joint.place)
         xml.SubElement(element, "axis", xyz="0 0 1")
         xml.SubElement(element, "limit", lower=f"{joint.lower:.12g}", upper=f"{joint.upper:.12g}",
                        effort=EFFORT, velocity=SPEED)

@@ -6,7 +6,7 @@ import pathlib
 
 import numpy as np
 
-from .tables import COLUMNS
+from .tables import columns_of
 
 # Each channel of a diagnosis, the columns that it compares, and their unit.
 CHANNELS = {"tcp_position": ("xyz", "m"), "joint_torque": ("tau", "N·m"),
@@ -109,20 +109,22 @@ class Outcome:
     def errors(self, simulated, group):
         """Measured less simulated, held out: (n, columns of the group), not-a-number where
         unknown."""
-        return np.column_stack([self.measured[name] - simulated[name] for name in COLUMNS[group]])
+        return np.column_stack([self.measured[name] - simulated[name]
+                                for name in columns_of(self.measured, group)])
 
     def signal(self, group):
         """The signal that an error is compared with: torques as they are; for positions the nominal
         model's error."""
         if group == "tau":
-            return np.column_stack([self.measured[name] for name in COLUMNS[group]])
+            return np.column_stack([self.measured[name]
+                                    for name in columns_of(self.measured, group)])
         return self.errors(self.before, group)
 
     def groups(self):
         """The compared groups of columns with their units."""
         return [(group, unit) for group, unit in CHANNELS.values()
-                if any(np.isfinite(self.measured.get(name, np.nan)).any()
-                       for name in COLUMNS[group])]
+                if any(np.isfinite(self.measured[name]).any()
+                       for name in columns_of(self.measured, group))]
 
 
 @dataclasses.dataclass

@@ -5,11 +5,10 @@ import math
 
 import numpy as np
 
-COLUMNS = {
-    "q_cmd": [f"q_cmd_{k}" for k in range(1, 7)],
-    "q_meas": [f"q_meas_{k}" for k in range(1, 7)],
-    "q_link": [f"q_link_{k}" for k in range(1, 7)],
-    "tau": [f"tau_{k}" for k in range(1, 7)],
+MOST_JOINTS = 12
+COLUMNS = {  # as many of a group as there are joints
+    **{name: [f"{name}_{k}" for k in range(1, MOST_JOINTS + 1)]
+       for name in ("q_cmd", "q_meas", "q_link", "tau")},
     "xyz": ["x", "y", "z"],
 }
 
@@ -65,12 +64,12 @@ def stacked(table, form, numbers):
 
 
 def write_recording(path, time, **groups):
-    """time (n,) in s; groups by names of COLUMNS, (n, their columns); not-a-number for a missing
+    """time (n,) in s; groups by names of COLUMNS, (n, joints or three); not-a-number for a missing
     sample."""
     header, columns = ["t"], [np.asarray(time, float)[:, None]]
     for name, values in groups.items():
-        header += COLUMNS[name]
         columns.append(np.asarray(values, float))
+        header += COLUMNS[name][:columns[-1].shape[1]]
     with path.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
@@ -84,3 +83,8 @@ def read_recording(path):
     rows = list(csv.reader(read_text(path).splitlines()))
     values = [[float(cell) if cell else math.nan for cell in row] for row in rows[1:]]
     return dict(zip(rows[0], np.array(values).T))
+
+
+def columns_of(recording, group):
+    """The names of a group's columns that a recording has."""
+    return [name for name in COLUMNS[group] if name in recording]

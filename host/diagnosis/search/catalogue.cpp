@@ -7,7 +7,6 @@ namespace flexcomp::diagnosis {
 namespace {
 
 constexpr int kWholeMachine = 0;
-constexpr int kLastJoint = 6;
 
 Search search_of(const std::string& effect) {
   static const std::vector<std::pair<std::string, Search>> kSearches = {
@@ -21,7 +20,8 @@ Search search_of(const std::string& effect) {
 }
 
 bool acts_at(const effects::Law& law, const model::Robot& robot, int joint) {
-  return std::find(law.joints.begin(), law.joints.end(), joint) != law.joints.end() &&
+  const std::vector<int> places = law.joints(robot.joints());
+  return std::find(places.begin(), places.end(), joint) != places.end() &&
          (!law.impossible || law.impossible(robot, joint).empty());
 }
 
@@ -33,7 +33,7 @@ std::vector<Hypothesis> all_hypotheses(const Observations& observations) {
   std::vector<Hypothesis> all;
   for (const effects::Effect& effect : effects::catalogue()) {
     const Search search = search_of(effect.name);
-    for (int joint = kWholeMachine; joint <= kLastJoint; ++joint) {
+    for (int joint = kWholeMachine; joint <= robot.joints(); ++joint) {
       for (const effects::LawPointer& law : effect.forms) {
         if (!acts_at(*law, robot, joint)) {
           continue;

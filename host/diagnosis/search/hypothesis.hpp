@@ -39,7 +39,7 @@ struct Hypothesis {
   Hypothesis(effects::LawPointer law_there, int at_joint, const model::Robot& robot);
 
   effects::LawPointer law;
-  int joint = 0;  ///< 1 to 6, 0 where the law acts on the whole machine
+  int joint = 0;  ///< from 1 on, 0 where the law acts on the whole machine
   std::vector<Parameter> parameters;
   std::size_t linear = 0;  ///< of the parameters, the first so many act (nearly) in proportion
   /// Where to begin with the other parameters; with `linear` zero each start is a whole guess.

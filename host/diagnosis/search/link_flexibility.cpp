@@ -3,12 +3,12 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Needs the TCP, and load. Beyond joint 6 it is the tool that gives; a link that is short bends
-/// like its springs.
+/// Needs the TCP, and load. Beyond the last joint it is the tool that gives; a link that is short
+/// bends like its springs.
 bool prepare_link_flexibility(const Observations& observations, Hypothesis* hypothesis) {
   constexpr double kShort = 0.2;  // m
   if (!observations.has(simulation::tcp_position) || !is_loaded(observations) ||
-      hypothesis->joint == 6) {
+      hypothesis->joint == observations.machine.robot.joints()) {
     return false;
   }
   const auto next = static_cast<std::size_t>(hypothesis->joint);

@@ -11,7 +11,7 @@ bool prepare_link_mass(const Observations& observations, Hypothesis* hypothesis)
     return false;
   }
   const auto index = static_cast<std::size_t>(hypothesis->joint - 1);
-  const Joint<double>& link = observations.machine.robot.elastic.joints[index];
+  const model::ChainJoint& link = observations.machine.robot.elastic.joints[index];
   if (hypothesis->law->form == "body") {
     hypothesis->set_bounds({{-0.95 * link.mass, 10 * link.mass, 0.1 * link.mass}});
     return true;

@@ -55,7 +55,7 @@ void add_key(const Values& values, int joint, model::Robot* robot) {
 Forms laws::backlash() {
   Law by_load;
   by_load.form = "load";
-  by_load.joints = joints(1, 6);
+  by_load.joints = every_joint;
   by_load.traits.linear_in = 1;
   by_load.parameters = constant({{"gap", "rad"}, {"hold", "N·m"}});
   by_load.statement = says("joint {} has play");

@@ -24,7 +24,7 @@ Range base_turn(const Subject& of) {
 // The foundation or pedestal gives: a diagonal spring at the base frame (Klimchik et al. 2017).
 Forms laws::base_compliance() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 6;
   law.traits.is_in_family = true;
   law.parameters = constant({{"x", "m/N"},

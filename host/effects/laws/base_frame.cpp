@@ -27,7 +27,7 @@ void move_frame(const Values& values, Prediction* prediction) {
 // that is off by a translation and a rotation (ISO 9283, clause 6; Mooring, Roth and Driels 1991).
 Forms laws::base_frame() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 6;
   law.traits.is_in_family = true;
   law.traits.can_be_undone = false;

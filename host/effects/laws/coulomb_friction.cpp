@@ -6,7 +6,7 @@ namespace flexcomp::effects {
 // Canudas de Wit 1994).
 Forms laws::coulomb_friction() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
   law.traits.is_model_number = true;

@@ -35,7 +35,7 @@ Eigen::VectorXd by_dahl(const Eigen::VectorXd& motion, const Values& values) {
 Law grip_law(const char* form, Grip grip, std::vector<Parameter> parameters) {
   Law law;
   law.form = form;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.parameters = constant(std::move(parameters));
   law.statement = says("friction of joint {} builds up in a loop after every reversal");

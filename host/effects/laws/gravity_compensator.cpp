@@ -22,8 +22,8 @@ using Balance = double (*)(const Values&, double q);
 void balance(Law* law, Balance torque_at) {
   law->traits.alters_model = true;
   law->apply = [torque_at](const Values& values, int joint, Machine* machine) {
-    machine->balancers.emplace_back([=](const JointVector<double, 6>& q) {
-      JointVector<double, 6> torque = JointVector<double, 6>::Zero();
+    machine->balancers.emplace_back([=](const simulation::JointValues& q) {
+      simulation::JointValues torque = simulation::JointValues::Zero(q.size());
       torque[joint - 1] = torque_at(values, q[joint - 1]);
       return torque;
     });
@@ -54,7 +54,7 @@ Term balancer(const Values& values, int joint) {
 // small ranges of the angle can tell, and the curve by which a link's mass pulls too.
 Forms laws::gravity_compensator() {
   Law spring;
-  spring.joints = joints(1, 6);
+  spring.joints = every_joint;
   spring.traits.linear_in = 2;
   spring.statement = says("a balancer acts on joint {}");
   Law sine = spring;

@@ -30,7 +30,7 @@ Term loop_term(int joint, Loop loop, const Values& values) {
 Law loop_law(const char* form, Loop loop) {
   Law law;
   law.form = form;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.parameters = constant({{"amplitude", "rad"}, {"yield_torque", "N·m"}});
   law.statement = says("joint {} has a loop in its torque-deflection curve");

@@ -24,7 +24,7 @@ std::array<int, 2> tilts(const model::Robot& robot, int joint) {
 // parallel (Hayati and Mirmirani 1985), and their twist elsewhere.
 Forms laws::joint_axis() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 2;
   law.traits.is_in_family = true;
   law.parameters = [](const model::Robot& robot, int joint) {

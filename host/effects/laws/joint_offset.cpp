@@ -6,7 +6,7 @@ namespace flexcomp::effects {
 // angle error; Mooring, Roth and Driels 1991).
 Forms laws::joint_offset() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
   law.traits.alters_model = true;

@@ -22,7 +22,7 @@ Range joint_spring(const Subject& of) {
 // torque (virtual-joint model, Klimchik et al. 2017).
 Forms laws::joint_stiffness() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
   law.traits.is_model_number = true;

@@ -1,5 +1,6 @@
 #include "effects/laws/laws.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace flexcomp::effects {
@@ -20,6 +21,13 @@ Term sensor_term(const SensorModel& truth, const Values& values) {
             }
             add_wrench(at, change, prediction);
           }};
+}
+
+/// Both ends included.
+std::vector<int> from_to(int first, int last) {
+  std::vector<int> all(static_cast<std::size_t>(std::max(last - first + 1, 0)));
+  std::iota(all.begin(), all.end(), first);
+  return all;
 }
 
 }  // namespace
@@ -61,10 +69,14 @@ void alter_sensor(SensorModel truth, Law* law) {
   law->sketch = [truth](const Values& values, int) { return sensor_term(truth, values); };
 }
 
-std::vector<int> joints(int first, int last) {
-  std::vector<int> all(static_cast<std::size_t>(last - first + 1));
-  std::iota(all.begin(), all.end(), first);
-  return all;
-}
+std::vector<int> whole_machine(int /*joints*/) { return {0}; }
+
+std::vector<int> every_joint(int joints) { return from_to(1, joints); }
+
+std::vector<int> all_but_the_first(int joints) { return from_to(2, joints); }
+
+std::vector<int> all_but_the_last(int joints) { return from_to(1, joints - 1); }
+
+std::vector<int> machine_or_joint(int joints) { return from_to(0, joints); }
 
 }  // namespace flexcomp::effects

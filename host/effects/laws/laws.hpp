@@ -47,10 +47,14 @@ using SensorModel = std::function<Wrench<double>(const Values&, const Wrench<dou
 /// Completes a law about the force sensor.
 void alter_sensor(SensorModel truth, Law* law);
 
-/// The joints of a range, both ends included.
-std::vector<int> joints(int first, int last);
+/// Places where laws act.
+std::vector<int> whole_machine(int joints);
+std::vector<int> every_joint(int joints);
+std::vector<int> all_but_the_first(int joints);
+std::vector<int> all_but_the_last(int joints);
+std::vector<int> machine_or_joint(int joints);
 
-/// Index of a joint (1 to 6) in a robot's arrays.
+/// Index of a joint (from 1 on) in a robot's arrays.
 inline std::size_t index_of(int joint) { return static_cast<std::size_t>(joint - 1); }
 
 }  // namespace flexcomp::effects

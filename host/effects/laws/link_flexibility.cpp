@@ -8,7 +8,7 @@ namespace {
 constexpr double kLinkTurn = 0.02;  // rad, under the load that it bore
 
 /// Force and moment about a point of all that acts on the link and beyond: wrench and weights.
-void load_beyond(const RobotModel<double, 6>& robot, const Kinematics<double, 6>& at,
+void load_beyond(const model::Chain& robot, const model::ChainKinematics& at,
                  const Wrench<double>& wrench, std::size_t first, const Vector3<double>& point,
                  Vector3<double>* force, Vector3<double>* moment) {
   *force = wrench.head<3>();
@@ -17,7 +17,7 @@ void load_beyond(const RobotModel<double, 6>& robot, const Kinematics<double, 6>
     *force += mass * robot.gravity;
     *moment += (center - point).cross(mass * robot.gravity);
   };
-  for (std::size_t i = first; i < 6; ++i) {
+  for (std::size_t i = first; i < robot.joints.size(); ++i) {
     add(robot.joints[i].mass,
         at.links[i].position + at.links[i].rotation * robot.joints[i].center_of_mass);
   }
@@ -25,13 +25,13 @@ void load_beyond(const RobotModel<double, 6>& robot, const Kinematics<double, 6>
 }
 
 /// From the joint to the next one, in the link's frame.
-const Vector3<double>& beam_of(const RobotModel<double, 6>& robot, int joint) {
+const Vector3<double>& beam_of(const model::Chain& robot, int joint) {
   return robot.joints[index_of(joint) + 1].origin.position;
 }
 
 /// At half of its length force and moment of a cantilever do not mix: it turns there by
 /// `compliance` times the moment and moves by compliance·length²/12 times the force, both across.
-Term bending_beam(const RobotModel<double, 6>& robot, int joint, double compliance) {
+Term bending_beam(const model::Chain& robot, int joint, double compliance) {
   const auto add = [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
     const std::size_t link = index_of(joint);
     const Vector3<double> beam = beam_of(robot, joint);
@@ -40,7 +40,7 @@ Term bending_beam(const RobotModel<double, 6>& robot, int joint, double complian
         Matrix3<double>::Identity() - beam * beam.transpose() / (length * length);
     Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
     for (Eigen::Index row = 0; row < scene.rows() && position.cols() > 0; ++row) {
-      const Kinematics<double, 6>& bent = at.bent[static_cast<std::size_t>(row)];
+      const model::ChainKinematics& bent = at.bent[static_cast<std::size_t>(row)];
       const Pose<double>& frame = bent.links[link];
       const Vector3<double> middle = frame.position + frame.rotation * (0.5 * beam);
       Vector3<double> force;
@@ -65,7 +65,7 @@ std::array<Eigen::Index, 2> axes_across(const model::Robot& robot, int joint) {
 Law springs() {
   Law law;
   law.form = "springs";
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 2;
   law.parameters = [](const model::Robot& robot, int joint) {
     std::vector<Parameter> parameters;
@@ -88,7 +88,7 @@ Law springs() {
 Law beam() {
   Law law;
   law.form = "beam";
-  law.joints = joints(1, 5);
+  law.joints = all_but_the_last;
   law.traits.linear_in = 1;
   law.parameters = constant({{"beam", "rad/(N·m)"}});
   law.impossible = [](const model::Robot& robot, int joint) {

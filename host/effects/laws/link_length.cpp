@@ -6,8 +6,8 @@ namespace flexcomp::effects {
 namespace {
 
 Range half_of_length(const Subject& of) {
-  const double length =
-      of.robot.elastic.joints[std::min<std::size_t>(of.index() + 1, 5)].origin.position.norm();
+  const auto& joints = of.robot.elastic.joints;
+  const double length = joints[std::min(of.index() + 1, joints.size() - 1)].origin.position.norm();
   return within(std::max(0.5 * length, 0.02 * of.size.reach));
 }
 
@@ -17,7 +17,7 @@ Range half_of_length(const Subject& of) {
 // Mooring, Roth and Driels 1991).
 Forms laws::link_length() {
   Law law;
-  law.joints = joints(1, 5);
+  law.joints = all_but_the_last;
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
   law.parameters = constant({{"length", "m"}});

@@ -14,7 +14,7 @@ double largest_mounted(const Subject& of) {
 }
 
 /// How large a link can be that joint `index` moves.
-double link_size(const RobotModel<double, 6>& elastic, const MachineSize& size, std::size_t index) {
+double link_size(const model::Chain& elastic, const MachineSize& size, std::size_t index) {
   const Pose<double>& end =
       index + 1 < elastic.joints.size() ? elastic.joints[index + 1].origin : elastic.tool;
   return std::max({end.position.norm(), kLeastLink * size.reach,
@@ -23,7 +23,7 @@ double link_size(const RobotModel<double, 6>& elastic, const MachineSize& size, 
 
 std::string why_no_link(const model::Robot& model, const model::Robot& altered,
                         const MachineSize& size, int joint) {
-  const Joint<double>& link = altered.elastic.joints[index_of(joint)];
+  const model::ChainJoint& link = altered.elastic.joints[index_of(joint)];
   return link.mass > 0 &&
                  link.center_of_mass.norm() <= link_size(model.elastic, size, index_of(joint))
              ? ""
@@ -33,7 +33,7 @@ std::string why_no_link(const model::Robot& model, const model::Robot& altered,
 /// Adds a point mass at the link's origin and a first moment (kg·m), which has no inertia of its
 /// own.
 void mount(double mass, const Vector3<double>& moment, std::size_t index, model::Robot* robot) {
-  Joint<double>& link = robot->elastic.joints[index];
+  model::ChainJoint& link = robot->elastic.joints[index];
   const auto about_origin = [](double m, const Vector3<double>& c) {
     return Matrix3<double>(m * (c.squaredNorm() * Matrix3<double>::Identity() - c * c.transpose()));
   };
@@ -52,7 +52,7 @@ void mount(double mass, const Vector3<double>& moment, std::size_t index, model:
 Forms laws::link_mass() {
   Law body;
   body.form = "body";
-  body.joints = joints(1, 6);
+  body.joints = every_joint;
   body.traits.linear_in = 1;
   body.traits.is_body = true;
   body.statement = says("the link that joint {} moves has another mass");
@@ -65,7 +65,7 @@ Forms laws::link_mass() {
   };
   alter_robot(
       [](const Values& values, int joint, model::Robot* robot) {
-        Joint<double>& link = robot->elastic.joints[index_of(joint)];
+        model::ChainJoint& link = robot->elastic.joints[index_of(joint)];
         robot->link_inertia[index_of(joint)] *= 1 + values[0] / link.mass;
         link.mass += values[0];
       },

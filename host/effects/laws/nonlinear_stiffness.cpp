@@ -19,7 +19,7 @@ Range cubic_spring(const Subject& of) {
 // and hardening below (strain-wave and cycloidal gears; Albu-Schaeffer 2002).
 Forms laws::nonlinear_stiffness() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.parameters = constant({{"cubic_compliance", "rad/(N·m)^3"}});
   law.statement = says("joint {} winds up out of proportion to its torque");

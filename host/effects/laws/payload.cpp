@@ -13,7 +13,7 @@ constexpr double kFarthest = 0.5;  // of the reach, from the flange
 // frame (rigid-body dynamics).
 Forms laws::payload() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 4;
   law.traits.is_in_family = true;
   law.traits.is_body = true;
@@ -29,7 +29,7 @@ Forms laws::payload() {
   law.statement = says("the mass on the flange is another");
   alter_keys(
       [](const Values& values, int, model::Robot* whole) {
-        RobotModel<double, 6>& robot = whole->elastic;
+        model::Chain& robot = whole->elastic;
         const Vector3<double> moment = robot.payload_mass * robot.payload_center +
                                        Vector3<double>(values[1], values[2], values[3]);
         robot.payload_mass += values[0];

@@ -53,7 +53,7 @@ Term vibration(int joint, const Frequencies& frequencies, double damping) {
 // posture.
 Forms laws::resonance() {
   Law constant_mode;
-  constant_mode.joints = joints(1, 6);
+  constant_mode.joints = every_joint;
   constant_mode.traits.can_be_undone = false;
   Law by_posture = constant_mode;
   constant_mode.parameters = constant({{"frequency", "Hz"}, {"damping", "1"}});
@@ -64,7 +64,8 @@ Forms laws::resonance() {
   by_posture.form = "posture";
   by_posture.parameters = constant({{"stiffness", "N·m/rad"}, {"damping", "1"}});
   by_posture.impossible = [](const model::Robot& robot, int joint) {
-    const double inertia = carried_inertia(robot, JointVector<double, 6>::Zero(), joint);
+    const double inertia =
+        carried_inertia(robot, simulation::JointValues::Zero(robot.joints()), joint);
     return inertia > 0 ? "" : "what it carries has no inertia";
   };
   by_posture.statement =

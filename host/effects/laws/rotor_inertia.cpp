@@ -6,7 +6,7 @@ namespace flexcomp::effects {
 // acceleration (rigid-body dynamics).
 Forms laws::rotor_inertia() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.tells_inertia = true;
   law.traits.is_in_family = true;

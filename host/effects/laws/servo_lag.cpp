@@ -6,15 +6,17 @@ namespace {
 
 /// First and last of the joints that lag; joint 0: all of them.
 int first_of(int joint) { return joint == 0 ? 1 : joint; }
-int last_of(int joint) { return joint == 0 ? 6 : joint; }
+int last_of(int joint, Eigen::Index joints) {
+  return joint == 0 ? static_cast<int>(joints) : joint;
+}
 
 /// To begin with, a joint's torque comes so much later, and its angle by the lag itself.
 Term late_joints(const Values& values, int which) {
   return {Term::output, [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
             const double constant = values[0];
             Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
-            for (int joint = first_of(which); joint <= last_of(which) && !scene.is_static;
-                 ++joint) {
+            for (int joint = first_of(which);
+                 joint <= last_of(which, scene.joints()) && !scene.is_static; ++joint) {
               const Eigen::VectorXd angle = at.q.col(joint - 1);
               add_joint_angle(at, joint, simulation::lag(scene.time, angle, constant) - angle,
                               prediction);
@@ -32,7 +34,7 @@ Term late_joints(const Values& values, int which) {
 // (Siciliano et al. 2009, section 8).
 Forms laws::servo_lag() {
   Law law;
-  law.joints = joints(0, 6);
+  law.joints = machine_or_joint;
   law.traits.linear_in = 1;
   law.traits.alters_model = true;
   law.traits.is_curved = true;
@@ -42,7 +44,7 @@ Forms laws::servo_lag() {
                       : fmt::format("joint {} follows its command late", joint);
   };
   law.apply = [](const Values& values, int joint, Machine* machine) {
-    const int count = last_of(joint) - first_of(joint) + 1;
+    const int count = last_of(joint, machine->lag.size()) - first_of(joint) + 1;
     machine->lag.segment(first_of(joint) - 1, count).array() += values[0];
   };
   law.sketch = late_joints;

@@ -20,7 +20,7 @@ Term slow_friction(int joint, double excess, double stribeck_speed) {
 // speed)^2) against the motion (Armstrong-Helouvry, Dupont and Canudas de Wit 1994).
 Forms laws::stribeck_friction() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.parameters = constant({{"excess", "N·m"}, {"speed", "rad/s"}});
   law.statement = says("the friction of joint {} rises at low speed");

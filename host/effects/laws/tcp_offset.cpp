@@ -6,7 +6,7 @@ namespace flexcomp::effects {
 // Mooring, Roth and Driels 1991).
 Forms laws::tcp_offset() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 3;
   law.traits.is_in_family = true;
   law.parameters = constant({{"x", "m"}, {"y", "m"}, {"z", "m"}});

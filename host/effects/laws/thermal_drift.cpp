@@ -32,7 +32,7 @@ Eigen::VectorXd by_time(const Scene& scene, const Values& values) {
 Law drift_law(const char* form, Growth growth, std::vector<Parameter> parameters) {
   Law law;
   law.form = form;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 3;
   law.parameters = constant(std::move(parameters));
   law.statement = says("the structure grows as it warms");

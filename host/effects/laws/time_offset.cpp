@@ -31,7 +31,7 @@ Term late_wrench(double delay) {
 Law clock_law(const char* form, const char* clock) {
   Law law;
   law.form = form;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.is_clock = true;
   law.parameters = constant({{"delay", "s"}});
   law.statement = [clock](int) {

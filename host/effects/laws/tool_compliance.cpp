@@ -15,7 +15,7 @@ Range tool_shift(const Subject& of) {
 // rotations do not move the TCP.
 Forms laws::tool_compliance() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 3;
   law.traits.is_in_family = true;
   law.parameters = constant({{"x", "m/N"}, {"y", "m/N"}, {"z", "m/N"}});

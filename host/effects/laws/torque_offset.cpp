@@ -5,7 +5,7 @@ namespace flexcomp::effects {
 // Constant torque, or the zero of a current sensor.
 Forms laws::torque_offset() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
   law.parameters = constant({{"torque", "N·m"}});

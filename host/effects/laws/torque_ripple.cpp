@@ -6,7 +6,7 @@ namespace flexcomp::effects {
 // seen through the gear; Holtz and Springob 1996).
 Forms laws::torque_ripple() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 2;
   law.traits.is_wave = true;
   law.parameters = constant({{"sine", "N·m"}, {"cosine", "N·m"}, {"order", "1"}});

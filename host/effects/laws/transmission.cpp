@@ -7,7 +7,7 @@ namespace flexcomp::effects {
 // Robotics, section 7.2: friction and rotors act by the motors' speeds).
 Forms laws::transmission() {
   Law law;
-  law.joints = joints(2, 6);
+  law.joints = all_but_the_first;
   law.traits.is_curved = true;
   law.parameters = constant({{"ratio", "1"}});
   law.statement = says("the motor of joint {} turns with the joint before it as well");

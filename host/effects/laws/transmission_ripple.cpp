@@ -6,7 +6,7 @@ namespace flexcomp::effects {
 // Good 1985 for robots' gears).
 Forms laws::transmission_ripple() {
   Law law;
-  law.joints = joints(1, 6);
+  law.joints = every_joint;
   law.traits.linear_in = 2;
   law.traits.is_wave = true;
   law.parameters = constant({{"sine", "rad"}, {"cosine", "rad"}, {"order", "1"}});

@@ -6,7 +6,7 @@ namespace flexcomp::effects {
 // Helouvry, Dupont and Canudas de Wit 1994).
 Forms laws::viscous_friction() {
   Law both_ways;
-  both_ways.joints = joints(1, 6);
+  both_ways.joints = every_joint;
   both_ways.traits.linear_in = 1;
   both_ways.traits.is_in_family = true;
   both_ways.traits.is_model_number = true;
@@ -17,7 +17,7 @@ Forms laws::viscous_friction() {
              &both_ways);
   Law by_direction;
   by_direction.form = "by_direction";
-  by_direction.joints = joints(1, 6);
+  by_direction.joints = every_joint;
   by_direction.traits.linear_in = 2;
   by_direction.parameters = constant({{"forward", "N·m·s/rad"}, {"backward", "N·m·s/rad"}});
   by_direction.statement =

@@ -7,7 +7,7 @@ namespace flexcomp::effects {
 // Zero of the force sensor, in the tool frame: it reads the wrench plus the bias.
 Forms laws::wrench_bias() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 6;
   law.parameters = constant(
       {{"fx", "N"}, {"fy", "N"}, {"fz", "N"}, {"mx", "N·m"}, {"my", "N·m"}, {"mz", "N·m"}});
@@ -24,7 +24,9 @@ Forms laws::wrench_bias() {
         "force sensors' data sheets: ranges of once to twice the weight that their robots carry"},
        {"", " mx my mz ",
         [](const Subject& of) {
-          const double wrist = std::max({of.size.effort[3], of.size.effort[4], of.size.effort[5]});
+          const auto& effort = of.size.effort;
+          const auto last_three = effort.size() < 3 ? effort.begin() : effort.end() - 3;
+          const double wrist = *std::max_element(last_three, effort.end());
           return within(std::min(wrist, 0.5 * of.size.payload * kGravity * of.size.reach));
         },
         "force sensors' data sheets: ranges of about the torques that their robots' wrists bear"}}};

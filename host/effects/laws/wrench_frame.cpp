@@ -8,7 +8,7 @@ namespace flexcomp::effects {
 // frame.
 Forms laws::wrench_frame() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 3;
   law.traits.is_curved = true;
   law.parameters = constant({{"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}});

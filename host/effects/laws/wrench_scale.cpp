@@ -5,7 +5,7 @@ namespace flexcomp::effects {
 // Gain of the force sensor: it reads gain times the wrench.
 Forms laws::wrench_scale() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 1;
   law.traits.is_curved = true;
   law.parameters = constant({{"gain_error", "1"}});

@@ -5,7 +5,7 @@ namespace flexcomp::effects {
 // An effect of this test alone: the TCP stands higher by a part of joint 1's angle.
 Forms laws::test_lift() {
   Law law;
-  law.joints = {0};
+  law.joints = whole_machine;
   law.traits.linear_in = 1;
   law.parameters = constant({{"lift", "m/rad"}});
   law.statement = says("the floor slopes");

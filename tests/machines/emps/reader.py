@@ -4,7 +4,7 @@ Recording: A. Janot, M. Gautier, M. Brunot, "Data set and reference models of EM
 Nonlinear System Identification Benchmarks 2019, in the copy github.com/wmkouw/NSI-EMPS, commit
 d1137b8 (MIT; the authors of the data state no licence).
 
-The carriage is a machine of one axis (`single_axis`). The model knows its mass, 95 kg, and nothing
+The carriage is a slide (`single_axis`). The model knows its mass, 95 kg, and nothing
 else: all friction, and what tells the directions apart, is left out; so are the screw's elasticity
 and the amplifier's lag of some tenths of a millisecond. Force is drive gain times voltage.
 

@@ -6,8 +6,7 @@ from . import reader
 
 def judge(trial):
     outcome = trial.outcomes["torques"]
-    joints = range(1, reader.MODELLED + 1)
-    named = {joint: outcome.answer.named(FRICTION, joint) for joint in joints}
-    with_friction = [str(joint) for joint in joints if named[joint]]
-    return [Goal("friction is named at every joint", len(with_friction) == reader.MODELLED,
+    with_friction = [str(joint) for joint in reader.JOINTS
+                     if outcome.answer.named(FRICTION, joint)]
+    return [Goal("friction is named at every joint", len(with_friction) == len(reader.JOINTS),
                  f"at {', '.join(with_friction) or 'none'}")]

@@ -5,9 +5,7 @@ centres and inertias: identified by Gaz, Cognetti, Oliva, Robuffo Giordano and D
 4(4), 2019, as they also stand in franka_description; the sets are equivalent for torques, not the
 robot's true parts.
 
-A model of six joints: the seventh, about the flange's own axis, is held at its mean angle, and its
-motion and torque are left out, which shifts the others' by 0.01 to 0.05 N·m (root mean square). The
-model leaves out all friction and the zeros of the torque sensors.
+The model leaves out all friction and the zeros of the torque sensors.
 """
 
 import math
@@ -15,19 +13,18 @@ import math
 import numpy as np
 
 from ..chain import Body, Chain, Joint, by_modified_parameters, tensor
-from ..geometry import moved, turned
+from ..geometry import moved
 from ..robot_files import write_robot
 from ..study import Experiment
 from ..tables import Damaged, read_table, stacked, write_recording
 
-TITLE = "Franka Emika Panda, six of its seven joints"
+TITLE = "Franka Emika Panda"
 LEFT_OUT = "all friction, zeros of the torque sensors"
 FOLDER = "franka_panda_gaz"
 RECORDING = "panda_exciting_1kHz.csv"
 FILES = [RECORDING]
 
 JOINTS = range(1, 8)
-MODELLED = 6
 FORMS = ("q_rad_{}", "dq_rads_{}", "tau_Nm_{}")
 COLUMNS = ["t_s"] + [form.format(joint) for form in FORMS for joint in JOINTS]
 PERIOD = 0.001  # s, of the controller
@@ -40,7 +37,7 @@ LINKS = ((0.0, 0.333, 0.0), (0.0, 0.0, -math.pi / 2), (0.0, 0.316, math.pi / 2),
          (0.088, 0.0, math.pi / 2))
 FLANGE = 0.107  # m beyond the last joint
 RANGE = ((-2.8973, 2.8973), (-1.7628, 1.7628), (-2.8973, 2.8973), (-3.0718, -0.0698),
-         (-2.8973, 2.8973), (-0.0175, 3.7525))  # rad
+         (-2.8973, 2.8973), (-0.0175, 3.7525), (-2.8973, 2.8973))  # rad
 BODIES = (  # in the joints' frames
     Body(4.970684, np.array([3.875e-3, 2.081e-3, -0.04762]),
          tensor(0.70337, 0.70661, 9.117e-3, -1.39e-4, 1.9169e-2, 6.772e-3)),
@@ -58,14 +55,10 @@ BODIES = (  # in the joints' frames
          tensor(1.2516e-2, 1.0027e-2, 4.815e-3, -4.28e-4, -7.41e-4, -1.196e-3)))
 
 
-def chain(last_angle):
-    """The arm with its seventh joint held at an angle (rad)."""
-    places = by_modified_parameters(LINKS)
+def chain():
     joints = [Joint(place, [body], lower, upper)
-              for place, body, (lower, upper) in zip(places, BODIES, RANGE)]
-    held = places[MODELLED] @ turned("z", last_angle)
-    joints[-1].bodies.append(BODIES[MODELLED].seen_from(held))
-    return Chain("Franka Emika Panda, joint 7 held", joints, tool=held @ moved(z=FLANGE))
+              for place, body, (lower, upper) in zip(by_modified_parameters(LINKS), BODIES, RANGE)]
+    return Chain("Franka Emika Panda", joints, tool=moved(z=FLANGE))
 
 
 def controller_time(host, angle, speed):
@@ -112,10 +105,9 @@ def read(path):
 def write(data, folder):
     """One experiment: the last quarter of the motion is held out."""
     time, angle, torque = read(data / RECORDING)
-    model = write_robot(folder, chain(float(angle[:, MODELLED].mean())))
+    model = write_robot(folder, chain())
     is_training = time <= TRAINING_PART * time[-1]
     training, held_out = (
-        write_recording(folder / f"{name}.csv", time[rows], q_meas=angle[rows, :MODELLED],
-                        tau=torque[rows, :MODELLED])
+        write_recording(folder / f"{name}.csv", time[rows], q_meas=angle[rows], tau=torque[rows])
         for name, rows in (("training", is_training), ("held_out", ~is_training)))
     return [Experiment("torques", model, [training], held_out)]

@@ -5,7 +5,7 @@ github.com/ARTS-Laboratory/Dataset-Friction-Damper-with-Backlash, commit 0e09aa9
 sinusoids that swell and fade, at 0.5 and 1 Hz, 25 and 38 mm, bands tensioned by 36 lb. Thinned out
 to 128 Hz (0.5 Hz runs) and 256 Hz (1 Hz runs).
 
-The damper is a machine of one axis (`single_axis`) without mass or friction, so the model predicts
+The damper is a slide (`single_axis`) without mass or friction, so the model predicts
 no force at all. Left out besides: the device's inertia and the actuators. The run held out has the
 lower speed and the larger amplitude; each of the two, but not both together, is in the training.
 """
