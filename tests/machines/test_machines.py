@@ -203,7 +203,7 @@ class Readers(Scratch):
         (slide,) = [joint for joint in urdf.findall("joint") if joint.get("type") != "fixed"]
         self.assertEqual("prismatic", slide.get("type"))
         rpy = [float(word) for word in slide.find("origin").get("rpy").split()]
-        self.assertAlmostEqual(0, geometry.rotation_of(rpy)[2, 2], 12)
+        self.assertAlmostEqual(0, geometry.rotation_of(rpy)[2, 2], 9)
         (mass,) = urdf.iter("mass")
         self.assertEqual(95, float(mass.get("value")))
 
