@@ -8,10 +8,10 @@ namespace {
 
 /// Derivatives of the prediction by the delay of each group, samples × groups.
 Eigen::MatrixXd delay_columns(const Observations& observations,
-                              const std::vector<Hypothesis>& hypotheses,
+                              const std::vector<Hypothesis>& hypotheses, const Fit& known,
                               std::vector<std::string>* groups) {
   constexpr double kStep = 1e-3;  // s
-  const Changes changes(observations);
+  const Changes changes(observations, known.machine);
   std::vector<Eigen::VectorXd> columns;
   for (const Hypothesis& hypothesis : hypotheses) {
     if (!hypothesis.traits().is_clock) {
@@ -31,13 +31,13 @@ Eigen::MatrixXd delay_columns(const Observations& observations,
 
 std::vector<ClockCheck> check_clocks(const Observations& observations,
                                      const std::vector<Hypothesis>& hypotheses,
-                                     const Dictionary& dictionary) {
+                                     const Dictionary& dictionary, const Fit& known) {
   std::vector<ClockCheck> checks;
   if (observations.is_static) {
     return checks;
   }
   std::vector<std::string> groups;
-  const Eigen::MatrixXd late = delay_columns(observations, hypotheses, &groups);
+  const Eigen::MatrixXd late = delay_columns(observations, hypotheses, known, &groups);
   std::vector<Eigen::Index> others;
   for (const Entry& entry : dictionary.entries) {
     const Hypothesis& hypothesis = hypotheses[entry.hypothesis];
@@ -65,7 +65,7 @@ std::vector<ClockCheck> check_clocks(const Observations& observations,
   gram = Eigen::MatrixXd(gram.selfadjointView<Eigen::Lower>());
   gram.diagonal().array() += 1e-9;
   const Eigen::MatrixXd inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(all, all));
-  const Eigen::VectorXd target = observations.residual.head(n);
+  const Eigen::VectorXd target = known.remainder.head(n);
   const Eigen::VectorXd solved = inverse * (columns.transpose() * target);
   const double variance = (target - columns * solved).squaredNorm() / static_cast<double>(n);
   for (Eigen::Index i = count; i < all; ++i) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/dictionary.hpp"
+#include "diagnosis/fit.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -14,9 +14,10 @@ struct ClockCheck {
   double deviation = 0;  ///< s, standard deviation
 };
 
-/// Delays of all groups whose clock the recordings can tell.
+/// Delays of all groups whose clock the recordings can tell, beside what is `known` already; about
+/// its machine the dictionary is.
 std::vector<ClockCheck> check_clocks(const Observations& observations,
                                      const std::vector<Hypothesis>& hypotheses,
-                                     const Dictionary& dictionary);
+                                     const Dictionary& dictionary, const Fit& known);
 
 }  // namespace flexcomp::diagnosis

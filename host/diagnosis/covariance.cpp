@@ -26,9 +26,10 @@ Eigen::MatrixXd scores_of_stretches(const Observations& observations,
 
 Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::MatrixXd& derivative,
                               const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,
-                              double variance) {
+                              const Eigen::VectorXd& precision, double variance) {
   const Eigen::VectorXd size = derivative.colwise().norm();
   Eigen::MatrixXd gram = derivative.transpose() * (weight.asDiagonal() * derivative);
+  gram.diagonal() += precision;
   const Eigen::VectorXd inverse = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   gram = inverse.asDiagonal() * gram * inverse.asDiagonal();
   const Eigen::MatrixXd inner = gram.completeOrthogonalDecomposition().pseudoInverse();

@@ -7,8 +7,9 @@
 namespace flexcomp::diagnosis {
 
 /// Covariance of the parameters of a fit, by the prediction's derivative (samples to fit to ×
-/// parameters, over the noise), the samples' weights, the remainder and the variance of a sample of
-/// weight one.
+/// parameters, over the noise), the samples' weights, the remainder, the precision by which each
+/// parameter is held to the model beside the samples (zero: not at all), and the variance of a
+/// sample of weight one.
 ///
 /// It is that of independent errors, widened where errors hang together over time (a late clock, a
 /// remainder that nothing accounts for): then the scores of whole stretches scatter more than those
@@ -16,6 +17,6 @@ namespace flexcomp::diagnosis {
 /// stretches. Zero where nothing depends on a parameter.
 Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::MatrixXd& derivative,
                               const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,
-                              double variance);
+                              const Eigen::VectorXd& precision, double variance);
 
 }  // namespace flexcomp::diagnosis

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/registration.hpp"
 #include "diagnosis/select/members.hpp"
 
 namespace flexcomp::diagnosis {
@@ -16,6 +17,7 @@ constexpr double kFarMoreEvidence = 20;  // of BIC
 constexpr Eigen::Index kFewestSamples = 24;
 constexpr Eigen::Index kLeastFreedom = 8;
 constexpr int kNoiseRounds = 2;
+constexpr int kSteps = 12;  // of what was registered, where the noise was learnt anew
 
 bool has_enough(const Observations& observations) {
   return observations.train >= kFewestSamples && observations.size() > observations.train;
@@ -23,9 +25,9 @@ bool has_enough(const Observations& observations) {
 
 /// A load test's noise is what the fullest fit leaves; single samples far from it are outliers.
 void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypotheses,
-                 const Dictionary& dictionary) {
+                 const Dictionary& dictionary, const Fit& given) {
   constexpr double kFar = 6;
-  const FullestFit full = fit_all(*observations, hypotheses, dictionary);
+  const FullestFit full = fit_all(*observations, hypotheses, dictionary, given.remainder);
   if (full.freedom < kLeastFreedom) {
     return;
   }
@@ -115,10 +117,11 @@ bool is_like_noise(const Observations& observations, double ratio) {
   return !observations.noise_is_known || ratio < kNoiseLike + 3 * observations.noise_uncertainty;
 }
 
-/// Takes the numbers that stand by themselves as findings; those that do not stay behind them.
-void take_members(const Inquiry& inquiry, Diagnosis* diagnosis) {
+/// Takes the numbers of a fit that stand by themselves for the findings, where they are more than
+/// those there are; what does not stand stays behind them.
+void take_members(const Inquiry& inquiry, const Fit& whole, Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
-  std::vector<Finding> standing = members_that_stand(inquiry, diagnosis->retuned);
+  std::vector<Finding> standing = members_that_stand(inquiry, whole);
   if (standing.size() <= diagnosis->choice.findings.size()) {
     return;
   }
@@ -128,7 +131,7 @@ void take_members(const Inquiry& inquiry, Diagnosis* diagnosis) {
   }
   diagnosis->choice.findings = std::move(standing);
   diagnosis->choice.fit = fit(observations, chosen, 0);
-  for (const Chosen& each : diagnosis->retuned.chosen) {
+  for (const Chosen& each : whole.chosen) {
     const bool is_found = std::any_of(chosen.begin(), chosen.end(), [&](const Chosen& found) {
       return are_the_same(found.hypothesis, each.hypothesis);
     });
@@ -144,6 +147,20 @@ void take_members(const Inquiry& inquiry, Diagnosis* diagnosis) {
   const bool is_noise = is_like_noise(observations, after);
   diagnosis->verdict = is_noise ? "explained" : "partly_explained";
   diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
+}
+
+/// Fits a machine's numbers beside the findings, and once more without them.
+void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+           Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  const Dictionary& dictionary = inquiry.dictionary;
+  diagnosis->retuned = retune(observations, diagnosis->choice.fit, hypotheses, dictionary);
+  const Fit afresh = diagnosis->choice.findings.empty()
+                         ? Fit{}
+                         : retune_afresh(observations, inquiry.given, diagnosis->updated(),
+                                         hypotheses, dictionary);
+  take_members(inquiry, Fit(diagnosis->retuned), diagnosis);
+  take_members(inquiry, afresh, diagnosis);
 }
 
 void judge(const Observations& observations, Diagnosis* diagnosis) {
@@ -186,22 +203,23 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
              &diagnosis);
     return diagnosis;
   }
-  Dictionary dictionary(*observations, hypotheses, settings.simulating);
+  Fit given = register_frame(*observations, hypotheses);
+  Dictionary dictionary(*observations, hypotheses, given.machine, settings.simulating);
   if (observations->is_static) {
-    learn_noise(observations, hypotheses, dictionary);
-    dictionary = Dictionary(*observations, hypotheses, settings.simulating);
+    learn_noise(observations, hypotheses, dictionary, given);
+    given = fit(*observations, given.chosen, kSteps);
+    dictionary = Dictionary(*observations, hypotheses, given.machine, settings.simulating);
   }
-  diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary);
+  const Inquiry inquiry{*observations, dictionary, settings.false_discovery, given};
+  diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary, given);
   diagnosis.excitation = excitation(*observations, hypotheses, dictionary);
-  diagnosis.location = locate(*observations, observations->residual);
-  const auto chosen = [&] {
-    return choose({*observations, dictionary, settings.false_discovery}, settings.choosing);
-  };
-  diagnosis.choice = chosen();
+  diagnosis.location = locate(*observations, given.remainder);
+  diagnosis.choice = choose(inquiry, settings.choosing);
   for (int round = 0; round < kNoiseRounds && lower_noise(observations, diagnosis.choice.fit);
        ++round) {
-    dictionary = Dictionary(*observations, hypotheses, settings.simulating);
-    diagnosis.choice = chosen();
+    given = fit(*observations, given.chosen, kSteps);
+    dictionary = Dictionary(*observations, hypotheses, given.machine, settings.simulating);
+    diagnosis.choice = choose(inquiry, settings.choosing);
   }
   find_groups(&diagnosis);
   judge(*observations, &diagnosis);
@@ -209,8 +227,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     if (diagnosis.proposal.empty()) {
       diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
     }
-    diagnosis.retuned = retune(*observations, diagnosis.choice.fit, hypotheses, dictionary);
-    take_members({*observations, dictionary, settings.false_discovery}, &diagnosis);
+    refit(inquiry, hypotheses, &diagnosis);
     diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
   }
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {

@@ -60,34 +60,39 @@ LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& mo
 }  // namespace
 
 Changes::Changes(const Observations& observations)
-    : observations_(observations), predicted_(observations.stacked(observations.predictions)) {
+    : observations_(observations),
+      machine_(observations.machine),
+      predicted_(observations.stacked(observations.predictions)) {}
+
+Changes::Changes(const Observations& observations, const Machine& around)
+    : observations_(observations), machine_(around) {
   std::vector<Prediction> predictions;
-  predictions.reserve(observations.simulations.size());
-  for (const Simulation& simulation : observations.simulations) {
-    predictions.push_back(simulation.prediction);
+  for (const Scene& scene : observations.scenes) {
+    simulations_.push_back(simulate(machine_, scene));
+    predictions.push_back(with_terms(machine_.terms, scene, simulations_.back()));
   }
-  bare_ = observations.stacked(predictions);
+  predicted_ = observations.stacked(predictions);
 }
 
 Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) const {
+  Machine machine = machine_;
   if (hypothesis.traits().alters_model && !hypothesis.is_sketched) {
-    Machine machine = observations_.machine;
     hypothesis.apply(values, &machine);
     return observations_.stacked(predict(machine, observations_.scenes)) - predicted_;
   }
-  Machine machine(observations_.machine.robot);
   if (hypothesis.is_sketched) {
     machine.terms.push_back(hypothesis.law->sketch(values, hypothesis.joint));
   } else {
     hypothesis.apply(values, &machine);
   }
+  const std::vector<Simulation>& simulations =
+      simulations_.empty() ? observations_.simulations : simulations_;
   std::vector<Prediction> predictions;
   predictions.reserve(observations_.scenes.size());
   for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-    predictions.push_back(
-        with_terms(machine.terms, observations_.scenes[s], observations_.simulations[s]));
+    predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations[s]));
   }
-  return observations_.stacked(predictions) - bare_;
+  return observations_.stacked(predictions) - predicted_;
 }
 
 Eigen::MatrixXd Changes::columns(const Hypothesis& hypothesis, const Values& start) const {
@@ -112,8 +117,17 @@ Eigen::MatrixXd Changes::columns(const Hypothesis& hypothesis, const Values& sta
 
 Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis> all,
                        const std::function<void(std::size_t, std::size_t)>& progress)
+    : Dictionary(observations, std::move(all), Changes(observations), progress) {}
+
+Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis> all,
+                       const Machine& around,
+                       const std::function<void(std::size_t, std::size_t)>& progress)
+    : Dictionary(observations, std::move(all), Changes(observations, around), progress) {}
+
+Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis> all,
+                       const Changes& changes,
+                       const std::function<void(std::size_t, std::size_t)>& progress)
     : hypotheses(std::move(all)) {
-  const Changes changes(observations);
   std::vector<std::vector<Eigen::MatrixXd>> blocks(hypotheses.size());
   in_parallel(hypotheses.size(), progress, [&](std::size_t i) {
     for (const Values& start : hypotheses[i].starts) {
@@ -213,7 +227,7 @@ std::vector<Screened> screen(const Observations& observations,
 }
 
 FullestFit fit_all(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
-                   const Dictionary& dictionary) {
+                   const Dictionary& dictionary, const Eigen::VectorXd& unexplained) {
   std::vector<Eigen::Index> linear;
   for (const Entry& entry : dictionary.entries) {
     const Hypothesis& hypothesis = hypotheses[entry.hypothesis];
@@ -235,7 +249,7 @@ FullestFit fit_all(const Observations& observations, const std::vector<Hypothesi
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   qr.setThreshold(1e-7);
   FullestFit fit;
-  const Eigen::VectorXd target = observations.residual.head(observations.train);
+  const Eigen::VectorXd target = unexplained.head(observations.train);
   fit.remainder = target - columns * qr.solve(target);
   fit.freedom = observations.train - qr.rank();
   return fit;

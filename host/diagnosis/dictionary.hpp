@@ -8,10 +8,12 @@
 
 namespace flexcomp::diagnosis {
 
-/// How hypotheses change what a model predicts for observations.
+/// How hypotheses change what a machine predicts for observations.
 class Changes {
  public:
   explicit Changes(const Observations& observations);
+  /// Of a machine that is the observations' model with what is known of it already.
+  Changes(const Observations& observations, const Machine& around);
 
   /// The whole change over the noise (samples), by the values of a hypothesis' parameters; to first
   /// order where it has a sketch.
@@ -22,8 +24,9 @@ class Changes {
 
  private:
   const Observations& observations_;
-  Eigen::VectorXd predicted_;  ///< by the model with its terms
-  Eigen::VectorXd bare_;       ///< without them
+  Machine machine_;
+  std::vector<Simulation> simulations_;  ///< of the machine; empty where it is the model
+  Eigen::VectorXd predicted_;            ///< by the machine with its terms
 };
 
 /// A hypothesis with the starting values of what is not linear in it: columns of the dictionary.
@@ -40,6 +43,9 @@ class Dictionary {
   /// Progress is told after each hypothesis: done, of how many.
   Dictionary(const Observations& observations, std::vector<Hypothesis> all,
              const std::function<void(std::size_t, std::size_t)>& progress);
+  /// The same about a machine that is the observations' model with what is known of it already.
+  Dictionary(const Observations& observations, std::vector<Hypothesis> all, const Machine& around,
+             const std::function<void(std::size_t, std::size_t)>& progress);
 
   /// The first entry of a hypothesis; null where it does not show.
   const Entry* find(const Hypothesis& hypothesis) const;
@@ -48,6 +54,10 @@ class Dictionary {
   std::vector<Entry> entries;
   Eigen::MatrixXd columns;  ///< samples × columns, over the noise
   Eigen::MatrixXd gram;     ///< columns × columns, over the samples to fit to
+
+ private:
+  Dictionary(const Observations& observations, std::vector<Hypothesis> all, const Changes& changes,
+             const std::function<void(std::size_t, std::size_t)>& progress);
 };
 
 /// Amplitudes of columns, and by how much they lower the sum of squares.
@@ -92,13 +102,14 @@ std::vector<ScreenedPair> screen_pairs(const Observations& observations,
                                        const std::vector<Hypothesis>& hypotheses,
                                        const Dictionary& dictionary, std::size_t most);
 
-/// The remainder of a fit of all linear entries at once: the fullest fit there is.
+/// The remainder of a fit of all linear entries at once to what is unexplained (all samples, over
+/// the noise): the fullest fit there is.
 struct FullestFit {
   Eigen::VectorXd remainder;  ///< of the samples to fit to
   Eigen::Index freedom = 0;   ///< samples less independent columns
 };
 FullestFit fit_all(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
-                   const Dictionary& dictionary);
+                   const Dictionary& dictionary, const Eigen::VectorXd& unexplained);
 
 /// Are an entry's amplitudes such that its hypothesis allows them?
 bool within_bounds(const Hypothesis& hypothesis, const Eigen::VectorXd& amplitude);

@@ -48,6 +48,15 @@ class Evaluator {
     return chosen_.front().hypothesis.parameters.front();
   }
 
+  /// By which the parameters' tolerances hold them: one over the square of each.
+  Eigen::VectorXd precisions() const {
+    Eigen::VectorXd all(static_cast<Eigen::Index>(size()));
+    for (std::size_t i = 0; i < size(); ++i) {
+      all[static_cast<Eigen::Index>(i)] = std::pow(parameter(i).tolerance, -2);
+    }
+    return all;
+  }
+
   Values values() const {
     Values all;
     for (const Chosen& each : chosen_) {
@@ -155,12 +164,6 @@ class Evaluator {
   std::vector<Eigen::Index> known_;  ///< column of the dictionary, or −1
 };
 
-Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder) {
-  const double spread =
-      std::max(1.0, std::sqrt(remainder.squaredNorm() / static_cast<double>(remainder.size())));
-  return (kHuber * spread / remainder.array().abs().max(1e-12)).min(1.0).matrix();
-}
-
 /// Ceres' view: weighted remainder of the samples to fit to, in parameters over their steps.
 class WeightedRemainder : public ceres::CostFunction {
  public:
@@ -168,7 +171,7 @@ class WeightedRemainder : public ceres::CostFunction {
   WeightedRemainder(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight,
                     Evaluator* evaluator)
       : measured_(measured), root_(weight.cwiseSqrt()), evaluator_(evaluator) {
-    set_num_residuals(static_cast<int>(measured.size()));
+    set_num_residuals(static_cast<int>(measured.size()) + static_cast<int>(evaluator->size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(evaluator->size()));
   }
 
@@ -188,13 +191,18 @@ class WeightedRemainder : public ceres::CostFunction {
     }
     const Eigen::Index n = measured_.size();
     Eigen::Map<Eigen::VectorXd>(residuals, n) = root_.cwiseProduct(measured_ - predicted.head(n));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      residuals[static_cast<std::size_t>(n) + i] = -values[i] / evaluator_->parameter(i).tolerance;
+    }
     if (wants) {
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
       const auto columns = static_cast<Eigen::Index>(values.size());
-      Eigen::Map<RowMajor> jacobian(jacobians[0], n, columns);
+      Eigen::Map<RowMajor> jacobian(jacobians[0], n + columns, columns);
+      jacobian.bottomRows(columns).setZero();
       for (Eigen::Index i = 0; i < columns; ++i) {
-        jacobian.col(i) = -evaluator_->parameter(static_cast<std::size_t>(i)).step *
-                          root_.cwiseProduct(derivative.col(i).head(n));
+        const Parameter& parameter = evaluator_->parameter(static_cast<std::size_t>(i));
+        jacobian.col(i).head(n) = -parameter.step * root_.cwiseProduct(derivative.col(i).head(n));
+        jacobian(n + i, i) = -parameter.step / parameter.tolerance;
       }
     }
     return Eigen::Map<Eigen::VectorXd>(residuals, n).allFinite();
@@ -295,6 +303,12 @@ std::vector<effects::Placed> placed_of(const std::vector<Chosen>& chosen) {
 
 }  // namespace
 
+Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder) {
+  const double spread =
+      std::max(1.0, std::sqrt(remainder.squaredNorm() / static_cast<double>(remainder.size())));
+  return (kHuber * spread / remainder.array().abs().max(1e-12)).min(1.0).matrix();
+}
+
 std::size_t Fit::parameters() const {
   return static_cast<std::size_t>(first_parameter(chosen.size()));
 }
@@ -349,7 +363,7 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
   if (evaluator.size() > 0) {
     result.covariance =
         covariance_of(observations, result.derivative.topRows(n), weight, result.remainder.head(n),
-                      result.train_sum / std::max(freedom, 1.0));
+                      evaluator.precisions(), result.train_sum / std::max(freedom, 1.0));
   }
   return result;
 }

@@ -34,12 +34,18 @@ struct Fit {
   std::vector<effects::Placed> placed() const;
 };
 
+/// Weights by Huber's function of a remainder over the noise: one within three deviations of what
+/// remains, less beyond, so that single samples do not decide.
+Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder);
+
 /// The machine with hypotheses added to the observations' model.
 Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen);
 
 /// Fits parameters within their bounds by Ceres (Levenberg–Marquardt) from given values on, with
 /// weights by Huber's function (3 deviations) so that single samples do not decide. Predictions are
 /// simulated anew for every step, not linearised.
+///
+/// Parameters with a tolerance are held to zero by it, as by one sample more.
 ///
 /// Parameters without a derivative, which act in steps, are scanned in the end, by five per cent up
 /// to a factor of 2.7 either way. With a dictionary they are not, and the derivatives by parameters

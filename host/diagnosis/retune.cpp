@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/evidence.hpp"
-#include "diagnosis/families.hpp"
+#include "diagnosis/families/families.hpp"
 #include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
@@ -125,8 +125,7 @@ Fit fit_model_numbers(const Observations& observations, const Fit& findings,
 bool stands(const Observations& observations, const Fit& findings, const Fit& tuned) {
   return tuned.chosen.size() > findings.chosen.size() && can_be(observations, tuned) &&
          bic_gain(observations, findings, tuned) > kStrongEvidence &&
-         predicts_better(observations, findings, tuned) &&
-         cancellation(observations, tuned) < kMostCancellation;
+         predicts_better(observations, findings, tuned);
 }
 
 }  // namespace
@@ -134,14 +133,27 @@ bool stands(const Observations& observations, const Fit& findings, const Fit& tu
 Fit retune(const Observations& observations, const Fit& findings,
            const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
   Fit best;
-  for (auto* refit : {fit_model_numbers, fit_families}) {
-    Fit tuned = refit(observations, findings, hypotheses, dictionary);
-    if (stands(observations, findings, tuned) &&
-        (best.chosen.empty() || predicts_better(observations, best, tuned))) {
-      best = std::move(tuned);
-    }
+  Fit numbers = fit_model_numbers(observations, findings, hypotheses, dictionary);
+  // Nothing holds these to the model: large changes that cancel each other imitate what is not
+  // there.
+  if (stands(observations, findings, numbers) &&
+      cancellation(observations, numbers) < kMostCancellation) {
+    best = std::move(numbers);
+  }
+  Fit families = fit_families(observations, findings, hypotheses, dictionary);
+  if (stands(observations, findings, families) &&
+      (best.chosen.empty() || predicts_better(observations, best, families))) {
+    best = std::move(families);
   }
   return best;
+}
+
+Fit retune_afresh(const Observations& observations, const Fit& given, const Fit& known,
+                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+  Fit families = fit_families(observations, given, hypotheses, dictionary);
+  return stands(observations, given, families) && predicts_better(observations, known, families)
+             ? families
+             : Fit{};
 }
 
 }  // namespace flexcomp::diagnosis

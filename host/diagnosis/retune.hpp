@@ -7,17 +7,20 @@
 
 namespace flexcomp::diagnosis {
 
-/// The model's own numbers (joint compliances, viscous and Coulomb friction) fitted together to
-/// what the findings leave and no effect accounts for. They are no findings: they stand in for
-/// physics that the catalogue lacks, so that what is predicted comes nearer where the robot moves
-/// as it was recorded.
+/// The best plain refit of a machine's numbers beside findings, for want of the physics that is
+/// left: of the few numbers that every model has (compliances, friction) and of whole families
+/// (families.hpp) what predicts best what was held out.
 ///
-/// Returns the fit of the findings, their parameters fitted anew beside the numbers, and behind
-/// them the numbers. Numbers that cannot be told from what they are (by two standard deviations),
-/// or cannot be as fitted (plausible.hpp), stay so. Nothing is chosen unless evidence for all of
-/// them together is strong, the held-out error falls in a channel and rises in none, and they do
-/// not imitate it by large changes that cancel each other.
+/// Returns the findings, fitted anew, and behind them the numbers. Nothing is chosen unless all of
+/// them can be (plausible.hpp), the evidence for all of them together is strong, and the held-out
+/// error falls in a channel and rises in none.
 Fit retune(const Observations& observations, const Fit& findings,
            const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
+
+/// Whole families beside what is `given` alone: findings that were sought one at a time may be
+/// wrong where many small causes act. Nothing is chosen unless it predicts better than what is
+/// `known` without it.
+Fit retune_afresh(const Observations& observations, const Fit& given, const Fit& known,
+                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
 
 }  // namespace flexcomp::diagnosis

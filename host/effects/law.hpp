@@ -51,7 +51,8 @@ struct Traits {
   bool is_clock = false;         ///< a clock of the measurement is late, by its one parameter
   bool is_model_number = false;  ///< a number that every model has: it may stand in for physics
                                  ///< that no law has
-  bool is_in_family = false;  ///< every machine has a little of it: fitted together with its like
+  bool is_in_family = false;    ///< every machine has a little of it: fitted together with its like
+  bool is_family_only = false;  ///< told beside its like only: no single cause is sought in it
   bool can_be_undone =
       true;  ///< it moves the robot, so that a command can undo it; false for what
              ///< only the measurement shows, and for a vibration, which commands feed

@@ -72,6 +72,32 @@ double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride) {
          std::sqrt(20.0);
 }
 
+double quantisation_step(const Eigen::VectorXd& signal) {
+  constexpr double kWhole = 0.1;    // of a step: how far a multiple may be from a whole one
+  constexpr double kMostly = 0.95;  // of the steps between neighbours, that are multiples
+  std::vector<double> sizes;
+  std::vector<double> values;
+  for (Eigen::Index row = 1; row < signal.size(); ++row) {
+    const double size = std::abs(signal[row] - signal[row - 1]);
+    if (std::isfinite(size)) {
+      values.push_back(signal[row]);
+      if (size > 1e-12) {
+        sizes.push_back(size);
+      }
+    }
+  }
+  std::sort(values.begin(), values.end());
+  const auto distinct = std::unique(values.begin(), values.end()) - values.begin();
+  if (sizes.empty() || 2 * static_cast<std::size_t>(distinct) > values.size()) {
+    return 0;
+  }
+  const double step = *std::min_element(sizes.begin(), sizes.end());
+  const auto whole = std::count_if(sizes.begin(), sizes.end(), [step](double size) {
+    return std::abs(size / step - std::round(size / step)) < kWhole;
+  });
+  return static_cast<double>(whole) > kMostly * static_cast<double>(sizes.size()) ? step : 0;
+}
+
 double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) {
   constexpr Eigen::Index kSide = 3;
   if (angle.size() <= 2 * kSide) {
@@ -93,7 +119,8 @@ double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) 
     }
     misses[row - kSide] = predicted / std::sqrt(squares);
   }
-  return robust_deviation(misses);
+  // The error of rounding is spread evenly over a step.
+  return std::max(robust_deviation(misses), quantisation_step(angle) / std::sqrt(12.0));
 }
 
 bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise) {

@@ -11,8 +11,13 @@ namespace flexcomp::recording {
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride = 1);
 
 /// The same for a signal that is nearly noiseless, an encoder's: what its values differ from the
-/// polynomial through their six neighbours, at their true times (s).
+/// polynomial through their six neighbours, at their true times (s); of a quantised one no less
+/// than the error of rounding.
 double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle);
+
+/// Step in which a quantised signal is given; 0 where it is not, or in steps so fine that hardly a
+/// value comes twice.
+double quantisation_step(const Eigen::VectorXd& signal);
 
 /// 1.4826 times the median size: the standard deviation of a normal distribution, outliers or not.
 double robust_deviation(const Eigen::VectorXd& values);

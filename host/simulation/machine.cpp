@@ -236,7 +236,8 @@ int direction_of_motion(double speed) {
 Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
                       const Simulation& simulation) {
   Prediction prediction = simulation.prediction;
-  for (const Term::Stage stage : {Term::wrench, Term::load, Term::output, Term::clock}) {
+  for (const Term::Stage stage :
+       {Term::wrench, Term::load, Term::output, Term::instrument, Term::clock}) {
     for (const Term& term : terms) {
       if (term.stage == stage) {
         term.add(scene, simulation, &prediction);

@@ -35,7 +35,7 @@ struct Simulation {
 
 /// Physics that adds to what a rigid robot on springs does, in the order in which it acts.
 struct Term {
-  enum Stage { wrench, load, output, clock };
+  enum Stage { wrench, load, output, instrument, clock };
   Stage stage;
   std::function<void(const Scene&, const Simulation&, Prediction*)> add;
 };

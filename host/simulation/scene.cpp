@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,13 +13,10 @@
 #include "error.hpp"
 #include "model/chain.hpp"
 #include "recording/noise.hpp"
+#include "simulation/differentiation.hpp"
 
 namespace flexcomp::simulation {
 namespace {
-
-constexpr double kHalfWindow = 0.0161;  // s; a little more than 16 ms, for times that are rounded
-constexpr Eigen::Index kFewestNeighbours = 3;
-constexpr int kOrder = 5;
 
 /// Contract: t counts 0, 1, 2, … in static load tests.
 bool is_load_test(const Eigen::VectorXd& time) {
@@ -30,44 +28,6 @@ bool is_load_test(const Eigen::VectorXd& time) {
   return true;
 }
 
-/// So many numbers of every joint.
-template <typename Scalar, int Rows>
-using Columns =
-    Eigen::Matrix<Scalar, Rows, Eigen::Dynamic, Rows == 1 ? Eigen::RowMajor : Eigen::ColMajor, Rows,
-                  model::kMostJoints>;
-
-/// Motion at one row, and how much of the angles' noise gets into it.
-struct LocalMotion {
-  explicit LocalMotion(Eigen::Index joints)
-      : values(Columns<double, 2>::Zero(2, joints)),
-        doubt(Columns<double, 1>::Zero(joints)),
-        stands(Columns<int, 1>::Zero(joints)) {}
-
-  Columns<double, 2> values;                       ///< velocity, acceleration
-  Eigen::Vector2d gain = Eigen::Vector2d::Zero();  ///< 1/s, 1/s²
-  Columns<double, 1> doubt;                        ///< of the acceleration, rad/s²
-  Columns<int, 1> stands;
-};
-
-/// A joint that stands still all the while has no speed, whatever a polynomial says.
-void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
-                   const Eigen::RowVectorXd& angle_noise, Eigen::Index first, Eigen::Index last,
-                   LocalMotion* motion) {
-  constexpr double kStanding = 1e-5;  // rad/s, far below any programmed motion
-  for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
-    Eigen::Index standing = 0;
-    for (Eigen::Index i = first; i < last; ++i) {
-      const double moved = std::abs(q(i + 1, joint) - q(i, joint));
-      standing += moved <= kStanding * (time[i + 1] - time[i]) + 4 * angle_noise[joint] ? 1 : 0;
-    }
-    motion->stands[joint] = standing > 0 ? 1 : 0;
-    if (standing == last - first) {
-      motion->values.col(joint).setZero();
-      motion->doubt[joint] = 0;
-    }
-  }
-}
-
 /// At creeping speed friction depends on what went before, not on the speed: contacts wind up and
 /// break away (Armstrong-Helouvry, Dupont and Canudas de Wit 1994, presliding).
 void mark_creeping(Scene* scene) {
@@ -77,83 +37,6 @@ void mark_creeping(Scene* scene) {
     const double limit = kCreeping * speed.maxCoeff();
     scene->stands.col(joint) = (speed < limit).select(1, scene->stands.col(joint).array());
   }
-}
-
-struct Window {
-  Eigen::Index first, row, last;
-};
-
-/// Polynomials about a row; what one order more would change of the acceleration, beyond noise, is
-/// how far it may be wrong where the motion is too abrupt for the samples.
-LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
-                          const Eigen::RowVectorXd& angle_noise, const Window& window) {
-  constexpr double kBeyondNoise = 4;
-  constexpr int kCount = kOrder + 1;
-  const Eigen::Index row = window.row;
-  const double span = std::max(time[window.last] - time[row], time[row] - time[window.first]);
-  Eigen::Matrix<double, kCount + 1, kCount + 1> gram;
-  Columns<double, kCount + 1> moment = Columns<double, kCount + 1>::Zero(kCount + 1, q.cols());
-  gram.setZero();
-  Eigen::Index used = 0;
-  for (Eigen::Index i = window.first; i <= window.last; ++i) {
-    if (q.row(i).allFinite()) {
-      Eigen::Matrix<double, kCount + 1, 1> powers;
-      const double s = (time[i] - time[row]) / span;
-      powers[0] = 1;
-      for (int k = 1; k <= kCount; ++k) {
-        powers[k] = powers[k - 1] * s;
-      }
-      gram += powers * powers.transpose();
-      moment += powers * (q.row(i) - q.row(row));
-      ++used;
-    }
-  }
-  LocalMotion motion(q.cols());
-  if (used < kCount) {
-    return motion;
-  }
-  using Square = Eigen::Matrix<double, kCount, kCount>;
-  const auto factors = gram.topLeftCorner<kCount, kCount>().ldlt();
-  const Columns<double, kCount> fit = factors.solve(moment.topRows<kCount>());
-  motion.values.row(0) = fit.row(1) / span;
-  motion.values.row(1) = 2 * fit.row(2) / (span * span);
-  const Square covariance = factors.solve(Square::Identity());
-  motion.gain << std::sqrt(covariance(1, 1)) / span,
-      2 * std::sqrt(covariance(2, 2)) / (span * span);
-  if (used > kCount) {
-    const auto higher = gram.ldlt();
-    const Columns<double, 1> change = higher.solve(moment).row(2) - fit.row(2);
-    // Nested least squares: the variance of the change is the difference of the variances.
-    const double gained =
-        higher.solve(Eigen::Matrix<double, kCount + 1, kCount + 1>::Identity())(2, 2) -
-        covariance(2, 2);
-    const Eigen::RowVectorXd limit = kBeyondNoise * std::sqrt(std::max(gained, 0.0)) * angle_noise;
-    motion.doubt = (change.array().abs() > limit.array()).select(2 * change / (span * span), 0.0);
-  }
-  return motion;
-}
-
-LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
-                         const Eigen::RowVectorXd& angle_noise, Eigen::Index row) {
-  const Eigen::Index end = time.size() - 1;
-  Eigen::Index first = row;
-  Eigen::Index last = row;
-  while (first > 0 &&
-         (row - first < kFewestNeighbours || time[row] - time[first - 1] <= kHalfWindow)) {
-    --first;
-  }
-  while (last < end &&
-         (last - row < kFewestNeighbours || time[last + 1] - time[row] <= kHalfWindow)) {
-    ++last;
-  }
-  // At the ends of a recording one side makes up for the other.
-  while (last - first < 2 * kFewestNeighbours && (first > 0 || last < end)) {
-    first -= first > 0 && last == end ? 1 : 0;
-    last += last < end ? 1 : 0;
-  }
-  LocalMotion motion = differentiate(time, q, angle_noise, {first, row, last});
-  find_standing(time, q, angle_noise, first, last, &motion);
-  return motion;
 }
 
 /// Does a sensor repeat its last sample in a log that is faster than it? Then it does so regularly;
@@ -298,6 +181,14 @@ recording::Recording without_repeats(recording::Recording recording) {
   return recording;
 }
 
+/// A joint's motion at a row of a scene.
+void take(const LocalMotion& motion, Eigen::Index joint, Eigen::Index row, Scene* scene) {
+  scene->velocity(row, joint) = motion.values(0, joint);
+  scene->acceleration(row, joint) = motion.values(1, joint);
+  scene->acceleration_doubt(row, joint) = motion.doubt[joint];
+  scene->stands(row, joint) = motion.stands[joint];
+}
+
 Scene scene_of(const recording::Recording& recording, Eigen::Index most_rows,
                Preparation* preparation) {
   const recording::Samples& q = recording.q_meas ? *recording.q_meas : *recording.q_cmd;
@@ -318,18 +209,31 @@ Scene scene_of(const recording::Recording& recording, Eigen::Index most_rows,
   for (Eigen::Index joint = 0; joint < scene.joints(); ++joint) {
     angle_noise[joint] = recording::encoder_noise(recording.time, q.col(joint));
   }
+  const auto windows_of = static_cast<std::size_t>(scene.joints());
+  const std::vector<std::size_t> windows = scene.is_static
+                                               ? std::vector<std::size_t>(windows_of, 0)
+                                               : best_windows(recording.time, q, angle_noise);
+  for (const std::size_t window : windows) {
+    scene.half_window = std::max(scene.half_window, kHalfWindows[window]);
+  }
   scene.acceleration_doubt = Eigen::MatrixXd::Zero(n, scene.joints());
   scene.velocity_noise = scene.acceleration_noise = Eigen::RowVectorXd::Zero(scene.joints());
   for (Eigen::Index i = 0; i < n && !scene.is_static; ++i) {
-    const LocalMotion motion =
-        local_motion(recording.time, q, angle_noise, rows[static_cast<std::size_t>(i)]);
-    scene.velocity.row(i) = motion.values.row(0);
-    scene.acceleration.row(i) = motion.values.row(1);
-    scene.acceleration_doubt.row(i) = motion.doubt;
-    scene.stands.row(i) = motion.stands;
-    if (i == n / 2) {
-      scene.velocity_noise = motion.gain[0] * angle_noise;
-      scene.acceleration_noise = motion.gain[1] * angle_noise;
+    for (std::size_t k = 0; k < kHalfWindows.size(); ++k) {
+      if (std::find(windows.begin(), windows.end(), k) == windows.end()) {
+        continue;
+      }
+      const LocalMotion motion = local_motion(recording.time, q, angle_noise, kHalfWindows[k],
+                                              rows[static_cast<std::size_t>(i)]);
+      for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
+        if (windows[static_cast<std::size_t>(joint)] == k) {
+          take(motion, joint, i, &scene);
+          if (i == n / 2) {
+            scene.velocity_noise[joint] = motion.gain[0] * angle_noise[joint];
+            scene.acceleration_noise[joint] = motion.gain[1] * angle_noise[joint];
+          }
+        }
+      }
     }
   }
   mark_creeping(&scene);

@@ -30,6 +30,7 @@ struct Scene {
   /// 1 where a joint stands, starts, stops or creeps: friction may hold any torque up to
   /// break-away there, so that its torque tells nothing of the speed.
   Eigen::MatrixXi stands;
+  double half_window = 0;  ///< s, half of the longest time that a joint was differentiated over
   /// Standard deviations that the encoders' noise leaves in velocity (rad/s) and acceleration
   /// (rad/s²) of each joint.
   Eigen::RowVectorXd velocity_noise, acceleration_noise;
@@ -59,9 +60,10 @@ struct Preparation {
 /// are taken, those that show most of a few.
 ///
 /// Velocities and accelerations come from all rows: polynomials of fifth order through the
-/// neighbours within 16 ms, at their true times (Savitzky and Golay 1964). Of a sensor slower than
-/// the log that repeats its last sample, the first of each counts. Throws InputError where
-/// the recording has no joint angles or nothing to compare a simulation with.
+/// neighbours within 16 ms, at their true times (Savitzky and Golay 1964), or within as much more
+/// as a joint's noise asks for. They have no delay. Of a sensor slower than the log that repeats
+/// its last sample, the first of each counts. Throws InputError where the recording has no joint
+/// angles or nothing to compare a simulation with.
 Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
               Preparation* preparation);
 

@@ -24,7 +24,8 @@ void an_attempt_that_loses_leaves_nothing_behind() {
   const Observations observations = swinging.observed(error);
   const Dictionary dictionary(observations, all_hypotheses(observations),
                               [](std::size_t, std::size_t) {});
-  const Inquiry inquiry{observations, dictionary, 0.01};
+  const Fit given = fit(observations, {}, 0);
+  const Inquiry inquiry{observations, dictionary, 0.01, given};
   const Attempt nothing = attempt_of(observations, dictionary, {});
   const Attempt right = [&] {
     for (const Hypothesis& each : dictionary.hypotheses) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct Parameter {
   double lower;
   double upper;
   double step;  ///< as in Bounds
+  /// Standard deviation about zero that a fit holds it to; endless where only the samples decide.
+  double tolerance = std::numeric_limits<double>::infinity();
 };
 
 /// A law at one place, and where to begin with it in these observations.

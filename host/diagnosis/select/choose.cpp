@@ -51,11 +51,12 @@ Fit fit_of(const Observations& observations, std::vector<Finding>* findings) {
 
 Choice choose(const Inquiry& inquiry, const Tell& tell) {
   const Observations& observations = inquiry.observations;
-  Attempt best{fit(observations, {}, 0), nullptr};
+  const bool is_fresh = inquiry.given.chosen.empty();
+  Attempt best{inquiry.given, is_fresh ? nullptr : seek(inquiry, inquiry.given)};
   Choice choice;
   choice.ranking = rank(propose(inquiry, best));
   best = grow(inquiry, std::move(best), tell);
-  if (!is_settled(observations, best.fit)) {
+  if (is_fresh && !is_settled(observations, best.fit)) {
     best = best_of_pairs(inquiry, std::move(best), tell);
   }
   Proved proved = prove(inquiry, prune(inquiry, fit(observations, best.fit.chosen, kLastSteps)));

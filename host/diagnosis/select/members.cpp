@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "diagnosis/families/without.hpp"
 #include "diagnosis/select/standards.hpp"
 
 namespace flexcomp::diagnosis {
@@ -34,10 +35,28 @@ double explained_everywhere(const Observations& observations, const Fit& whole) 
   return least;
 }
 
+/// Weighs one choice of a fit of many, all others being there, to first order.
+Finding judge_linearly(const Inquiry& inquiry, const Fit& whole, const Without& without,
+                       std::size_t index) {
+  const auto at = static_cast<std::ptrdiff_t>(index);
+  Fit others = without(index);
+  Fit last = whole;  // the same fit, its last hypothesis the one that is weighed
+  std::rotate(last.chosen.begin() + at, last.chosen.begin() + at + 1, last.chosen.end());
+  Evidence evidence = weigh_last(inquiry, others, last);
+  return {whole.chosen[index], {}, std::move(evidence), std::move(others), {}};
+}
+
+/// On a small path errors of geometry, which are smooth along it, imitate whatever else is: only
+/// what shows elsewhere stands there.
+bool shows_on_small_path(const Observations& observations, const Evidence& evidence) {
+  return evidence.group.first == simulation::tcp_position && !observations.spans_workspace();
+}
+
 /// The held-out error is asked of each, and no share of the mismatch: many have a small one.
 bool stands_as_member(const Inquiry& inquiry, const Evidence& evidence) {
   return evidence.impossible.empty() && evidence.delta_bic > kStrongEvidence &&
-         evidence.p_value < inquiry.false_discovery && evidence.lowers_held_out;
+         evidence.p_value < inquiry.false_discovery && evidence.confirmation > kConfirmed &&
+         evidence.lowers_held_out && !shows_on_small_path(inquiry.observations, evidence);
 }
 
 }  // namespace
@@ -45,11 +64,12 @@ bool stands_as_member(const Inquiry& inquiry, const Evidence& evidence) {
 std::vector<Finding> members_that_stand(const Inquiry& inquiry, const Fit& whole) {
   std::vector<Finding> standing;
   if (whole.chosen.size() < kLeastMembers ||
-      explained_everywhere(inquiry.observations, whole) < kLeastExplained) {
+      explained_everywhere(inquiry.observations, whole) < kLeastByFamilies) {
     return standing;
   }
+  const Without without(inquiry.observations, whole);
   for (std::size_t i = 0; i < whole.chosen.size(); ++i) {
-    Finding finding = judge(inquiry, whole, i);
+    Finding finding = judge_linearly(inquiry, whole, without, i);
     if (stands_as_member(inquiry, finding.evidence)) {
       finding.covariance = whole.covariance_of(i);
       standing.push_back(std::move(finding));

@@ -6,12 +6,13 @@
 
 namespace flexcomp::diagnosis {
 
-/// The observations, the dictionary of hypotheses to choose from, and how likely a false finding
-/// may be.
+/// The observations, the dictionary of hypotheses to choose from, how likely a false finding may
+/// be, and the fit to begin with: what must be known before anything else can be told.
 struct Inquiry {
   const Observations& observations;
   const Dictionary& dictionary;
   double false_discovery;
+  const Fit& given;
 };
 
 /// Hypotheses whose starts were sought in what a fit leaves; null where none was found.

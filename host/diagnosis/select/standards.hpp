@@ -30,6 +30,9 @@ constexpr double kLeastExplained = 0.9;
 /// The same where no more than `kFarFromNoise` is left: of engines whose laws are their own, more
 /// cannot be had (4675fca).
 constexpr double kExplainedNearNoise = 0.8;
+/// The same for numbers of families together, which stand each by its own evidence: a real machine
+/// always has something left that no one models.
+constexpr double kLeastByFamilies = 0.6;
 /// Numbers of a family that must stand together: fewer causes are found one by one, and physics
 /// outside the catalogue is imitated by one or two (tests/diagnosis/test_retune.cpp).
 constexpr std::size_t kLeastMembers = 3;

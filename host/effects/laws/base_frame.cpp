@@ -36,7 +36,7 @@ Forms laws::base_frame() {
   law.statement = says("the frame of the TCP measurement is not the robot's base frame");
   add_term(
       [](const Values& values, int) {
-        return Term{Term::output, [=](const Scene&, const Simulation&, Prediction* prediction) {
+        return Term{Term::instrument, [=](const Scene&, const Simulation&, Prediction* prediction) {
                       move_frame(values, prediction);
                     }};
       },

@@ -6,15 +6,8 @@
 namespace flexcomp::effects {
 namespace {
 
-/// The two axes of the joint's frame that lie most across its axis, in their order.
-std::array<int, 2> tilted_axes(const Vector3<double>& axis) {
-  int along = 0;
-  axis.cwiseAbs().maxCoeff(&along);
-  return {along == 0 ? 1 : 0, along == 2 ? 1 : 2};
-}
-
 std::array<int, 2> tilts(const model::Robot& robot, int joint) {
-  return tilted_axes(robot.elastic.joints[index_of(joint)].axis);
+  return axes_across(robot.elastic.joints[index_of(joint)].axis);
 }
 
 }  // namespace

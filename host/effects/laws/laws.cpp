@@ -79,4 +79,10 @@ std::vector<int> all_but_the_last(int joints) { return from_to(1, joints - 1); }
 
 std::vector<int> machine_or_joint(int joints) { return from_to(0, joints); }
 
+std::array<int, 2> axes_across(const Vector3<double>& direction) {
+  int along = 0;
+  direction.cwiseAbs().maxCoeff(&along);
+  return {along == 0 ? 1 : 0, along == 2 ? 1 : 2};
+}
+
 }  // namespace flexcomp::effects

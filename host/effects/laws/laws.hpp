@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "effects/law.hpp"
 #include "effects/terms.hpp"
 
@@ -53,6 +55,9 @@ std::vector<int> every_joint(int joints);
 std::vector<int> all_but_the_first(int joints);
 std::vector<int> all_but_the_last(int joints);
 std::vector<int> machine_or_joint(int joints);
+
+/// The two axes of a frame that lie most across a direction in it, in their order: 0 is x.
+std::array<int, 2> axes_across(const Vector3<double>& direction);
 
 /// Index of a joint (from 1 on) in a robot's arrays.
 inline std::size_t index_of(int joint) { return static_cast<std::size_t>(joint - 1); }

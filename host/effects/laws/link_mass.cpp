@@ -70,6 +70,7 @@ Forms laws::link_mass() {
         link.mass += values[0];
       },
       &body);
+  mounted.traits.is_in_family = true;
   mounted.form = "mounted";
   mounted.traits.linear_in = 4;
   mounted.parameters = constant({{"mass", "kg"}, {"mx", "kg·m"}, {"my", "kg·m"}, {"mz", "kg·m"}});

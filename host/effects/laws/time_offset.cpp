@@ -45,6 +45,7 @@ Law of_channel(Channel channel, const char* clock) {
   law.traits.can_be_undone = false;
   // Friction turns with the motion: a late torque is far from proportion to its delay.
   law.traits.linear_in = channel == simulation::joint_torque ? 0 : 1;
+  law.traits.is_in_family = law.traits.linear_in > 0;
   add_term([channel](const Values& values, int) { return late_channel(channel, values[0]); }, &law);
   return law;
 }

@@ -10,11 +10,9 @@ namespace flexcomp::diagnosis {
 /// masses) and zeros of the torques, as far as the observations show them.
 ///
 /// A real machine is a little off in all of them. One alone explains next to nothing then, so that
-/// a search for one cause at a time finds none. The fit is linear in the dictionary's columns, with
-/// Huber's weights, and damped towards the model's numbers so that what the observations cannot
-/// tell apart stays small. Numbers that cannot be told from the model's beside the others go, one
-/// at a time, the least certain first; the remainder counts as correlated over time. What stays is
-/// fitted again by simulation.
+/// a search for one cause at a time finds none. Which numbers stay is decided by how well they
+/// predict what they were not fitted to (elimination.hpp); what stays is fitted again by
+/// simulation, held to the model by the same tolerances, without numbers that cannot be.
 ///
 /// Returns the findings and behind them the numbers that stay.
 Fit fit_families(const Observations& observations, const Fit& findings,

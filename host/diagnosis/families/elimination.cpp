@@ -1,0 +1,326 @@
+#include "diagnosis/families/elimination.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "diagnosis/evidence.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr int kWeightRounds = 3;       // of Huber's weights: they change little after that
+constexpr double kRobustLimit = 3;     // deviations, as in `fit`
+constexpr Eigen::Index kLagPart = 40;  // of a series, over which a score may be correlated
+/// Tolerances of each number, in units by which it alone would change as much as is to be
+/// explained: the scale of the ridge (Hoerl and Kennard 1970), which is none of the numbers' own
+/// units.
+constexpr double kTolerances[] = {0.1, 0.3, 1, 3, 10, 30};
+constexpr double kWidths = 4;  // standard deviations that a plausible range is wide
+/// A smaller set, or a tighter tolerance, is taken where it predicts worse by less than this:
+/// simplicity against error.
+constexpr double kSameError = 1.002;
+constexpr Eigen::Index kParts = 10;  // that are predicted from all others
+
+bool is_member(const Hypothesis& hypothesis) {
+  return hypothesis.traits().is_in_family && hypothesis.linear == hypothesis.parameters.size();
+}
+
+/// Which part of the samples is predicted together with this one: neighbours in time are.
+Eigen::Index part_of(const Observations& observations, const Sample& at) {
+  return stretch_of(at.row, observations.scenes[at.scene].rows()) % kParts;
+}
+
+}  // namespace
+
+Elimination::Elimination(const Observations& observations, const Fit& given,
+                         const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary)
+    : observations_(observations) {
+  for (std::size_t i = 0; i < given.chosen.size(); ++i) {
+    const auto count = static_cast<Eigen::Index>(given.chosen[i].values.size());
+    add({given.chosen[i], {}, true}, given.derivative.middleCols(given.first_parameter(i), count));
+  }
+  for (const Hypothesis& each : hypotheses) {
+    const bool is_found =
+        std::any_of(given.chosen.begin(), given.chosen.end(),
+                    [&](const Chosen& found) { return are_the_same(found.hypothesis, each); });
+    const Entry* entry = dictionary.find(each);
+    if (is_member(each) && !is_found && entry != nullptr) {
+      add({{each, Values(each.parameters.size(), 0.0)}, {}, false},
+          dictionary.columns.middleCols(entry->first, entry->count));
+    }
+  }
+  target_ = given.remainder.head(observations.train);
+  unit_ = target_.norm() * columns_.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
+  weight_ = Eigen::VectorXd::Ones(observations.train);
+}
+
+template <typename Columns>
+void Elimination::add(Member member, const Columns& columns) {
+  const Eigen::Index first = columns_.cols();
+  columns_.conservativeResize(observations_.train, first + columns.cols());
+  columns_.rightCols(columns.cols()) = columns.topRows(observations_.train);
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    const Parameter& parameter = member.chosen.hypothesis.parameters[static_cast<std::size_t>(i)];
+    bounds_.emplace_back(member.is_given ? -kEndless : parameter.lower,
+                         member.is_given ? kEndless : parameter.upper);
+    is_held_.push_back(false);
+    widest_.conservativeResize(first + columns.cols());
+    widest_[first + i] = member.is_given ? kEndless : (parameter.upper - parameter.lower) / kWidths;
+    member.columns.push_back(first + i);
+  }
+  members_.push_back(std::move(member));
+}
+
+std::vector<Eigen::Index> Elimination::columns_of(const std::vector<std::size_t>& members) const {
+  std::vector<Eigen::Index> all;
+  for (const std::size_t member : members) {
+    for (const Eigen::Index column : members_[member].columns) {
+      if (!is_held_[static_cast<std::size_t>(column)]) {
+        all.push_back(column);
+      }
+    }
+  }
+  return all;
+}
+
+/// Standard deviations that hold the numbers; none is wider than its plausible range.
+Eigen::VectorXd Elimination::tolerance() const { return (tolerance_ * unit_).cwiseMin(widest_); }
+
+Eigen::VectorXd Elimination::solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
+                                      const std::vector<Eigen::Index>& columns) const {
+  Eigen::MatrixXd inner = gram(columns, columns);
+  inner.diagonal() += (spread_ / tolerance()(columns).array()).square().matrix();
+  return inner.ldlt().solve(moment(columns));
+}
+
+/// Robust least squares of all members; their normal equations.
+void Elimination::solve(const std::vector<std::size_t>& members) {
+  const std::vector<Eigen::Index> columns = columns_of(members);
+  for (int round = 0; round < kWeightRounds; ++round) {
+    const Eigen::MatrixXd weighted = weight_.cwiseSqrt().asDiagonal() * columns_;
+    gram_ = Eigen::MatrixXd::Zero(columns_.cols(), columns_.cols());
+    gram_.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
+    gram_ = Eigen::MatrixXd(gram_.selfadjointView<Eigen::Lower>());
+    moment_ = columns_.transpose() * weight_.cwiseProduct(target_);
+    value_ = Eigen::VectorXd::Zero(columns_.cols());
+    value_(columns) = solution(gram_, moment_, columns);
+    remainder_ = target_ - columns_ * value_;
+    const auto n = static_cast<double>(remainder_.size());
+    spread_ = std::max(1.0, std::sqrt(weight_.dot(remainder_.cwiseAbs2()) / n));
+    weight_ = (kRobustLimit * spread_ / remainder_.array().abs().max(1e-12)).min(1.0).matrix();
+  }
+}
+
+/// Normal equations of each part of the samples.
+void Elimination::divide() {
+  std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(kParts));
+  for (Eigen::Index i = 0; i < observations_.train; ++i) {
+    const Sample& at = observations_.samples[static_cast<std::size_t>(i)];
+    rows[static_cast<std::size_t>(part_of(observations_, at))].push_back(i);
+  }
+  part_gram_.clear();
+  part_moment_.clear();
+  part_square_.clear();
+  for (const std::vector<Eigen::Index>& own : rows) {
+    if (own.empty()) {
+      continue;
+    }
+    const Eigen::VectorXd root = weight_(own).cwiseSqrt();
+    const Eigen::MatrixXd columns = root.asDiagonal() * columns_(own, Eigen::all);
+    const Eigen::VectorXd target = root.cwiseProduct(target_(own));
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+    part_gram_.emplace_back(gram.selfadjointView<Eigen::Lower>());
+    part_moment_.emplace_back(columns.transpose() * target);
+    part_square_.push_back(target.squaredNorm());
+  }
+}
+
+/// Weighted squares that a set leaves in each part when it is fitted to all others.
+double Elimination::error_elsewhere(const std::vector<std::size_t>& members) const {
+  const std::vector<Eigen::Index> columns = columns_of(members);
+  double error = 0;
+  for (std::size_t part = 0; part < part_gram_.size(); ++part) {
+    const Eigen::VectorXd value =
+        solution(gram_ - part_gram_[part], moment_ - part_moment_[part], columns);
+    const Eigen::VectorXd moment = part_moment_[part](columns);
+    error += part_square_[part] - 2 * value.dot(moment) +
+             value.dot(part_gram_[part](columns, columns) * value);
+  }
+  return error;
+}
+
+/// By how much the variance of a column's value is larger than for independent errors: scores that
+/// are correlated over time (Newey and West 1987, Bartlett's weights).
+double Elimination::widening(Eigen::Index column) const {
+  const Eigen::VectorXd score = columns_.col(column).cwiseProduct(weight_).cwiseProduct(remainder_);
+  double alone = 0;
+  double together = 0;
+  Eigen::Index begin = 0;
+  while (begin < score.size()) {
+    Eigen::Index end = begin + 1;
+    while (end < score.size() && is_same_series(begin, end)) {
+      ++end;
+    }
+    const auto series = score.segment(begin, end - begin);
+    const Eigen::Index lags =
+        observations_.is_static ? 0 : std::max<Eigen::Index>(1, series.size() / kLagPart);
+    alone += series.squaredNorm();
+    together += series.squaredNorm();
+    for (Eigen::Index lag = 1; lag <= lags && lag < series.size(); ++lag) {
+      const double share = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
+      const Eigen::Index pairs = series.size() - lag;
+      together += 2 * share * series.head(pairs).dot(series.tail(pairs));
+    }
+    begin = end;
+  }
+  return alone > 0 ? std::max(1.0, together / alone) : 1.0;
+}
+
+bool Elimination::is_same_series(Eigen::Index a, Eigen::Index b) const {
+  const Sample& one = observations_.samples[static_cast<std::size_t>(a)];
+  const Sample& other = observations_.samples[static_cast<std::size_t>(b)];
+  return one.scene == other.scene && one.channel == other.channel &&
+         one.component == other.component;
+}
+
+/// The member that is known least beside the others, by Wald's statistic over its degrees of
+/// freedom; members_.size() where only given ones are left.
+std::size_t Elimination::weakest_of(const std::vector<std::size_t>& members,
+                                    const Eigen::VectorXd& widenings) const {
+  const std::vector<Eigen::Index> columns = columns_of(members);
+  Eigen::MatrixXd inner = gram_(columns, columns);
+  inner.diagonal() += (spread_ / tolerance()(columns).array()).square().matrix();
+  const Eigen::LDLT<Eigen::MatrixXd> factors(inner);
+  const Eigen::VectorXd moment = moment_(columns);
+  const Eigen::VectorXd value = factors.solve(moment);
+  const Eigen::MatrixXd inverse =
+      factors.solve(Eigen::MatrixXd::Identity(inner.rows(), inner.cols()));
+  std::size_t weakest = members_.size();
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::Index first = 0;
+  for (const std::size_t member : members) {
+    const std::vector<Eigen::Index> own_columns = columns_of({member});
+    const auto count = static_cast<Eigen::Index>(own_columns.size());
+    if (count == 0) {
+      return member;
+    }
+    const double wide = widenings(own_columns).maxCoeff();
+    const Eigen::VectorXd own = value.segment(first, count);
+    const double known = own.dot(inverse.block(first, first, count, count).ldlt().solve(own)) /
+                         (wide * static_cast<double>(count));
+    if (!members_[member].is_given && !(known >= least)) {
+      least = std::isnan(known) ? -std::numeric_limits<double>::infinity() : known;
+      weakest = member;
+    }
+    first += count;
+  }
+  return weakest;
+}
+
+/// The number in use that lies farthest out of its bounds, over its tolerance; -1 where none does.
+Eigen::Index Elimination::farthest_out(const std::vector<std::size_t>& members) const {
+  const std::vector<Eigen::Index> columns = columns_of(members);
+  const Eigen::VectorXd value = solution(gram_, moment_, columns);
+  const Eigen::VectorXd width = tolerance();
+  double most = 0;
+  Eigen::Index farthest = -1;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Eigen::Index column = columns[i];
+    const auto [lower, upper] = bounds_[static_cast<std::size_t>(column)];
+    const double at = value[static_cast<Eigen::Index>(i)];
+    const double out = std::max(lower - at, at - upper) / width[column];
+    if (out > most) {
+      most = out;
+      farthest = column;
+    }
+  }
+  return farthest;
+}
+
+/// Holds numbers at the model's that would leave their bounds, the farthest first: what they seem
+/// to tell is another's. Those that stay within them beside all others after all are let go.
+void Elimination::hold_impossible(const std::vector<std::size_t>& members) {
+  for (Eigen::Index out = farthest_out(members); out >= 0; out = farthest_out(members)) {
+    is_held_[static_cast<std::size_t>(out)] = true;
+  }
+  for (const std::size_t member : members) {
+    for (const Eigen::Index column : members_[member].columns) {
+      const auto at = static_cast<std::size_t>(column);
+      if (is_held_[at]) {
+        is_held_[at] = false;
+        is_held_[at] = farthest_out(members) >= 0;
+      }
+    }
+  }
+}
+
+/// Leaves out members one at a time; the smallest of the sets that predict best.
+Elimination::Set Elimination::best_on_path() {
+  Set best;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> members(members_.size());
+  std::iota(members.begin(), members.end(), std::size_t{0});
+  solve(members);
+  divide();
+  Eigen::VectorXd widenings(columns_.cols());
+  for (Eigen::Index column = 0; column < columns_.cols(); ++column) {
+    widenings[column] = widening(column);
+  }
+  while (true) {
+    hold_impossible(members);
+    const double error = error_elsewhere(members);
+    least = std::min(least, error);
+    if (error < kSameError * least) {
+      best = {members, is_held_, tolerance_, error};
+    }
+    const std::size_t weakest = members.empty() ? members_.size() : weakest_of(members, widenings);
+    if (weakest == members_.size()) {
+      return best;
+    }
+    members.erase(std::find(members.begin(), members.end(), weakest));
+  }
+}
+
+std::vector<Chosen> Elimination::chosen_of(const Set& set) {
+  tolerance_ = set.tolerance;
+  is_held_ = set.is_held;
+  solve(set.members);
+  std::vector<Chosen> all;
+  for (const std::size_t index : set.members) {
+    const Member& member = members_[index];
+    all.push_back(member.chosen);
+    Chosen& chosen = all.back();
+    for (std::size_t i = 0; i < member.columns.size(); ++i) {
+      Parameter& parameter = chosen.hypothesis.parameters[i];
+      double& value = chosen.values[i];
+      value = std::clamp(value + value_[member.columns[i]], parameter.lower, parameter.upper);
+      if (!member.is_given) {
+        parameter.tolerance = tolerance()[member.columns[i]] / spread_;
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<Chosen> Elimination::best() {
+  std::vector<Set> sets;
+  for (const double tolerance : kTolerances) {
+    tolerance_ = tolerance;
+    std::fill(is_held_.begin(), is_held_.end(), false);
+    weight_.setOnes();
+    spread_ = 1;
+    sets.push_back(best_on_path());
+  }
+  const double least = std::min_element(sets.begin(), sets.end(), [](const Set& a, const Set& b) {
+                         return a.error < b.error;
+                       })->error;
+  return chosen_of(*std::find_if(sets.begin(), sets.end(),
+                                 [&](const Set& set) { return set.error < kSameError * least; }));
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "diagnosis/dictionary.hpp"
+#include "diagnosis/fit.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// One hypothesis of a linear fit, and the columns that are its own.
+struct Member {
+  Chosen chosen;
+  std::vector<Eigen::Index> columns;
+  bool is_given = false;  ///< stays whatever its evidence is here
+};
+
+/// Findings and the numbers of a machine's families as columns of the samples to fit to, their
+/// least squares, and which of them predict best.
+///
+/// The fit has Huber's weights, and is held to the model by a tolerance of each number. Numbers are
+/// left out one at a time, the least certain first, until none is left; of all sets on that way the
+/// one is taken that predicts best stretches of time (or of poses) that it was not fitted to. The
+/// tolerances are tried from tight to loose in the same manner: a recording that tells much needs
+/// no belief in the model, one of a few poses does.
+class Elimination {
+ public:
+  Elimination(const Observations& observations, const Fit& given,
+              const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
+
+  /// The members of the best set with their values, each within its bounds and with its tolerance.
+  std::vector<Chosen> best();
+
+ private:
+  /// Members in use, by index, and the error of a set in stretches that it was not fitted to.
+  struct Set {
+    std::vector<std::size_t> members;
+    std::vector<bool> is_held;  ///< by column: at zero, since it would leave its bounds
+    double tolerance = 0;
+    double error = 0;
+  };
+
+  template <typename Columns>
+  void add(Member member, const Columns& columns);
+  std::vector<Eigen::Index> columns_of(const std::vector<std::size_t>& members) const;
+  Eigen::VectorXd tolerance() const;
+  void solve(const std::vector<std::size_t>& members);
+  void divide();
+  Eigen::VectorXd solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
+                           const std::vector<Eigen::Index>& columns) const;
+  double error_elsewhere(const std::vector<std::size_t>& members) const;
+  double widening(Eigen::Index column) const;
+  std::size_t weakest_of(const std::vector<std::size_t>& members,
+                         const Eigen::VectorXd& widenings) const;
+  Eigen::Index farthest_out(const std::vector<std::size_t>& members) const;
+  void hold_impossible(const std::vector<std::size_t>& members);
+  Set best_on_path();
+  bool is_same_series(Eigen::Index a, Eigen::Index b) const;
+  std::vector<Chosen> chosen_of(const Set& set);
+
+  const Observations& observations_;
+  std::vector<Member> members_;
+  Eigen::MatrixXd columns_;  ///< samples to fit to × all columns, over the noise
+  Eigen::VectorXd unit_;     ///< of each number: it alone would change as much as is to explain
+  std::vector<std::pair<double, double>> bounds_;
+  Eigen::VectorXd widest_;  ///< standard deviation of each number over its plausible range
+  std::vector<bool> is_held_;
+  Eigen::VectorXd target_;  ///< what the given findings leave, over the noise
+  Eigen::VectorXd weight_, remainder_, value_;
+  double spread_ = 1;     ///< of the remainder, over the noise
+  double tolerance_ = 0;  ///< times each number's unit: how far the model may be off
+  /// Normal equations of all samples, and of those of each part.
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd moment_;
+  std::vector<Eigen::MatrixXd> part_gram_;
+  std::vector<Eigen::VectorXd> part_moment_;
+  std::vector<double> part_square_;
+};
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,195 @@
+#include "diagnosis/families/families.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/evidence.hpp"
+#include "diagnosis/families/elimination.hpp"
+#include "diagnosis/plausible.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kCloser = 0.3;  // times the tolerance of a body that cannot be
+constexpr int kHoldingRounds = 4;
+constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
+constexpr int kSimulatedSteps = 8;        // of the fit by simulation, from close by
+constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the joint before its own
+constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
+constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
+                              0.003, 0.006, 0.012,  0.02,   0.03};
+constexpr int kExtraSteps = 0;        // before the numbers are beside them
+constexpr double kLeastShare = 0.01;  // of the sum of squares, that a coupling is worth trying for
+
+/// Physics that is far from linear, so that it must be there before the numbers are fitted.
+struct Extra {
+  Chosen chosen;
+  double gain = 0;  ///< fall of the sum of squares, to first order
+};
+
+/// By how much a machine changes what a fit predicts, samples to fit to.
+Eigen::VectorXd change_by(const Observations& observations, const Fit& fit,
+                          const Machine& machine) {
+  return fit.remainder.head(observations.train) -
+         (observations.residual + observations.stacked(observations.predictions) -
+          observations.stacked(predict(machine, observations.scenes)))
+             .head(observations.train);
+}
+
+/// Drives that turn with the joint before their own, by one turn or against it, their friction and
+/// rotors as they are.
+void propose_couplings(const Observations& observations, const Fit& fit, std::vector<Extra>* all) {
+  const effects::LawPointer law = effects::find_law("transmission", "");
+  const auto left = fit.remainder.head(observations.train);
+  for (const int joint : law->joints(observations.machine.robot.joints())) {
+    if (fit.machine.robot.transmission(joint - 1, joint - 2) != 0) {
+      continue;
+    }
+    Hypothesis hypothesis(law, joint, observations.machine.robot);
+    hypothesis.set_bounds({kCouplings});
+    for (const double ratio : {1.0, -1.0}) {
+      Machine coupled = fit.machine;
+      hypothesis.apply({ratio}, &coupled);
+      const Eigen::VectorXd change = change_by(observations, fit, coupled);
+      const double product = change.dot(left);
+      const double gain = product > 0 ? product * product / change.squaredNorm() : 0;
+      all->push_back({{hypothesis, {ratio}}, gain});
+    }
+  }
+}
+
+/// Torques whose clock is late or early.
+void propose_clocks(const Observations& observations, const Fit& fit,
+                    const std::vector<Hypothesis>& hypotheses, std::vector<Extra>* all) {
+  const auto left = fit.remainder.head(observations.train);
+  for (const Hypothesis& hypothesis : hypotheses) {
+    const bool is_known =
+        std::any_of(fit.chosen.begin(), fit.chosen.end(),
+                    [&](const Chosen& each) { return are_the_same(each.hypothesis, hypothesis); });
+    if (!hypothesis.traits().is_clock || hypothesis.linear > 0 ||
+        hypothesis.traits().alters_model || is_known) {
+      continue;
+    }
+    Extra best{{hypothesis, {}}, 0};
+    for (const double delay : kDelays) {
+      Machine late = fit.machine;
+      hypothesis.apply({delay}, &late);
+      const double gain =
+          left.squaredNorm() - (left - change_by(observations, fit, late)).squaredNorm();
+      if (gain > best.gain) {
+        best = {{hypothesis, {delay}}, gain};
+      }
+    }
+    if (best.gain > 0) {
+      all->push_back(best);
+    }
+  }
+}
+
+std::vector<Extra> propose_extras(const Observations& observations, const Fit& fit,
+                                  const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Extra> all;
+  propose_couplings(observations, fit, &all);
+  propose_clocks(observations, fit, hypotheses, &all);
+  std::sort(all.begin(), all.end(), [](const Extra& a, const Extra& b) { return a.gain > b.gain; });
+  return all;
+}
+
+/// Is an extra, as fitted, one that can be, and no mere touch of it?
+bool is_real(const Observations& observations, const Fit& fit, std::size_t index) {
+  const Chosen& extra = fit.chosen[index];
+  return why_impossible(observations, fit, index).empty() &&
+         (extra.hypothesis.traits().is_clock || std::abs(extra.values.front()) > kLeastCoupling);
+}
+
+/// The dictionary with the numbers of a coupled drive as they act through its coupling.
+Dictionary with_coupled_drive(const Observations& observations, const Dictionary& dictionary,
+                              const Chosen& coupling) {
+  Dictionary coupled = dictionary;
+  Machine machine = observations.machine;
+  coupling.hypothesis.apply(coupling.values, &machine);
+  const Eigen::VectorXd base = observations.stacked(predict(machine, observations.scenes));
+  for (const Entry& entry : coupled.entries) {
+    const Hypothesis& hypothesis = coupled.hypotheses[entry.hypothesis];
+    if (hypothesis.joint != coupling.hypothesis.joint || !hypothesis.traits().is_in_family) {
+      continue;
+    }
+    for (Eigen::Index i = 0; i < entry.count; ++i) {
+      const auto parameter = static_cast<std::size_t>(i);
+      Values values(hypothesis.parameters.size(), 0.0);
+      values[parameter] = hypothesis.parameters[parameter].step;
+      Machine changed = machine;
+      hypothesis.apply(values, &changed);
+      coupled.columns.col(entry.first + i) =
+          (observations.stacked(predict(changed, observations.scenes)) - base) / values[parameter];
+    }
+  }
+  return coupled;
+}
+
+/// Findings, and behind them the numbers: a body that cannot be is held closer to the model's while
+/// `holds_bodies`, any other number that cannot be is left out. True if there was none.
+bool make_possible(const Observations& observations, const Fit& fit, std::size_t findings,
+                   bool holds_bodies, std::vector<Chosen>* possible) {
+  possible->clear();
+  bool all_can_be = true;
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    const bool can_be = i < findings || why_impossible(observations, fit, i).empty();
+    all_can_be = all_can_be && can_be;
+    if (!can_be && !(holds_bodies && fit.chosen[i].hypothesis.traits().is_body)) {
+      continue;
+    }
+    possible->push_back(fit.chosen[i]);
+    for (Parameter& parameter : possible->back().hypothesis.parameters) {
+      parameter.tolerance *= can_be ? 1 : kCloser;
+    }
+  }
+  return all_can_be;
+}
+
+/// Findings, and behind them the numbers of the families that stay beside them.
+Fit fit_beside(const Observations& observations, const Fit& findings,
+               const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+  Elimination families(observations, findings, hypotheses, dictionary);
+  Fit whole = fit(observations, families.best(), kSimulatedSteps, &dictionary);
+  std::vector<Chosen> possible;
+  for (int round = 0;
+       round < kPossibleRounds && !make_possible(observations, whole, findings.chosen.size(),
+                                                 round < kHoldingRounds, &possible);
+       ++round) {
+    whole = fit(observations, possible, kSimulatedSteps, &dictionary);
+  }
+  return whole;
+}
+
+}  // namespace
+
+Fit fit_families(const Observations& observations, const Fit& findings,
+                 const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+  Fit best = fit_beside(observations, findings, hypotheses, dictionary);
+  if (!observations.has(simulation::joint_torque)) {
+    return best;
+  }
+  std::vector<Chosen> given = findings.chosen;
+  Dictionary current = dictionary;
+  while (true) {
+    const std::vector<Extra> extras = propose_extras(observations, best, hypotheses);
+    if (extras.empty() || extras.front().gain < kLeastShare * best.train_sum) {
+      return best;
+    }
+    given.push_back(extras.front().chosen);
+    Dictionary next_dictionary = given.back().hypothesis.traits().is_clock
+                                     ? current
+                                     : with_coupled_drive(observations, current, given.back());
+    Fit next = fit_beside(observations, fit(observations, given, kExtraSteps, &next_dictionary),
+                          hypotheses, next_dictionary);
+    if (!(bic_gain(observations, best, next) > kStrongEvidence) ||
+        !is_real(observations, next, given.size() - 1)) {
+      return best;
+    }
+    best = std::move(next);
+    current = std::move(next_dictionary);
+  }
+}
+
+}  // namespace flexcomp::diagnosis

@@ -1,0 +1,68 @@
+#include <Eigen/Eigenvalues>
+
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+namespace {
+
+constexpr double kLeastShare = 1e-6;  // of the largest second moment: below it a body is flat
+
+/// Second moments of a body's density about its centre of mass: positive where it can be (Wensing,
+/// Kim and Slotine 2018).
+double least_second_moment(const Matrix3<double>& inertia) {
+  const Matrix3<double> moments = 0.5 * inertia.trace() * Matrix3<double>::Identity() - inertia;
+  const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(moments, Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()[0] + kLeastShare * axes.eigenvalues()[2];
+}
+
+std::string why_no_density(const model::Robot& model, const model::Robot& altered,
+                           const MachineSize&, int joint) {
+  const auto least = [&](const model::Robot& robot) {
+    return least_second_moment(robot.link_inertia[index_of(joint)]);
+  };
+  return least(altered) >= std::min(least(model), 0.0)
+             ? ""
+             : "a link whose density is negative somewhere cannot be";
+}
+
+Range within_size(const Subject& of) {
+  const double length = std::max(0.3 * of.size.reach, of.joint().center_of_mass.norm());
+  return within(std::max(of.joint().mass, 0.1) * length * length);
+}
+
+}  // namespace
+
+// Inertia of the link that a joint moves, about the joint's origin, in the link's frame (rigid-body
+// dynamics).
+Forms laws::link_inertia() {
+  Law law;
+  law.joints = every_joint;
+  law.traits.linear_in = 6;
+  law.traits.is_in_family = true;
+  law.traits.is_family_only = true;
+  law.traits.is_body = true;
+  law.traits.tells_inertia = true;
+  law.no_body = why_no_density;
+  law.parameters = constant({{"ixx", "kg·m^2"},
+                             {"iyy", "kg·m^2"},
+                             {"izz", "kg·m^2"},
+                             {"ixy", "kg·m^2"},
+                             {"ixz", "kg·m^2"},
+                             {"iyz", "kg·m^2"}});
+  law.statement = says("the inertia of the link that joint {} moves is another");
+  alter_robot(
+      [](const Values& values, int joint, model::Robot* robot) {
+        Matrix3<double> change;
+        change << values[0], values[3], values[4],  //
+            values[3], values[1], values[5],        //
+            values[4], values[5], values[2];
+        robot->link_inertia[index_of(joint)] += change;
+      },
+      &law);
+  return {{law},
+          {},
+          {{"", " ixx iyy izz ixy ixz iyz ", within_size,
+            "the link's own mass at a third of the arm's reach: no link is spread wider"}}};
+}
+
+}  // namespace flexcomp::effects
