@@ -1,5 +1,7 @@
 #include "check/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -24,6 +26,11 @@ bool is_something_wrong(const Checks& checks) {
 void add(Checks more, Checks* checks) {
   checks->insert(checks->end(), std::make_move_iterator(more.begin()),
                  std::make_move_iterator(more.end()));
+}
+
+std::string sentence(const Check& check) {
+  return fmt::format("{} ({}): {}. Fix: {}.", word(check.severity), check.name, check.what,
+                     check.fix);
 }
 
 Checks worst_first(Checks checks) {

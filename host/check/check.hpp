@@ -29,6 +29,9 @@ bool is_something_wrong(const Checks& checks);
 /// Appends.
 void add(Checks more, Checks* checks);
 
+/// "error (units.position): what. Fix: fix." on a line.
+std::string sentence(const Check& check);
+
 /// The errors first, then the warnings, then the notes; in their order within each.
 Checks worst_first(Checks checks);
 

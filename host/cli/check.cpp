@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "check/config_checks.hpp"
+#include "check/json.hpp"
 #include "check/model_checks.hpp"
 #include "check/path_checks.hpp"
 #include "check/recording_checks.hpp"
@@ -100,21 +100,9 @@ check::Checks check_all(const CheckOptions& options) {
   return check::worst_first(std::move(checks));
 }
 
-void print_json(const check::Checks& checks) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const check::Check& each : checks) {
-    list.push_back({{"severity", check::word(each.severity)},
-                    {"about", each.about},
-                    {"name", each.name},
-                    {"what", each.what},
-                    {"fix", each.fix}});
-  }
-  fmt::print("{}\n", nlohmann::ordered_json{{"checks", list}}.dump(2));
-}
-
 void print_for_a_person(const check::Checks& checks) {
   for (const check::Check& each : checks) {
-    fmt::print("{} ({}): {}.\n  {}.\n", check::word(each.severity), each.name, each.what, each.fix);
+    fmt::print("{}\n", check::sentence(each));
   }
   if (checks.empty()) {
     fmt::print("nothing is wrong\n");
@@ -128,7 +116,11 @@ int run(const CheckOptions& options) {
         "nothing to check: expected --model, --recording, --path, --table or --config");
   }
   const check::Checks checks = check_all(options);
-  options.json ? print_json(checks) : print_for_a_person(checks);
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"checks", check::as_json(checks)}}.dump(2));
+  } else {
+    print_for_a_person(checks);
+  }
   return check::is_something_wrong(checks) ? kDoesNotHold : kDone;
 }
 

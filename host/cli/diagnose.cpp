@@ -1,9 +1,14 @@
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <ostream>
 
+#include "build_info.hpp"
+#include "check/model_checks.hpp"
+#include "check/recording_checks.hpp"
 #include "cli/command.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
@@ -60,14 +65,35 @@ void refuse_unlike(const recording::Recording& first, const recording::Recording
   }
 }
 
-std::vector<simulation::Scene> read_scenes(const DiagnoseOptions& options, int joints,
-                                           std::vector<diagnosis::Quality>* qualities) {
+std::vector<recording::Recording> read_recordings(const DiagnoseOptions& options, int joints) {
   std::vector<recording::Recording> recordings;
   for (const auto* files : {&options.recordings, &options.holdouts}) {
     for (const std::string& file : *files) {
       recordings.push_back(recording::read_recording(file, joints));
     }
   }
+  return recordings;
+}
+
+/// Units, signs, axes and frames come before any physics: what is wrong there is said first.
+check::Checks check_input(const model::Robot& robot,
+                          const std::vector<recording::Recording>& recordings) {
+  check::Checks checks = check::check_model(robot);
+  for (const recording::Recording& each : recordings) {
+    check::add(check::check_recording(&robot, each), &checks);
+  }
+  checks = check::worst_first(std::move(checks));
+  for (const check::Check& each : checks) {
+    if (each.severity != check::Severity::note) {
+      fmt::print("{}\n", check::sentence(each));
+    }
+  }
+  std::fflush(stdout);
+  return checks;
+}
+
+std::vector<simulation::Scene> scenes_of(const std::vector<recording::Recording>& recordings,
+                                         std::vector<diagnosis::Quality>* qualities) {
   std::vector<simulation::Scene> scenes;
   for (const recording::Recording& each : recordings) {
     const Eigen::Index most =
@@ -79,6 +105,28 @@ std::vector<simulation::Scene> read_scenes(const DiagnoseOptions& options, int j
     refuse_unlike(recordings.front(), each, scenes.front(), scenes.back());
   }
   return scenes;
+}
+
+/// Returns the command that was given, for the page.
+std::string command_line(const DiagnoseOptions& options) {
+  std::string line = fmt::format("flexcomp diagnose --model {}", options.model);
+  for (const std::string& file : options.recordings) {
+    line += " --recording " + file;
+  }
+  for (const std::string& file : options.holdouts) {
+    line += " --holdout " + file;
+  }
+  return line +
+         fmt::format(" --out {} --false-discovery {:g}", options.out, options.false_discovery);
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32] = "";
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local);
+  return text;
 }
 
 /// Prints what a person reads first, on the terminal.
@@ -111,8 +159,13 @@ int run(const DiagnoseOptions& options) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
   }
   const model::Robot robot = model::load_robot(options.model);
-  std::vector<diagnosis::Quality> qualities;
-  std::vector<simulation::Scene> scenes = read_scenes(options, robot.joints(), &qualities);
+  const std::vector<recording::Recording> recordings = read_recordings(options, robot.joints());
+  diagnosis::Origin origin;
+  std::vector<simulation::Scene> scenes = scenes_of(recordings, &origin.qualities);
+  origin.checks = check_input(robot, recordings);
+  origin.command = command_line(options);
+  origin.version = FLEXCOMP_BUILD_INFO;
+  origin.date = today();
   simulation::Machine machine = effects::machine_of(robot, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes),
                                        options.holdouts.size());
@@ -125,8 +178,8 @@ int run(const DiagnoseOptions& options) {
   settings.choosing = [&](std::size_t done, std::size_t) { choosing.show(done); };
   const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
   // All of it is made before any of it is written, and written whole or not at all.
-  const std::string json = diagnosis::to_json(observations, result).dump(2) + "\n";
-  const std::string html = diagnosis::to_html(observations, result, qualities);
+  const std::string json = diagnosis::to_json(observations, result, origin.checks).dump(2) + "\n";
+  const std::string html = diagnosis::to_html(observations, result, origin);
   const std::filesystem::path folder(options.out);
   const std::filesystem::path updated = folder / "updated_model.yaml";
   const std::string yaml =

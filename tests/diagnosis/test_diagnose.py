@@ -459,6 +459,28 @@ class Diagnose(unittest.TestCase):
             model.write_text(ROBOT.read_text() + f"effects: [{effect}]\n")
             self.assert_refused(good, saying, model=model)
 
+    def test_what_is_wrong_with_the_input_is_said_first(self):
+        recording = measured(self.folder, ROBOT, seed=9, poses=30)
+        replace_columns(recording, "xyz", lambda *position: [1000 * value for value in position])
+        done = run("diagnose", "--model", ROBOT, "--recording", recording, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.startswith("error (units.position): "), done.stdout)
+        checks = json.loads((self.out / "diagnosis.json").read_text())["checks"]
+        self.assertEqual([(check["severity"], check["about"], check["name"]) for check in checks],
+                         [("error", "recording", "units.position")])
+        page = (self.out / "report.html").read_text()
+        self.assertLess(page.index("units.position"), page.index("Verdict"))
+
+    def test_the_page_tells_each_axis_by_its_own_noise_and_how_it_came_to_be(self):
+        found = self.diagnosis(measured(self.folder, ROBOT, seed=7, poses=30))
+        self.assertEqual(found["checks"], [])
+        page = (self.out / "report.html").read_text()
+        self.assertIn(f"flexcomp diagnose --model {ROBOT} --recording", page)
+        self.assertIn("flexcomp " + run("--version").stdout.split()[1], page)
+        self.assertIn("before, times the noise", page)
+        self.assertIn("@media print", page)
+        self.assertIsNone(re.search(r"[a-z]+_[a-z]+(, joint| of joint)", page))  # effects in words
+
     def test_the_report_says_it_in_one_page_without_other_files(self):
         true = self.changed_model("joint_a3: {compliance: 0.42e-6}", "joint_a3: {compliance: 0.6e-6}")
         self.diagnosis(measured(self.folder, true, seed=7))

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "check/json.hpp"
 #include "diagnosis/output/sentences.hpp"
 #include "diagnosis/parameters.hpp"
 
@@ -132,7 +133,8 @@ Json retuned_json(const Observations& observations, const Diagnosis& diagnosis) 
 
 }  // namespace
 
-Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
+Json to_json(const Observations& observations, const Diagnosis& diagnosis,
+             const check::Checks& checks) {
   Json json = {{"schema", "flexcomp/diagnosis/1"}, {"verdict", diagnosis.verdict}};
   json["channels"] = Json::array();
   for (const Channel channel : observations.channels()) {
@@ -171,6 +173,7 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis) {
   }
   json["cancellation"] = diagnosis.cancellation;
   json["outliers"] = observations.outliers;
+  json["checks"] = check::as_json(checks);
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/cues.hpp"
+#include "diagnosis/output/words.hpp"
 #include "report/gnuplot.hpp"
 
 namespace flexcomp::diagnosis {
@@ -45,14 +46,19 @@ std::string block(const std::string& name, const Eigen::VectorXd& x, const Eigen
   return text + "EOD\n";
 }
 
+double largest_of(const Eigen::VectorXd& values) {
+  return values.array().isFinite().select(values.array(), 0.0).maxCoeff();
+}
+
 }  // namespace
 
 std::string time_picture(const Observations& observations, const Eigen::VectorXd& after,
                          Channel channel) {
   const Scene& scene = observations.scenes.front();
-  const double scale = shown(channel, 1);
-  const Eigen::VectorXd first = scale * length_by_row(observations, observations.residual, channel);
-  const Eigen::VectorXd second = scale * length_by_row(observations, after, channel);
+  const Eigen::VectorXd lengths = length_by_row(observations, observations.residual, channel);
+  const Scale scale = scale_of(channel, largest_of(lengths));
+  const Eigen::VectorXd first = scale.factor * lengths;
+  const Eigen::VectorXd second = scale.factor * length_by_row(observations, after, channel);
   const std::string style = scene.is_static ? "points pt 7 ps 0.7" : "points pt 7 ps 0.15";
   std::string script = block("before", scene.time, first) + block("after", scene.time, second);
   script += fmt::format(
@@ -62,8 +68,8 @@ std::string time_picture(const Observations& observations, const Eigen::VectorXd
       "notitle, NaN with points pt 7 lc rgb '{}' title 'before', "
       "NaN with points pt 7 lc rgb '{}' title 'after'\n",
       scene.time[0], scene.time[scene.rows() - 1],
-      scene.is_static ? "row of the load test" : "time, s", shown_unit(channel), style, kBefore,
-      style, kAfter, kBefore, kAfter);
+      scene.is_static ? "row of the load test" : "time, s", scale.unit, style, kBefore, style,
+      kAfter, kBefore, kAfter);
   return report::plot_svg(script, 900, 330);
 }
 
@@ -93,8 +99,12 @@ std::string path_picture(const Observations& observations, const Eigen::VectorXd
   for (Eigen::Index k = 0; k < classes; ++k) {
     at[k] = static_cast<double>(k + 1);
     for (Eigen::VectorXd& values : rms) {
-      values[k] = 1e6 * std::sqrt(values[k] / std::max(count[k], 1.0));
+      values[k] = std::sqrt(values[k] / std::max(count[k], 1.0));
     }
+  }
+  const Scale scale = scale_of(simulation::tcp_position, rms[0].maxCoeff());
+  for (Eigen::VectorXd& values : rms) {
+    values *= scale.factor;
   }
   return report::plot_svg(
       block("before", at, rms[0]) + block("after", at, rms[1]) +
@@ -102,10 +112,10 @@ std::string path_picture(const Observations& observations, const Eigen::VectorXd
               "set grid lc rgb '#dddddd'\nset key outside above horizontal\nset yrange [0:*]\n"
               "set xrange [0.5:{}]\nset xtics 1\n"
               "set xlabel 'twelfth of the way around the middle of the path'\n"
-              "set ylabel 'rms a component, µm'\n"
+              "set ylabel 'rms a component, {}'\n"
               "plot $before using 1:2 with linespoints pt 7 lw 2 lc rgb '{}' title 'before', "
               "$after using 1:2 with linespoints pt 7 lw 2 lc rgb '{}' title 'after'\n",
-              static_cast<double>(classes) + 0.5, kBefore, kAfter),
+              static_cast<double>(classes) + 0.5, scale.unit, kBefore, kAfter),
       900, 300);
 }
 
@@ -117,9 +127,8 @@ std::string ranking_picture(const std::vector<Ranked>& ranking) {
   }
   std::string script = "$bars << EOD\n";
   for (std::size_t i = 0; i < count; ++i) {
-    std::string name = place_name(ranking[i].effect, ranking[i].joint);
-    std::replace(name.begin(), name.end(), '_', ' ');  // gnuplot would set subscripts
-    script += fmt::format("{} {:.6g} \"{}\"\n", count - i, ranking[i].gain, name);
+    script += fmt::format("{} {:.6g} \"{}\"\n", count - i, ranking[i].gain,
+                          place_in_words(ranking[i].effect, ranking[i].joint));
   }
   script += fmt::format(
       "EOD\nset style fill solid\nset boxwidth 0.7\nset grid x lc rgb '#dddddd'\nunset key\n"

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "diagnosis/output/courses.hpp"
+#include "diagnosis/output/errors.hpp"
 #include "diagnosis/output/pictures.hpp"
 #include "diagnosis/output/sentences.hpp"
+#include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
 #include "report/html.hpp"
 
@@ -16,10 +20,15 @@ using report::escaped;
 
 constexpr const char* kStyle =
     "body{font-family:sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;margin:.8em 0}td,th{padding:.3em "
-    ".8em;text-align:left;vertical-align:top;"
-    "border-bottom:1px solid #ddd}svg{max-width:100%;height:auto}.lead{font-size:1.2em}"
-    "h2{margin-top:1.6em}";
+    "table{border-collapse:collapse;margin:.8em 0}td,th{padding:.3em .8em;text-align:left;"
+    "vertical-align:top;border-bottom:1px solid #ddd}"
+    ".numbers td:not(:first-child),.numbers th:not(:first-child){text-align:right}"
+    "svg{max-width:100%;height:auto}.lead{font-size:1.2em}h2{margin-top:1.6em}"
+    ".error,.warning{border-left:4px solid #c0392b;padding:.3em .8em;margin:.6em 0}"
+    ".warning{border-color:#d68910}.origin{color:#666;font-size:.85em}"
+    "code{overflow-wrap:anywhere}"
+    "@media print{body{max-width:none;margin:0;font-size:10pt}h2,h3{break-after:avoid}"
+    "svg,tr,.error,.warning{break-inside:avoid}a{color:inherit}@page{margin:15mm}}";
 
 /// The 95 % interval of an estimate to either side, in one digit; tens and thousands are written
 /// out.
@@ -28,25 +37,17 @@ std::string margin(double deviation) {
   return side < 9.5 || side >= 1e6 ? fmt::format("{:.1g}", side) : fmt::format("{:.0f}", side);
 }
 
-std::string chance(double p_value) {
-  return p_value > 1e-300 ? fmt::format("{:.1g}", p_value) : "&lt; 1e-300";
+/// A unit with a prefix in which a size is easy to read, and how many of it are in one.
+Scale easy_unit(double size, const std::string& unit) {
+  const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";
+  if (!has_prefixes || size == 0 || size >= 0.1) {
+    return {1, unit};
+  }
+  return size < 1e-4 ? Scale{1e6, "µ" + unit} : Scale{1e3, "m" + unit};
 }
 
-std::string channel_rows(const Observations& observations, const Eigen::VectorXd& after) {
-  std::string rows;
-  for (const Channel channel : observations.channels()) {
-    const auto rms = [&](const Eigen::VectorXd& values, bool held_out) {
-      return three_digits(shown(channel, observations.rms(values, channel, held_out)));
-    };
-    rows += fmt::format(
-        "<tr><td>{}, {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        simulation::kChannels[channel], shown_unit(channel),
-        rms(Eigen::VectorXd::Ones(observations.size()), false), rms(observations.residual, false),
-        rms(after, false), rms(observations.residual, true), rms(after, true));
-  }
-  return "<table><tr><th>channel</th><th>noise</th><th>before, fitted</th><th>after, fitted</th>"
-         "<th>before, held out</th><th>after, held out</th></tr>\n" +
-         rows + "</table>\n";
+std::string chance(double p_value) {
+  return p_value > 1e-300 ? fmt::format("{:.1g}", p_value) : "&lt; 1e-300";
 }
 
 std::string parameters(const Observations& observations, const Chosen& chosen,
@@ -54,10 +55,13 @@ std::string parameters(const Observations& observations, const Chosen& chosen,
   std::string values;
   for (const Estimate& each : estimates(observations, chosen, covariance)) {
     const bool is_told = std::isfinite(each.deviation);
-    const std::string unit = each.unit == "1" ? "" : " " + each.unit;
-    values += fmt::format("{} = {:.4g}{}{}{}<br>", each.name, each.value,
-                          is_told ? " ± " + margin(each.deviation) : "", unit,
-                          is_told ? "" : ", ± not known");
+    const auto [factor, unit] = easy_unit(
+        is_told ? std::max(std::abs(each.value), 1.96 * each.deviation) : std::abs(each.value),
+        each.unit);
+    // A number that rests on zero from below is zero.
+    values += fmt::format("{} = {:.4g}{}{}{}<br>", each.name, factor * each.value + 0.0,
+                          is_told ? " ± " + margin(factor * each.deviation) : "",
+                          unit == "1" ? "" : " " + unit, is_told ? "" : ", ± not known");
   }
   return values;
 }
@@ -69,11 +73,11 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
     const Hypothesis& hypothesis = finding.chosen.hypothesis;
     std::string others;
     for (const Alternative& other : finding.alternatives) {
-      others += fmt::format("{}: {:.0f} worse<br>", place_name(other.effect, other.joint),
+      others += fmt::format("{}: {:.0f} worse<br>", place_in_words(other.effect, other.joint),
                             other.delta_bic);
     }
     rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
-                        place_name(hypothesis.effect(), hypothesis.joint),
+                        place_in_words(hypothesis.effect(), hypothesis.joint),
                         parameters(observations, finding.chosen, finding.covariance),
                         finding.evidence.delta_bic, chance(finding.evidence.p_value),
                         others.empty() ? "none comes near" : others);
@@ -82,7 +86,7 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
     return "<p>No effect is proved.</p>\n";
   }
   return "<table><tr><th>finding</th><th>parameters, ± 95 %</th><th>evidence, BIC</th>"
-         "<th>by chance</th><th>next best</th></tr>\n" +
+         "<th>by chance</th><th>next best, BIC</th></tr>\n" +
          rows + "</table>\n";
 }
 
@@ -95,16 +99,18 @@ std::string joined(const List& list, const Text& text) {
   return all.empty() ? "none stands out" : all;
 }
 
-std::string location_table(const Location& location) {
+std::string location_table(const Observations& observations, const Location& location) {
   const auto number = [](auto value) { return fmt::format("{:.4g}", static_cast<double>(value)); };
+  const std::string unit = observations.is_static ? "" : " s";
   std::string rows = fmt::format(
       "<tr><th>joints</th><td>{}</td></tr>\n<tr><th>axes</th><td>{}</td></tr>\n"
-      "<tr><th>time</th><td>{}</td></tr>\n<tr><th>frequency</th><td>{}</td></tr>\n",
+      "<tr><th>{}</th><td>{}</td></tr>\n<tr><th>frequency</th><td>{}</td></tr>\n",
       joined(location.joints, number),
       joined(location.axes, [](const std::string& axis) { return axis; }),
+      observations.is_static ? "rows" : "time",
       joined(location.time,
              [&](const auto& stretch) {
-               return three_digits(stretch.first) + " to " + three_digits(stretch.second) + " s";
+               return three_digits(stretch.first) + " to " + three_digits(stretch.second) + unit;
              }),
       joined(location.frequency_hz, [&](double hertz) { return three_digits(hertz) + " Hz"; }));
   for (const Correlate& each : location.correlates_with) {
@@ -125,9 +131,10 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
   for (const Quality& each : qualities) {
     const simulation::Preparation& done = each.preparation;
     html += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>one in {}</td><td>{:.4g}</td>"
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td>"
         "<td>{:.4g}</td></tr>\n",
-        escaped(each.file), done.rows, done.incomplete, done.kept_each, done.median_step,
+        escaped(each.file), done.rows, done.incomplete,
+        done.kept_each > 1 ? fmt::format("one in {}", done.kept_each) : "all", done.median_step,
         done.largest_gap);
   }
   html += fmt::format(
@@ -135,8 +142,8 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
       "left out.</p>\n",
       observations.outliers);
   for (const ClockCheck& clock : diagnosis.clocks) {
-    html += fmt::format("<p>Clock of {}: late by {:.2f} ± {:.2f} ms (95 %).</p>\n", clock.group,
-                        1e3 * clock.delay, 1.96e3 * clock.deviation);
+    html += fmt::format("<p>Clock of {}: late by {:.2f} ± {:.2f} ms (95 %).</p>\n",
+                        in_words(clock.group), 1e3 * clock.delay, 1.96e3 * clock.deviation);
   }
   html +=
       "<table><tr><th>joint</th><th>moves over, rad</th><th>up to, rad/s</th>"
@@ -152,7 +159,8 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
 std::string groups(const Diagnosis& diagnosis) {
   std::string html;
   for (const std::vector<Place>& group : diagnosis.indistinguishable) {
-    html += "<p>" + joined(group, [](const Place& p) { return place_name(p.effect, p.joint); }) +
+    html += "<p>" +
+            joined(group, [](const Place& p) { return place_in_words(p.effect, p.joint); }) +
             "</p>\n";
   }
   return html.empty() ? "<p>Nothing that matters.</p>\n" : html;
@@ -179,57 +187,105 @@ std::string retuned(const Observations& observations, const Diagnosis& diagnosis
   if (fit.chosen.empty()) {
     return "";
   }
+  const bool held_out = observations.train < observations.size();
+  const Channel channel = main_channel(observations, diagnosis.choice.fit, fit);
+  const double with = observations.rms(fit.remainder, channel, held_out);
+  const Scale scale = scale_of(channel, observations.rms(observations.residual, channel, held_out));
   std::string rows;
   for (std::size_t i = diagnosis.choice.findings.size(); i < fit.chosen.size(); ++i) {
     const Hypothesis& hypothesis = fit.chosen[i].hypothesis;
-    rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n",
-                        place_name(hypothesis.effect(), hypothesis.joint),
-                        parameters(observations, fit.chosen[i], fit.covariance_of(i)));
+    const Values& values = fit.chosen[i].values;
+    if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0; })) {
+      continue;  // the model's own number stays
+    }
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        place_in_words(hypothesis.effect(), hypothesis.joint),
+        parameters(observations, fit.chosen[i], fit.covariance_of(i)),
+        three_digits(scale.factor * (rms_without(observations, fit, i, channel) - with)));
   }
-  return "<p>" + escaped(statement_of_retuned(observations, diagnosis)) +
-         "</p>\n<table><tr><th>number of the model</th><th>± 95 %</th></tr>\n" + rows +
-         "</table>\n" + channel_rows(observations, fit.remainder);
+  return fmt::format(
+      "<h2>Stand-ins</h2>\n<p>{}</p>\n<table><tr><th>number of the model</th><th>± 95 %</th>"
+      "<th>without it the error of {} grows by, {}</th></tr>\n{}</table>\n",
+      escaped(statement_of_retuned(observations, diagnosis)), in_words(channel), scale.unit, rows);
+}
+
+std::string checks_html(const check::Checks& checks) {
+  std::string html;
+  for (const check::Check& each : checks) {
+    if (each.severity != check::Severity::note) {
+      html +=
+          fmt::format("<p class=\"{0}\"><b>{0}</b> ({1}): {2}. {3}.</p>\n",
+                      check::word(each.severity), each.name, escaped(each.what), escaped(each.fix));
+    }
+  }
+  return html.empty() ? "" : "<h2>Asked first: is the input right?</h2>\n" + html;
+}
+
+std::string notes_html(const check::Checks& checks) {
+  std::string html;
+  for (const check::Check& each : checks) {
+    if (each.severity == check::Severity::note) {
+      html += fmt::format("<p>{}. {}.</p>\n", escaped(each.what), escaped(each.fix));
+    }
+  }
+  return html;
+}
+
+/// Errors in all, then of each joint or axis with the courses behind them.
+std::string errors_html(const Observations& observations, const Diagnosis& diagnosis) {
+  const Eigen::VectorXd& after = diagnosis.updated().remainder;
+  std::string html = "<h2>Errors</h2>\n" + channel_table(observations, diagnosis);
+  for (const Channel channel : observations.channels()) {
+    html += fmt::format("<h3>In the {}</h3>\n{}{}\n{}\n", in_words(channel),
+                        component_table(observations, diagnosis, channel),
+                        time_picture(observations, after, channel),
+                        course_picture(observations, after, channel));
+  }
+  if (observations.has(simulation::tcp_position) && !observations.is_static) {
+    html += "<h3>Along the path</h3>\n" + path_picture(observations, after);
+  }
+  return html;
+}
+
+std::string origin_html(const Origin& origin) {
+  return fmt::format("<p class=\"origin\">{}, {}<br><code>{}</code></p>\n", escaped(origin.date),
+                     escaped(origin.version), escaped(origin.command));
 }
 
 }  // namespace
 
 std::string to_html(const Observations& observations, const Diagnosis& diagnosis,
-                    const std::vector<Quality>& qualities) {
-  const Eigen::VectorXd& after = diagnosis.choice.fit.remainder;
+                    const Origin& origin) {
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis</title>\n"
-      "<style>{}</style></head><body>\n<h1>Diagnosis of {}</h1>\n<p class=\"lead\">{}</p>\n"
-      "<p>Verdict: <b>{}</b>{}</p>\n",
-      kStyle, escaped(observations.machine.robot.name), escaped(headline(observations, diagnosis)),
-      diagnosis.verdict, diagnosis.reason.empty() ? "" : " (" + diagnosis.reason + ")");
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of {0}"
+      "</title>\n<style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n{2}",
+      escaped(observations.machine.robot.name), kStyle, checks_html(origin.checks));
+  html += fmt::format("<p class=\"lead\">{}</p>\n<p>Verdict: <b>{}</b>{}</p>\n",
+                      escaped(headline(observations, diagnosis)), in_words(diagnosis.verdict),
+                      diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
   html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
-  html += "<h2>Residual</h2>\n" + channel_rows(observations, after);
-  for (const Channel channel : observations.channels()) {
-    html += fmt::format("<h3>{}</h3>\n{}\n", simulation::kChannels[channel],
-                        time_picture(observations, after, channel));
-  }
-  if (observations.has(simulation::tcp_position) && !observations.is_static) {
-    html += "<h3>along the path</h3>\n" + path_picture(observations, after);
-  }
-  html += "<h2>Where the mismatch is</h2>\n" + location_table(diagnosis.location);
+  html += retuned(observations, diagnosis);
+  html += errors_html(observations, diagnosis);
+  html += "<h2>Where the mismatch is</h2>\n" + location_table(observations, diagnosis.location);
   if (!diagnosis.reason.empty()) {
-    html += "<h2>Where what is left is</h2>\n" + location_table(diagnosis.left);
+    html += "<h2>Where what is left is</h2>\n" + location_table(observations, diagnosis.left);
   }
   if (!diagnosis.nearest.empty()) {
     html += "<p>Nearest to it, without proof: " +
             joined(diagnosis.nearest,
-                   [](const Place& place) { return place_name(place.effect, place.joint); }) +
+                   [](const Place& place) { return place_in_words(place.effect, place.joint); }) +
             ".</p>\n";
   }
   html += proposal(diagnosis.proposal);
-  html += retuned(observations, diagnosis);
   html += "<h2>Hypotheses</h2>\n" + ranking_picture(diagnosis.choice.ranking);
   html += "<h2>What cannot be told apart</h2>\n" + groups(diagnosis);
   html += "<h2>What to record next</h2>\n<p>" +
           (diagnosis.suggested_experiment.empty() ? "Nothing is open that a recording would settle."
                                                   : escaped(diagnosis.suggested_experiment)) +
           "</p>\n";
-  html += "<h2>Data</h2>\n" + quality_table(observations, diagnosis, qualities);
+  html += "<h2>Data</h2>\n" + quality_table(observations, diagnosis, origin.qualities) +
+          notes_html(origin.checks) + origin_html(origin);
   return html + "</body></html>\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "check/check.hpp"
 #include "diagnosis/diagnosis.hpp"
 
 namespace flexcomp::diagnosis {
@@ -12,10 +13,20 @@ struct Quality {
   simulation::Preparation preparation;
 };
 
-/// A self-contained page: what was found in one sentence, the residual before and after along time
-/// and path, where it is, the ranking of hypotheses, parameters, what cannot be told apart, and
-/// what to record next. Throws InputError where gnuplot is missing.
+/// What a page tells of how it came to be.
+struct Origin {
+  std::vector<Quality> qualities;  ///< of the recordings
+  check::Checks checks;            ///< what was wrong or suspicious in the input
+  std::string command;             ///< that was given
+  std::string version;             ///< of the program
+  std::string date;
+};
+
+/// A self-contained page: what is wrong with the input, what was found in one sentence, errors
+/// before and after, in all and for each joint, measured and simulated courses, where the mismatch
+/// is, the ranking of hypotheses, parameters, what cannot be told apart, and what to record next.
+/// Throws InputError where gnuplot is missing.
 std::string to_html(const Observations& observations, const Diagnosis& diagnosis,
-                    const std::vector<Quality>& qualities);
+                    const Origin& origin);
 
 }  // namespace flexcomp::diagnosis

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
 
 namespace flexcomp::diagnosis {
@@ -29,10 +30,19 @@ std::string fall(const Observations& observations, const Fit& before, const Fit&
     return readable(observations.rms(values, channel, held_out),
                     simulation::kChannelUnits[channel]);
   };
-  return fmt::format("held-out error of {} falls from {} to {}, noise {}",
-                     simulation::kChannels[channel], written(before.remainder, true),
-                     written(after.remainder, true),
-                     written(Eigen::VectorXd::Ones(observations.size()), false));
+  return fmt::format("held-out error of {} falls from {} to {}, noise {}", in_words(channel),
+                     written(before.remainder, true), written(after.remainder, true),
+                     written(Eigen::VectorXd::Ones(observations.size()), true));
+}
+
+/// The first three, and how many more there are.
+std::string first_few(const std::vector<std::string>& all) {
+  constexpr std::size_t kFew = 3;
+  const std::size_t told = std::min(kFew, all.size());
+  const std::vector<std::string> few(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(told));
+  const std::size_t more = all.size() - told;
+  return fmt::format("{}{}", fmt::join(few, "; "),
+                     more > 0 ? fmt::format("; and {} more", more) : std::string());
 }
 
 }  // namespace
@@ -60,18 +70,30 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
   std::vector<std::string> numbers;
   for (std::size_t i = found; i < fit.chosen.size(); ++i) {
     const Hypothesis& number = fit.chosen[i].hypothesis;
-    numbers.push_back(place_name(number.effect(), number.joint));
+    numbers.push_back(place_in_words(number.effect(), number.joint));
   }
   return fmt::format(
       "No finding, but a stand-in until one is made{}: with other numbers in updated_model.yaml "
       "({}) {}.",
-      found == 0 ? "" : " of what is left", fmt::join(numbers, "; "),
+      found == 0 ? "" : " of what is left", first_few(numbers),
       fall(observations, diagnosis.choice.fit, fit));
 }
 
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {
-  if (!diagnosis.choice.findings.empty()) {
+  const std::vector<Finding>& findings = diagnosis.choice.findings;
+  if (findings.size() == 1) {
     return statement(observations, diagnosis, 0);
+  }
+  if (!findings.empty()) {
+    std::vector<std::string> places;
+    for (const Finding& finding : findings) {
+      const Hypothesis& found = finding.chosen.hypothesis;
+      places.push_back(place_in_words(found.effect(), found.joint));
+    }
+    Fit nothing;
+    nothing.remainder = observations.residual;
+    return fmt::format("The model lacks: {}. With all of it the {}.", first_few(places),
+                       fall(observations, nothing, diagnosis.choice.fit));
   }
   if (diagnosis.verdict == "no_mismatch") {
     return "Model and recording agree within the noise.";
