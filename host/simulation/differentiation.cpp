@@ -9,8 +9,8 @@ namespace {
 
 constexpr Eigen::Index kFewestNeighbours = 3;
 constexpr int kOrder = 5;
-constexpr double kStanding = 1e-5;  // rad/s, far below any programmed motion
-constexpr double kBeyondNoise = 4;  // deviations
+constexpr double kStandingStill = 1e-5;  // rad/s, far below any programmed motion
+constexpr double kBeyondNoise = 4;       // deviations
 
 struct Window {
   Eigen::Index first, row, last;
@@ -25,7 +25,8 @@ void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
     for (Eigen::Index i = window.first; i < window.last; ++i) {
       const double moved = std::abs(q(i + 1, joint) - q(i, joint));
       standing +=
-          moved <= kStanding * (time[i + 1] - time[i]) + kBeyondNoise * angle_noise[joint] ? 1 : 0;
+          moved <= kStandingStill * (time[i + 1] - time[i]) + kBeyondNoise * angle_noise[joint] ? 1
+                                                                                                : 0;
     }
     motion->stands[joint] = standing > 0 ? 1 : 0;
     if (standing == window.last - window.first) {
@@ -44,7 +45,7 @@ void find_standing_in_noise(const Eigen::VectorXd& time, const recording::Sample
   const auto stands = [&, &q = q, &time = time](Eigen::Index from, Eigen::Index to,
                                                 Eigen::Index joint) {
     return std::abs(q(to, joint) - q(from, joint)) <=
-           kStanding * (time[to] - time[from]) + kBeyondNoise * angle_noise[joint];
+           kStandingStill * (time[to] - time[from]) + kBeyondNoise * angle_noise[joint];
   };
   for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
     const bool before = row > first && stands(first, row, joint);

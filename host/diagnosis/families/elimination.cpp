@@ -21,7 +21,7 @@ constexpr double kTolerances[] = {0.1, 0.3, 1, 3, 10, 30};
 constexpr double kWidths = 4;  // standard deviations that a plausible range is wide
 /// A smaller set, or a tighter tolerance, is taken where it predicts worse by less than this:
 /// simplicity against error.
-constexpr double kSameError = 1.002;
+constexpr double kSameError = 1.0002;
 constexpr Eigen::Index kParts = 10;  // that are predicted from all others
 
 bool is_member(const Hypothesis& hypothesis) {
