@@ -1,4 +1,5 @@
-// Noise of a signal told apart from its motion, whole or with samples in few rows only.
+// Noise of a signal told apart from its motion, whole or with samples in few rows only, or in
+// counts.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -8,6 +9,8 @@
 
 using Eigen::Index;
 using Eigen::VectorXd;
+using flexcomp::recording::encoder_noise;
+using flexcomp::recording::quantisation_step;
 using flexcomp::recording::stands_alone;
 using flexcomp::recording::white_noise;
 
@@ -53,6 +56,42 @@ void a_sample_far_off_stands_alone_whole_or_in_few_rows() {
   }
 }
 
+constexpr double kCount = 4e-4;  // rad, of a coarse encoder
+
+VectorXd times() { return VectorXd::LinSpaced(4000, 0, 39.99); }
+
+VectorXd in_counts(const VectorXd& angle) { return kCount * (angle / kCount).array().round(); }
+
+void the_count_of_a_coarse_encoder_is_found() {
+  for (const double swing : {0.01, 0.1, 0.3}) {  // rad
+    const VectorXd angle = 0.2 + swing * (3 * times().array()).sin();
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * kCount, kCount, quantisation_step(in_counts(angle)));
+  }
+}
+
+void what_is_smooth_has_no_count_though_its_values_come_again() {
+  const VectorXd swing = (3 * times().array()).sin();
+  VectorXd periodic(times().size());
+  for (Index row = 0; row < periodic.size(); ++row) {
+    periodic[row] = swing[row % 100];
+  }
+  TEST_ASSERT_EQUAL_DOUBLE(0, quantisation_step(swing));
+  TEST_ASSERT_EQUAL_DOUBLE(0, quantisation_step(periodic));
+  TEST_ASSERT_EQUAL_DOUBLE(0, quantisation_step(VectorXd::Constant(100, 0.7)));
+}
+
+/// An error that is spread evenly over a count has its size over √12 for a deviation; of a creep,
+/// whose readings are mostly the same as their neighbours, nothing else shows it.
+void the_noise_of_an_encoder_is_no_less_than_that_of_rounding() {
+  const double rounding = kCount / std::sqrt(12.0);
+  const VectorXd swing = 0.3 * (3 * times().array()).sin();
+  TEST_ASSERT_TRUE(encoder_noise(times(), in_counts(swing)) >= rounding * (1 - 1e-9));
+  TEST_ASSERT_TRUE(encoder_noise(times(), in_counts(swing)) < 1.5 * rounding);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6 * rounding, rounding,
+                            encoder_noise(times(), in_counts(0.0005 * times())));
+  TEST_ASSERT_TRUE(encoder_noise(times(), swing) < 1e-6);
+}
+
 }  // namespace
 
 int main() {
@@ -61,5 +100,8 @@ int main() {
   RUN_TEST(a_stride_counts_rows_though_samples_are_in_few);
   RUN_TEST(a_signal_that_is_not_there_has_no_noise);
   RUN_TEST(a_sample_far_off_stands_alone_whole_or_in_few_rows);
+  RUN_TEST(the_count_of_a_coarse_encoder_is_found);
+  RUN_TEST(what_is_smooth_has_no_count_though_its_values_come_again);
+  RUN_TEST(the_noise_of_an_encoder_is_no_less_than_that_of_rounding);
   return UNITY_END();
 }

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "diagnosis/swinging_robot.hpp"
+
+namespace flexcomp::test {
+
+/// The swinging robot under gravity, its torques alone recorded: 25 a second, with noise that is
+/// spread evenly, so that no sample has less weight than another.
+struct DrivenRobot {
+  static constexpr Eigen::Index kRows = 1000;
+  static constexpr double kNoise = 2;  ///< N·m, standard deviation
+
+  model::Robot robot;
+  recording::Recording recording;
+  simulation::Scene scene;  ///< of what is predicted
+
+  DrivenRobot() {
+    SwingingRobot swinging(1);
+    robot = swinging.robot;
+    robot.elastic.gravity = {0, 0, -9.81};
+    recording = swinging.recording;
+    recording.position.reset();
+    recording.tau = recording::Samples::Zero(recording.size(), 6);
+    scene = prepared(recording);
+  }
+
+  /// Observations of a machine that the robot's model stands for.
+  diagnosis::Observations observed(const simulation::Machine& truth) const {
+    recording::Recording shown = recording;
+    simulation::Preparation preparation;
+    const simulation::Scene whole = simulation::prepare(shown, shown.size(), &preparation);
+    shown.tau = simulation::predict(truth, {whole}).front().channel[simulation::joint_torque];
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> noise(-std::sqrt(3.0) * kNoise, std::sqrt(3.0) * kNoise);
+    *shown.tau = shown.tau->unaryExpr([&](double value) { return value + noise(random); });
+    return diagnosis::Observations(machine(), {prepared(shown)}, 0);
+  }
+
+  simulation::Machine machine() const { return effects::machine_of(robot, {scene}); }
+
+ private:
+  static simulation::Scene prepared(const recording::Recording& recording) {
+    simulation::Preparation preparation;
+    return simulation::prepare(recording, kRows, &preparation);
+  }
+};
+
+/// A torque (N·m) by the time (s), per unit of a parameter.
+using Course = double (*)(double time);
+
+/// A law that adds courses in proportion to its parameters to a joint's torque.
+inline effects::LawPointer adding(const char* name, const std::vector<Course>& courses) {
+  effects::Law law;
+  law.effect = name;
+  law.traits.linear_in = courses.size();
+  law.traits.is_in_family = true;
+  law.parameters = [count = courses.size()](const model::Robot&, int) {
+    return std::vector<effects::Parameter>(count, {"size", "1"});
+  };
+  law.apply = [courses](const effects::Values& values, int joint, simulation::Machine* machine) {
+    machine->terms.push_back({simulation::Term::output,
+                              [=](const simulation::Scene& scene, const simulation::Simulation&,
+                                  simulation::Prediction* prediction) {
+                                auto torque =
+                                    prediction->channel[simulation::joint_torque].col(joint - 1);
+                                for (std::size_t i = 0; i < courses.size(); ++i) {
+                                  torque += values[i] * scene.time.unaryExpr(courses[i]);
+                                }
+                              }});
+  };
+  return std::make_shared<const effects::Law>(std::move(law));
+}
+
+/// Courses in samples, over the noise, computed without the law: a column each.
+inline Eigen::MatrixXd columns_of(const diagnosis::Observations& observations, int joint,
+                                  const std::vector<Course>& courses) {
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(observations.train, static_cast<Eigen::Index>(courses.size()));
+  for (Eigen::Index i = 0; i < observations.train; ++i) {
+    const diagnosis::Sample& at = observations.samples[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < courses.size() && at.component == joint - 1; ++k) {
+      columns(i, static_cast<Eigen::Index>(k)) =
+          courses[k](observations.scenes[at.scene].time[at.row]) / observations.noise[i];
+    }
+  }
+  return columns;
+}
+
+}  // namespace flexcomp::test

@@ -1,0 +1,235 @@
+// Laws that are told beside their like only, each against a computation of its own.
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "effects/learned.hpp"
+#include "effects/moving_robot.hpp"
+#include "host/scratch_folder.hpp"
+#include "unity_main.hpp"
+
+using namespace flexcomp;
+using effects::LawPointer;
+using effects::Values;
+using Matrix = Matrix3<double>;
+using Vector = Vector3<double>;
+
+namespace {
+
+/// The moving robot with straight springs: no gravity and no force; no friction and no rotors.
+struct FreeRobot : test::MovingRobot {
+  FreeRobot() {
+    robot.elastic.gravity.setZero();
+    recording.wrench.reset();
+    recording.q_link.reset();
+    for (model::JointDynamics& motor : robot.dynamics) {
+      motor.coulomb = motor.viscous = motor.rotor_inertia = 0;
+    }
+  }
+};
+
+Eigen::MatrixXd shown(const simulation::Machine& machine, const simulation::Scene& scene,
+                      simulation::Channel channel) {
+  return predict(machine, {scene}).front().channel[channel];
+}
+
+/// What a law changes of a channel.
+Eigen::MatrixXd change_by(const char* effect, int joint, const Values& values,
+                          const model::Robot& robot, const simulation::Scene& scene,
+                          simulation::Channel channel) {
+  const simulation::Machine plain = effects::machine_of(robot);
+  simulation::Machine machine = plain;
+  effects::find_law(effect, "")->apply(values, joint, &machine);
+  return shown(machine, scene, channel) - shown(plain, scene, channel);
+}
+
+/// Orientation of each link and direction of each axis, base frame, by the URDF's frames.
+struct Axes {
+  Axes(const model::Robot& robot, const Eigen::RowVectorXd& q) {
+    Matrix frame = Matrix::Identity();
+    for (std::size_t i = 0; i < robot.elastic.joints.size(); ++i) {
+      const model::ChainJoint& joint = robot.elastic.joints[i];
+      frame = frame * joint.origin.rotation *
+              Eigen::AngleAxisd(q[static_cast<Eigen::Index>(i)], joint.axis).toRotationMatrix();
+      link.push_back(frame);
+      axis.emplace_back(frame * joint.axis);
+    }
+  }
+
+  std::vector<Matrix> link;
+  std::vector<Vector> axis;
+};
+
+void what_stands_behind_a_link_is_shifted_with_it() {
+  const FreeRobot moving;
+  const simulation::Scene scene = moving.scene();
+  for (int joint = 1; joint <= 5; ++joint) {
+    Vector shift = Vector::Zero();
+    const Values values = {2e-3, -3e-3};
+    const auto named = effects::find_law("link_offset", "")->parameters(moving.robot, joint);
+    TEST_ASSERT_EQUAL_UINT64(2, named.size());
+    for (std::size_t i = 0; i < 2; ++i) {
+      shift[named[i].name[0] - 'x'] = values[i];
+    }
+    const Eigen::MatrixXd change =
+        change_by("link_offset", joint, values, moving.robot, scene, simulation::tcp_position);
+    for (Eigen::Index row = 0; row < scene.rows(); row += 20) {
+      const Axes axes(moving.robot, scene.q.row(row));
+      const Vector expected = axes.link[static_cast<std::size_t>(joint - 1)] * shift;
+      TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0, (change.row(row).transpose() - expected).norm());
+    }
+  }
+}
+
+/// The length of a link has a law of its own.
+void an_offset_is_across_the_link() {
+  const FreeRobot moving;
+  for (int joint = 1; joint <= 5; ++joint) {
+    Vector along = moving.robot.elastic.joints[static_cast<std::size_t>(joint)].origin.position;
+    Eigen::Index most = 0;
+    along.cwiseAbs().maxCoeff(&most);
+    for (const auto& each : effects::find_law("link_offset", "")->parameters(moving.robot, joint)) {
+      TEST_ASSERT_TRUE(along.isZero(1e-6) || each.name[0] - 'x' != most);
+    }
+  }
+}
+
+/// Euler's equation about the link's origin: torque on the axis of every joint that turns the link.
+void inertia_of_a_link_takes_the_torque_of_eulers_equation() {
+  const FreeRobot moving;
+  const simulation::Scene scene = moving.scene();
+  const Values values = {4, -3, 5, 1, -2, 0.5};
+  Matrix inertia;
+  inertia << 4, 1, -2, 1, -3, 0.5, -2, 0.5, 5;
+  constexpr double kStep = 1e-5;  // s, of the axes' differences
+  for (const int joint : {2, 4, 6}) {
+    const Eigen::MatrixXd change =
+        change_by("link_inertia", joint, values, moving.robot, scene, simulation::joint_torque);
+    for (Eigen::Index row = 0; row < scene.rows(); row += 20) {
+      const auto count = static_cast<std::size_t>(joint);
+      const auto turn = [&](double t) {
+        const Eigen::RowVectorXd speed = scene.velocity.row(row) + t * scene.acceleration.row(row);
+        const Axes axes(moving.robot, scene.q.row(row) + t * scene.velocity.row(row) +
+                                          t * t / 2 * scene.acceleration.row(row));
+        Vector all = Vector::Zero();
+        for (std::size_t i = 0; i < count; ++i) {
+          all += speed[static_cast<Eigen::Index>(i)] * axes.axis[i];
+        }
+        return all;
+      };
+      const Axes axes(moving.robot, scene.q.row(row));
+      const Matrix there = axes.link[count - 1] * inertia * axes.link[count - 1].transpose();
+      const Vector acceleration = (turn(kStep) - turn(-kStep)) / (2 * kStep);
+      const Vector torque = there * acceleration + turn(0).cross(there * turn(0));
+      for (std::size_t i = 0; i < 6; ++i) {
+        const double expected = i < count ? axes.axis[i].dot(torque) : 0;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5 * torque.norm(), expected,
+                                  change(row, static_cast<Eigen::Index>(i)));
+      }
+    }
+  }
+}
+
+/// A body of positive density: no principal moment of inertia exceeds the sum of the others.
+bool is_body(const Matrix& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> axes(inertia, Eigen::EigenvaluesOnly);
+  const Vector moments = axes.eigenvalues();  // in rising order
+  return moments[0] > 0 && moments[0] + moments[1] >= moments[2];
+}
+
+void inertia_that_no_body_has_is_refused() {
+  const FreeRobot moving;
+  const LawPointer law = effects::find_law("link_inertia", "");
+  model::Robot model = moving.robot;
+  model.link_inertia[2] = Vector(5, 6, 7).asDiagonal();
+  const auto is_refused = [&](const Values& values) {
+    simulation::Machine machine = effects::machine_of(model);
+    law->apply(values, 3, &machine);
+    const bool refused = !law->no_body(model, machine.robot, effects::size_of(model), 3).empty();
+    TEST_ASSERT_TRUE(refused != is_body(machine.robot.link_inertia[2]));
+    return refused;
+  };
+  TEST_ASSERT_FALSE(is_refused({0, 0, 0, 0, 0, 0}));
+  TEST_ASSERT_FALSE(is_refused({1, -1, 2, 1, -1, 0.5}));
+  TEST_ASSERT_FALSE(is_refused({0, 0, 3.9, 0, 0, 0}));
+  TEST_ASSERT_TRUE(is_refused({0, 0, 4.1, 0, 0, 0}));   // 5 + 6 < 11.1
+  TEST_ASSERT_TRUE(is_refused({-5.5, 0, 0, 0, 0, 0}));  // a negative moment
+  TEST_ASSERT_TRUE(is_refused({0, 0, 0, 4, 0, 0}));     // by a product of inertia
+  for (const char* each : {"link_offset", "torque_gain", "load_friction"}) {
+    TEST_ASSERT_FALSE(effects::find_law(each, "")->no_body);  // they are no bodies
+  }
+}
+
+void a_gain_scales_what_is_measured_of_one_joint() {
+  const test::MovingRobot moving;
+  const simulation::Scene scene = moving.scene();
+  const Eigen::MatrixXd torque =
+      shown(effects::machine_of(moving.robot), scene, simulation::joint_torque);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(scene.rows(), 6);
+  expected.col(2) = -0.07 * torque.col(2);
+  const Eigen::MatrixXd change =
+      change_by("torque_gain", 3, {-0.07}, moving.robot, scene, simulation::joint_torque);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0, (change - expected).cwiseAbs().maxCoeff());
+}
+
+/// Without friction and rotors all of the torque goes through the gear.
+void friction_under_load_is_a_share_of_the_torque_against_the_motion() {
+  FreeRobot moving;
+  moving.robot.elastic.gravity = {0, 0, -9.81};
+  const simulation::Scene scene = moving.scene();
+  const Eigen::VectorXd torque =
+      shown(effects::machine_of(moving.robot), scene, simulation::joint_torque).col(1);
+  const Eigen::VectorXd change =
+      change_by("load_friction", 2, {0.08}, moving.robot, scene, simulation::joint_torque).col(1);
+  TEST_ASSERT_TRUE(torque.minCoeff() < 0 || torque.maxCoeff() > 0);
+  for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+    const double speed = scene.velocity(row, 1);
+    if (std::abs(speed) > 0.01) {
+      const double expected = 0.08 * std::abs(torque[row]) * (speed > 0 ? 1 : -1);
+      TEST_ASSERT_DOUBLE_WITHIN(1e-9 * torque.norm(), expected, change[row]);
+    }
+  }
+}
+
+void each_is_read_as_it_was_written() {
+  const test::MovingRobot moving;
+  const simulation::Scene scene = moving.scene();
+  const std::vector<effects::Placed> placed = {
+      {effects::find_law("link_offset", ""), 2, {2e-3, -1e-3}},
+      {effects::find_law("link_inertia", ""), 3, {4, 3, 5, 0.1, -0.2, 0.5}},
+      {effects::find_law("torque_gain", ""), 4, {0.06}},
+      {effects::find_law("load_friction", ""), 5, {0.08}}};
+  for (const effects::Placed& each : placed) {
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "robot.yaml";
+    model::write_robot(file, effects::with_learned(moving.robot, {each}));
+    const model::Robot read = model::load_robot(file);
+    TEST_ASSERT_EQUAL_UINT64(1, read.effects.size());
+    TEST_ASSERT_EQUAL_STRING(each.law->effect.c_str(), read.effects[0].effect.c_str());
+    TEST_ASSERT_EQUAL_INT(each.joint, read.effects[0].joint);
+    const auto named = each.law->parameters(moving.robot, each.joint);
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      TEST_ASSERT_EQUAL_DOUBLE(each.values[i], read.effects[0].parameters.at(named[i].name));
+    }
+    const simulation::Machine plain = effects::machine_of(moving.robot);
+    simulation::Machine machine = plain;
+    effects::add_effects({each}, &machine);
+    const simulation::Machine again = effects::machine_of(read, {scene});
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0, test::difference(machine, again, scene));
+    TEST_ASSERT_TRUE(test::difference(plain, again, scene) > 1e-5);
+  }
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(what_stands_behind_a_link_is_shifted_with_it);
+  RUN_TEST(an_offset_is_across_the_link);
+  RUN_TEST(inertia_of_a_link_takes_the_torque_of_eulers_equation);
+  RUN_TEST(inertia_that_no_body_has_is_refused);
+  RUN_TEST(a_gain_scales_what_is_measured_of_one_joint);
+  RUN_TEST(friction_under_load_is_a_share_of_the_torque_against_the_motion);
+  RUN_TEST(each_is_read_as_it_was_written);
+  return UNITY_END();
+}

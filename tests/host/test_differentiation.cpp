@@ -1,0 +1,123 @@
+// Velocities and accelerations of recorded angles against closed forms, by exact and by coarse
+// encoders.
+#include <cmath>
+
+#include "recording/noise.hpp"
+#include "simulation/differentiation.hpp"
+#include "unity_main.hpp"
+
+using Eigen::Index;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+using flexcomp::recording::encoder_noise;
+using namespace flexcomp::simulation;
+
+namespace {
+
+constexpr Index kRows = 1000;
+constexpr double kStep = 0.01;   // s
+constexpr double kCount = 4e-4;  // rad, of a coarse encoder
+constexpr double kSwing = 0.3;   // rad
+constexpr double kOmega = 3;     // rad/s
+
+VectorXd times() { return VectorXd::LinSpaced(kRows, 0, kStep * (kRows - 1)); }
+
+VectorXd swing() { return kSwing * (kOmega * times().array()).sin(); }
+
+VectorXd in_counts(const VectorXd& angle) { return kCount * (angle / kCount).array().round(); }
+
+/// One joint by its readings.
+struct Encoder {
+  explicit Encoder(const VectorXd& angle)
+      : time(times()), q(angle), noise(RowVectorXd::Constant(1, encoder_noise(time, angle))) {}
+
+  std::size_t window() const { return best_windows(time, q, noise).front(); }
+  LocalMotion motion(std::size_t window, Index row) const {
+    return local_motion(time, q, noise, kHalfWindows[window], row);
+  }
+
+  /// Root mean square errors of velocity and acceleration of the swing, away from the ends.
+  Eigen::Vector2d errors(std::size_t window) const {
+    constexpr Index kEnds = 25;
+    Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+    for (Index row = kEnds; row < kRows - kEnds; ++row) {
+      const double phase = kOmega * time[row];
+      const Eigen::Vector2d exact(kSwing * kOmega * std::cos(phase),
+                                  -kSwing * kOmega * kOmega * std::sin(phase));
+      squares += (motion(window, row).values.col(0) - exact).cwiseAbs2();
+    }
+    return (squares / static_cast<double>(kRows - 2 * kEnds)).cwiseSqrt();
+  }
+
+  VectorXd time;
+  flexcomp::recording::Samples q;
+  RowVectorXd noise;
+};
+
+void a_swing_by_an_exact_encoder_keeps_the_shortest_window() {
+  const Encoder exact(swing());
+  TEST_ASSERT_EQUAL_UINT64(0, exact.window());
+  // Three neighbours either side: the seventh derivative over seven factorial cuts the velocity by
+  // 36 h^6, the eighth over eight factorial the acceleration by 2 × 49 h^6 at most.
+  const Eigen::Vector2d errors = exact.errors(0);
+  TEST_ASSERT_TRUE(errors[0] < 1e-6 * kSwing * kOmega);
+  TEST_ASSERT_TRUE(errors[1] < 1e-4 * kSwing * kOmega * kOmega);
+}
+
+void a_swing_by_a_coarse_encoder_takes_a_longer_window_and_errs_by_much_less() {
+  const Encoder coarse(in_counts(swing()));
+  const std::size_t window = coarse.window();
+  TEST_ASSERT_TRUE(window > 0);
+  TEST_ASSERT_TRUE(coarse.errors(window)[1] < 0.05 * coarse.errors(0)[1]);
+  TEST_ASSERT_TRUE(coarse.errors(window)[1] < 0.05 * kSwing * kOmega * kOmega);
+  TEST_ASSERT_TRUE(coarse.errors(window)[0] < 0.01 * kSwing * kOmega);
+}
+
+/// Of readings that flicker by a count, as an encoder's do between two counts, from `row` on.
+VectorXd flickering() {
+  VectorXd angle(kRows);
+  for (Index row = 0; row < kRows; ++row) {
+    angle[row] = row * row % 7 < 3 ? 0 : kCount;
+  }
+  return angle;
+}
+
+void a_joint_that_stands_is_said_to_stand_whatever_its_encoder() {
+  for (const VectorXd& angle : {VectorXd(VectorXd::Constant(kRows, 0.7)), flickering()}) {
+    const Encoder encoder(angle);
+    for (const std::size_t window : {encoder.window(), kHalfWindows.size() - 1}) {
+      const LocalMotion motion = encoder.motion(window, kRows / 2);
+      TEST_ASSERT_EQUAL_INT(1, motion.stands[0]);
+      TEST_ASSERT_TRUE(motion.values.isZero(0));
+    }
+  }
+}
+
+void a_joint_that_moves_by_a_count_a_row_and_less_does_not_stand() {
+  for (const double speed : {0.04, 0.02, 0.01}) {  // rad/s
+    const Encoder coarse(in_counts(speed * times()));
+    const LocalMotion motion = coarse.motion(coarse.window(), kRows / 2);
+    TEST_ASSERT_EQUAL_INT(0, motion.stands[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(0.2 * speed, speed, motion.values(0, 0));
+  }
+}
+
+void a_joint_that_starts_is_said_to_stand_where_it_starts() {
+  const VectorXd moved = 0.2 * (times().array() - 5).max(0);  // from 5 s on
+  const Encoder coarse(in_counts(moved));
+  const std::size_t longest = kHalfWindows.size() - 1;
+  TEST_ASSERT_EQUAL_INT(1, coarse.motion(longest, 500).stands[0]);
+  TEST_ASSERT_EQUAL_INT(0, coarse.motion(longest, 600).stands[0]);
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(a_swing_by_an_exact_encoder_keeps_the_shortest_window);
+  RUN_TEST(a_swing_by_a_coarse_encoder_takes_a_longer_window_and_errs_by_much_less);
+  RUN_TEST(a_joint_that_stands_is_said_to_stand_whatever_its_encoder);
+  RUN_TEST(a_joint_that_moves_by_a_count_a_row_and_less_does_not_stand);
+  RUN_TEST(a_joint_that_starts_is_said_to_stand_where_it_starts);
+  return UNITY_END();
+}
