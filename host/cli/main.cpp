@@ -51,7 +51,8 @@ int run(const Action& action) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
-      "  flexcomp check …         what is wrong or suspicious in model, path, table or recording\n\n"
+      "  flexcomp check …         what is wrong or suspicious in model, path, table or "
+      "recording\n\n"
       "From model to corrected path:\n"
       "  flexcomp plan circle …   a path with its cutting force, or bring your own recording\n"
       "  flexcomp table …         the compliance along that path, with a certified error\n"
