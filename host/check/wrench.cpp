@@ -194,8 +194,7 @@ Checks check_wrench(const model::Robot& robot, const recording::Recording& recor
   if (scene.wrench.isZero(0)) {
     return {};
   }
-  simulation::Machine machine;
-  machine.robot = robot;
+  const simulation::Machine machine(robot);
   simulation::Wanted wanted;
   wanted.channel = {true, false, false};
   const std::vector<Answer> answers =
