@@ -51,9 +51,9 @@ void refuse_unlike(const recording::Recording& first, const recording::Recording
                        first.file));
   }
   const std::pair<const char*, std::pair<bool, bool>> groups[] = {
-      {"q_meas_1..6", {first.q_meas.has_value(), other.q_meas.has_value()}},
-      {"q_link_1..6", {first.q_link.has_value(), other.q_link.has_value()}},
-      {"tau_1..6", {first.tau.has_value(), other.tau.has_value()}},
+      {"q_meas_1..n", {first.q_meas.has_value(), other.q_meas.has_value()}},
+      {"q_link_1..n", {first.q_link.has_value(), other.q_link.has_value()}},
+      {"tau_1..n", {first.tau.has_value(), other.tau.has_value()}},
       {"fx..mz", {first.wrench.has_value(), other.wrench.has_value()}},
       {"x,y,z", {first.position.has_value(), other.position.has_value()}},
       {"temp_c", {first.temperature.has_value(), other.temperature.has_value()}}};

@@ -81,8 +81,8 @@ int run_path(const SimulateOptions& options) {
   const model::Chain plant =
       simulation::with_scaled_compliance(robot.elastic, options.compliance_scale);
   recording::Recording recording = recording::read_recording_of(robot.elastic, options.path);
-  const recording::Samples& q_cmd =
-      recording::require(recording, recording.q_cmd, "q_cmd_1..q_cmd_6");
+  const recording::Samples& q_cmd = recording::require(
+      recording, recording.q_cmd, fmt::format("q_cmd_1..q_cmd_{}", robot.joints()));
   const recording::Samples& wrench = recording::require(recording, recording.wrench, "fx..mz");
   recording::Samples position(recording.size(), 3);
   Progress progress("simulating", static_cast<std::size_t>(recording.size()));

@@ -64,7 +64,8 @@ std::vector<Excitation> excitation(const Observations& observations,
     all.push_back({joint, observations.range(joint), observations.largest_speed(joint),
                    observations.largest_load(joint), reversals_of(observations, joint),
                    compliance > 0 ? of(effects::Measures::stiffness) / compliance : kUnknownSize,
-                   of(effects::Measures::zero), of(effects::Measures::friction)});
+                   of(effects::Measures::zero), of(effects::Measures::friction),
+                   observations.machine.robot.elastic.joint(joint - 1).slides()});
   }
   return all;
 }
@@ -82,10 +83,10 @@ std::string verdict(const Excitation& excitation) {
     add(fmt::format("stiffness to {:.2g} %", 100 * excitation.stiffness));
   }
   if (excitation.zero < kBlurred) {
-    add("zero to " + readable(excitation.zero, "rad"));
+    add("zero to " + readable(excitation.zero, excitation.slides ? "m" : "rad"));
   }
   if (excitation.friction < excitation.largest_load) {
-    add("friction to " + readable(excitation.friction, "N·m"));
+    add("friction to " + readable(excitation.friction, excitation.slides ? "N" : "N·m"));
   }
   if (excitation.largest_speed > 0) {
     add(excitation.reversals > 0

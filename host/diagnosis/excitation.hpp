@@ -18,6 +18,7 @@ struct Excitation {
   double stiffness;          ///< resolution of its compliance, relative
   double zero;               ///< resolution of its encoder's zero, rad
   double friction;           ///< resolution of its friction, N·m
+  bool slides = false;       ///< then m and N in place of rad and N·m
 
   bool tells_nothing() const;
 };

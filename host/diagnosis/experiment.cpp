@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/parameters.hpp"
 #include "error.hpp"
 
 namespace flexcomp::diagnosis {
@@ -47,31 +48,36 @@ std::vector<Experiment> load_tests(const model::Robot& robot) {
       recording.wrench->col(axis) << kForce, -kForce, 0.5 * kForce, -0.5 * kForce;
       experiment.description = fmt::format(
           "a load test with {:.0f} and {:.0f} N along and against {} at the joint angles {:.2f} "
-          "rad",
-          0.5 * kForce, kForce, "xyz"[axis], fmt::join(q.data(), q.data() + q.size(), ", "));
+          "{}",
+          0.5 * kForce, kForce, "xyz"[axis], fmt::join(q.data(), q.data() + q.size(), ", "),
+          unit_of(robot.elastic, "rad"));
       all.push_back(std::move(experiment));
     }
   }
   return all;
 }
 
+/// How far a joint goes to and fro: rad; of one that slides a share of its travel, m.
+double swing_of(const model::ChainJoint& joint) {
+  return joint.slides() ? std::min(0.3, 0.2 * (joint.upper - joint.lower)) : 0.3;
+}
+
 /// One joint at a time to and fro about where the recording began, slowly and fast.
-std::vector<Experiment> motions(const Scene& scene) {
-  constexpr double kSwing = 0.3;  // rad
+std::vector<Experiment> motions(const model::Robot& robot, const Scene& scene) {
   constexpr Eigen::Index kRows = 600;
   std::vector<Experiment> all;
   for (Eigen::Index joint = 0; joint < scene.joints(); ++joint) {
+    const double swing = swing_of(robot.elastic.joint(joint));
     for (const double speed : {0.02, 0.1, 0.5}) {
       Experiment experiment;
       recording::Recording& recording = experiment.recording;
-      const double omega = speed / kSwing;
+      const double omega = speed / swing;
       recording.time = Eigen::VectorXd::LinSpaced(kRows, 0, 4 * M_PI / omega);
       recording.q_meas = recording::Samples(scene.q.row(0).replicate(kRows, 1));
-      recording.q_meas->col(joint).array() += kSwing * (omega * recording.time.array()).sin();
+      recording.q_meas->col(joint).array() += swing * (omega * recording.time.array()).sin();
       experiment.description = fmt::format(
-          "joint {} alone to and fro in both directions by {:.1f} rad, at up to {} "
-          "rad/s",
-          joint + 1, kSwing, speed);
+          "joint {0} alone to and fro in both directions by {1:.2g} {3}, at up to {2} {3}/s",
+          joint + 1, swing, speed, unit_of(robot.elastic.joint(joint), "rad"));
       all.push_back(std::move(experiment));
     }
   }
@@ -80,7 +86,7 @@ std::vector<Experiment> motions(const Scene& scene) {
 
 std::vector<Experiment> experiments(const Observations& observations) {
   std::vector<Experiment> all = load_tests(observations.machine.robot);
-  for (Experiment& motion : motions(observations.scenes.front())) {
+  for (Experiment& motion : motions(observations.machine.robot, observations.scenes.front())) {
     all.push_back(std::move(motion));
   }
   for (Experiment& experiment : all) {
@@ -118,8 +124,8 @@ std::array<double, 3> noises(const Observations& observations) {
 }
 
 /// Largest difference of two machines' predictions over the noise, and where.
-double separation(const Machine& first, const Machine& second, const Scene& scene,
-                  const std::array<double, 3>& noise, std::string* where) {
+double separation(const Observations& observations, const Machine& first, const Machine& second,
+                  const Scene& scene, const std::array<double, 3>& noise, std::string* where) {
   const Prediction a = with_terms(first.terms, scene, simulate(first, scene));
   const Prediction b = with_terms(second.terms, scene, simulate(second, scene));
   double most = 0;
@@ -128,7 +134,7 @@ double separation(const Machine& first, const Machine& second, const Scene& scen
       const double apart = (a.channel[i] - b.channel[i]).cwiseAbs().maxCoeff();
       if (apart / noise[i] > most) {
         most = apart / noise[i];
-        *where = fmt::format("{:.2g} {}", apart, simulation::kChannelUnits[i]);
+        *where = fmt::format("{:.2g} {}", apart, unit_of(observations, static_cast<Channel>(i)));
       }
     }
   }
@@ -155,7 +161,8 @@ std::string suggest_experiment(const Observations& observations, const Diagnosis
         simulation::prepare(experiment.recording, experiment.recording.size(), &preparation);
     std::string where;
     try {
-      const double apart = separation(diagnosis.choice.fit.machine, rival, scene, noise, &where);
+      const double apart =
+          separation(observations, diagnosis.choice.fit.machine, rival, scene, noise, &where);
       if (apart > most) {
         most = apart;
         text = fmt::format(

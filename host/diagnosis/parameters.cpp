@@ -114,13 +114,18 @@ std::string readable(double value, const std::string& unit) {
   return three_digits(value) + " " + unit;
 }
 
-double shown(Channel channel, double value) {
-  return channel == simulation::joint_torque ? value : 1e6 * value;
+std::string unit_of(const Observations& observations, Channel channel) {
+  const std::string unit = simulation::kChannelUnits[channel];
+  return channel == simulation::tcp_position
+             ? unit
+             : model::unit_of(observations.machine.robot.elastic, unit);
 }
 
-std::string shown_unit(Channel channel) {
-  constexpr const char* kUnits[] = {"µm", "N·m", "µrad"};
-  return kUnits[channel];
+std::string unit_of(const Observations& observations, Channel channel, Eigen::Index component) {
+  const std::string unit = simulation::kChannelUnits[channel];
+  return channel == simulation::tcp_position
+             ? unit
+             : model::unit_of(observations.machine.robot.elastic.joint(component), unit);
 }
 
 }  // namespace flexcomp::diagnosis

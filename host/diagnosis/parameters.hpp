@@ -35,8 +35,10 @@ std::string three_digits(double value);
 /// A value with its unit as people write it: 0.21 mrad, 14 µm.
 std::string readable(double value, const std::string& unit);
 
-/// A value of a channel in the unit that people read: µm, N·m, µrad.
-double shown(Channel channel, double value);
-std::string shown_unit(Channel channel);
+/// SI unit of a channel: m, N·m, rad; N and m where all joints slide, both where some do.
+std::string unit_of(const Observations& observations, Channel channel);
+
+/// The same of one component: an axis, or a joint.
+std::string unit_of(const Observations& observations, Channel channel, Eigen::Index component);
 
 }  // namespace flexcomp::diagnosis

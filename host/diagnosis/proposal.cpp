@@ -70,7 +70,7 @@ double reference_of(const Feature& feature, const Observations& observations) {
   }
 }
 
-std::string text_of(const Feature& feature, double reference) {
+std::string text_of(const Feature& feature, double reference, const model::Robot& robot) {
   constexpr const char* kNames[] = {"angle of joint", "speed of joint", "load on joint", "time",
                                     "temperature"};
   std::string name = feature.joint > 0 ? fmt::format("{} {}", kNames[feature.kind], feature.joint)
@@ -81,13 +81,23 @@ std::string text_of(const Feature& feature, double reference) {
   if (feature.shape == Feature::size) {
     return "|" + name + "|";
   }
-  return feature.kind == Feature::angle ? fmt::format("({} − {:.3g} rad)²", name, reference)
-                                        : "(" + name + ")²";
+  return feature.kind == Feature::angle
+             ? fmt::format("({} − {:.3g} {})²", name, reference,
+                           unit_of(robot.elastic.joint(feature.joint - 1), "rad"))
+             : "(" + name + ")²";
 }
 
-std::string unit_of(const Feature& feature, const std::string& output) {
-  constexpr const char* kUnits[] = {"rad", "(rad/s)", "(N·m)", "s", "K"};
-  return output + "/" + kUnits[feature.kind] + (feature.shape == Feature::square ? "²" : "");
+/// An error's unit (as of a joint that turns) over that of a feature.
+std::string unit_of(const Feature& feature, const std::string& output, const model::Robot& robot) {
+  constexpr const char* kUnits[] = {"rad", "rad/s", "N·m", "s", "K"};
+  std::string unit = kUnits[feature.kind];
+  if (feature.joint > 0) {
+    unit = model::unit_of(robot.elastic.joint(feature.joint - 1), unit);
+  }
+  const bool is_compound =
+      unit.find('/') != std::string::npos || unit.find("·") != std::string::npos;
+  return output + "/" + (is_compound ? "(" + unit + ")" : unit) +
+         (feature.shape == Feature::square ? "²" : "");
 }
 
 std::vector<Feature> features(const Observations& observations) {
@@ -123,13 +133,15 @@ bool is_known(const Feature& feature, int joint, bool is_torque, bool follows_co
 }
 
 /// An error of a joint's torque (N·m) or angle (rad): coefficient · feature + constant.
-effects::LawPointer law_of(const Feature& feature, double reference, bool is_torque, int joint) {
-  const std::string output = is_torque ? "N·m" : "rad";
+effects::LawPointer law_of(const model::Robot& robot, const Feature& feature, double reference,
+                           bool is_torque, int joint) {
+  const std::string output =
+      model::unit_of(robot.elastic.joint(joint - 1), is_torque ? "N·m" : "rad");
   effects::Law law;
   law.effect = fmt::format("{} of joint {} in error by {}", is_torque ? "torque" : "angle", joint,
-                           text_of(feature, reference));
+                           text_of(feature, reference, robot));
   law.traits.linear_in = 2;
-  law.parameters = [unit = unit_of(feature, output), output](const model::Robot&, int) {
+  law.parameters = [unit = unit_of(feature, output, robot), output](const model::Robot&, int) {
     return std::vector<effects::Parameter>{{"coefficient", unit}, {"constant", output}};
   };
   law.apply = [=](const Values& values, int at_joint, Machine* machine) {
@@ -162,7 +174,8 @@ Hypothesis term_of(const Observations& observations, const Feature& feature, int
   // A drive is in error by no more than twice what it was seen to give, an angle by 0.1 rad.
   const double far = is_torque ? 100 * step : 0.1;
   const double unit = std::max(largest, 1e-9);
-  Hypothesis term(law_of(feature, reference, is_torque, joint), joint, observations.machine.robot);
+  Hypothesis term(law_of(observations.machine.robot, feature, reference, is_torque, joint), joint,
+                  observations.machine.robot);
   term.set_bounds({{-far / unit, far / unit, step / unit}, {-far, far, step}});
   return term;
 }

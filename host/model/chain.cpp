@@ -82,6 +82,17 @@ Chain chain_of(const RobotModel<double, 6>& model) {
   return chain;
 }
 
+std::string unit_of(const Chain& chain, const std::string& of_turning) {
+  const auto slides = [](const ChainJoint& joint) { return joint.slides(); };
+  const auto first = std::find_if(chain.joints.begin(), chain.joints.end(), slides);
+  if (first == chain.joints.end()) {
+    return of_turning;
+  }
+  const std::string of_sliding = unit_of(*first, of_turning);
+  const bool all_slide = std::all_of(chain.joints.begin(), chain.joints.end(), slides);
+  return all_slide || of_sliding == of_turning ? of_sliding : of_turning + " or " + of_sliding;
+}
+
 std::string unit_of(const ChainJoint& joint, const std::string& of_turning) {
   using Pair = std::pair<std::string_view, std::string_view>;
   static constexpr std::array<Pair, 10> kUnits = {{{"rad", "m"},

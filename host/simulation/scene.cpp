@@ -108,15 +108,14 @@ Eigen::VectorXd filled(Eigen::VectorXd values) {
 
 void refuse_unusable(const recording::Recording& recording) {
   if (!recording.q_meas && !recording.q_cmd) {
-    throw InputError(
-        fmt::format("{}: joint angles are needed: columns q_meas_1..q_meas_6 or q_cmd_1..q_cmd_6",
-                    recording.file));
+    throw InputError(fmt::format("{}: joint angles are needed: columns q_meas_1..n or q_cmd_1..n",
+                                 recording.file));
   }
   if (!recording.position && !recording.tau && !(recording.q_link && recording.q_meas)) {
-    throw InputError(fmt::format(
-        "{}: nothing to compare with: columns x,y,z or tau_1..tau_6 or q_link_1..q_link_6 with "
-        "q_meas_1..q_meas_6 are needed",
-        recording.file));
+    throw InputError(
+        fmt::format("{}: nothing to compare with: columns x,y,z or tau_1..n or q_link_1..n with "
+                    "q_meas_1..n are needed",
+                    recording.file));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/output/words.hpp"
+#include "diagnosis/parameters.hpp"
 #include "report/gnuplot.hpp"
 
 namespace flexcomp::diagnosis {
@@ -57,7 +58,7 @@ std::string course_block(const std::string& name, const Course& course, double s
 }
 
 /// A unit in which the course's own size is easy to read.
-Scale course_scale(Channel channel, const Course& course) {
+Scale course_scale(Channel channel, const std::string& unit, const Course& course) {
   double most = 0;
   for (const CoursePoint& at : course) {
     most = std::max(most, std::abs(at.measured));
@@ -65,7 +66,7 @@ Scale course_scale(Channel channel, const Course& course) {
   if (channel == simulation::tcp_position && most > 0.1) {
     return {1, "m"};
   }
-  return scale_of(channel, most);
+  return scale_of(unit, most);
 }
 
 constexpr const char* kMeasured = "#222222";
@@ -91,8 +92,9 @@ std::vector<Panel> panels_of(const Observations& observations, const Eigen::Vect
     for (const CoursePoint& at : course) {
       largest = std::max(largest, std::abs(at.measured - at.nominal));
     }
-    const Scale size = course_scale(channel, course);
-    const Scale error = scale_of(channel, largest);
+    const std::string unit = unit_of(observations, channel, component);
+    const Scale size = course_scale(channel, unit, course);
+    const Scale error = scale_of(unit, largest);
     const std::string name = fmt::format("course{}", component);
     const double times = error.factor / size.factor;
     panels.push_back(

@@ -43,7 +43,7 @@ std::string channel_table(const Observations& observations, const Diagnosis& dia
     const auto rms = [&](const Eigen::VectorXd& values) {
       return observations.rms(values, channel, held_out);
     };
-    const Scale scale = scale_of(channel, rms(observations.residual));
+    const Scale scale = scale_of(unit_of(observations, channel), rms(observations.residual));
     rows += fmt::format(
         "<tr><td>{}, {}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n", in_words(channel),
         scale.unit, three_digits(scale.factor * rms(ones(observations))),
@@ -63,7 +63,8 @@ std::string component_table(const Observations& observations, const Diagnosis& d
                             Channel channel) {
   const bool held_out = has_holdout(observations);
   const Eigen::VectorXd& after = diagnosis.updated().remainder;
-  const Scale scale = scale_of(channel, observations.rms(observations.residual, channel, held_out));
+  const Scale scale = scale_of(unit_of(observations, channel),
+                               observations.rms(observations.residual, channel, held_out));
   std::string rows;
   for (Eigen::Index component = 0; component < observations.scenes.front().measured[channel].cols();
        ++component) {

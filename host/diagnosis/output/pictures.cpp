@@ -8,6 +8,7 @@
 
 #include "diagnosis/cues.hpp"
 #include "diagnosis/output/words.hpp"
+#include "diagnosis/parameters.hpp"
 #include "report/gnuplot.hpp"
 
 namespace flexcomp::diagnosis {
@@ -56,7 +57,7 @@ std::string time_picture(const Observations& observations, const Eigen::VectorXd
                          Channel channel) {
   const Scene& scene = observations.scenes.front();
   const Eigen::VectorXd lengths = length_by_row(observations, observations.residual, channel);
-  const Scale scale = scale_of(channel, largest_of(lengths));
+  const Scale scale = scale_of(unit_of(observations, channel), largest_of(lengths));
   const Eigen::VectorXd first = scale.factor * lengths;
   const Eigen::VectorXd second = scale.factor * length_by_row(observations, after, channel);
   const std::string style = scene.is_static ? "points pt 7 ps 0.7" : "points pt 7 ps 0.15";
@@ -102,7 +103,7 @@ std::string path_picture(const Observations& observations, const Eigen::VectorXd
       values[k] = std::sqrt(values[k] / std::max(count[k], 1.0));
     }
   }
-  const Scale scale = scale_of(simulation::tcp_position, rms[0].maxCoeff());
+  const Scale scale = scale_of("m", rms[0].maxCoeff());
   for (Eigen::VectorXd& values : rms) {
     values *= scale.factor;
   }

@@ -145,9 +145,11 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
     html += fmt::format("<p>Clock of {}: late by {:.2f} ± {:.2f} ms (95 %).</p>\n",
                         in_words(clock.group), 1e3 * clock.delay, 1.96e3 * clock.deviation);
   }
-  html +=
-      "<table><tr><th>joint</th><th>moves over, rad</th><th>up to, rad/s</th>"
-      "<th>load up to, N·m</th><th>what can be told of it</th></tr>\n";
+  const model::Chain& chain = observations.machine.robot.elastic;
+  html += fmt::format(
+      "<table><tr><th>joint</th><th>moves over, {}</th><th>up to, {}</th>"
+      "<th>load up to, {}</th><th>what can be told of it</th></tr>\n",
+      unit_of(chain, "rad"), unit_of(chain, "rad/s"), unit_of(chain, "N·m"));
   for (const Excitation& each : diagnosis.excitation) {
     html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         each.joint, three_digits(each.range), three_digits(each.largest_speed),
@@ -190,7 +192,8 @@ std::string retuned(const Observations& observations, const Diagnosis& diagnosis
   const bool held_out = observations.train < observations.size();
   const Channel channel = main_channel(observations, diagnosis.choice.fit, fit);
   const double with = observations.rms(fit.remainder, channel, held_out);
-  const Scale scale = scale_of(channel, observations.rms(observations.residual, channel, held_out));
+  const Scale scale = scale_of(unit_of(observations, channel),
+                               observations.rms(observations.residual, channel, held_out));
   std::string rows;
   for (std::size_t i = diagnosis.choice.findings.size(); i < fit.chosen.size(); ++i) {
     const Hypothesis& hypothesis = fit.chosen[i].hypothesis;

@@ -27,8 +27,7 @@ Estimate surest_of(const std::vector<Estimate>& all) {
 std::string fall(const Observations& observations, const Fit& before, const Fit& after) {
   const Channel channel = main_channel(observations, before, after);
   const auto written = [&](const Eigen::VectorXd& values, bool held_out) {
-    return readable(observations.rms(values, channel, held_out),
-                    simulation::kChannelUnits[channel]);
+    return readable(observations.rms(values, channel, held_out), unit_of(observations, channel));
   };
   return fmt::format("held-out error of {} falls from {} to {}, noise {}", in_words(channel),
                      written(before.remainder, true), written(after.remainder, true),

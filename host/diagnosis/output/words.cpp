@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+
 namespace flexcomp::diagnosis {
 
 std::string in_words(const std::string& effect) {
@@ -57,11 +58,10 @@ std::string component_in_words(Channel channel, Eigen::Index component) {
                                              : fmt::format("joint {}", component + 1);
 }
 
-Scale scale_of(Channel channel, double largest) {
-  if (channel == simulation::joint_torque) {
-    return {1, "N·m"};
+Scale scale_of(const std::string& unit, double largest) {
+  if (unit != "m" && unit != "rad") {
+    return {1, unit};
   }
-  const std::string unit = channel == simulation::tcp_position ? "m" : "rad";
   constexpr double kMilli = 1e-3;
   return largest < kMilli ? Scale{1e6, "µ" + unit} : Scale{1e3, "m" + unit};
 }

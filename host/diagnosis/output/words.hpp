@@ -19,11 +19,12 @@ std::string in_words(Channel channel);
 /// "x" of a position, "joint 3" of a torque.
 std::string component_in_words(Channel channel, Eigen::Index component);
 
-/// The unit in which values of a channel are told, by the largest of them: mm or µm, mrad or µrad.
+/// The unit in which values are told, by their SI unit and the largest of them: mm or µm, mrad or
+/// µrad; torques and forces as they are.
 struct Scale {
   double factor;
   std::string unit;
 };
-Scale scale_of(Channel channel, double largest);
+Scale scale_of(const std::string& unit, double largest);
 
 }  // namespace flexcomp::diagnosis

@@ -57,14 +57,14 @@ Forms laws::backlash() {
   by_load.form = "load";
   by_load.joints = every_joint;
   by_load.traits.linear_in = 1;
-  by_load.parameters = constant({{"gap", "rad"}, {"hold", "N·m"}});
+  by_load.parameters = of_joint({{"gap", "rad"}, {"hold", "N·m"}});
   by_load.statement = says("joint {} has play");
   by_load.write_keys = add_key;
   Law by_motion = by_load;
   add_term([](const Values& values, int joint) { return load_play(joint, values[0], values[1]); },
            &by_load);
   by_motion.form = "motion";
-  by_motion.parameters = constant({{"gap", "rad"}});
+  by_motion.parameters = of_joint({{"gap", "rad"}});
   add_term([](const Values& values, int joint) { return motion_play(joint, values[0]); },
            &by_motion);
   const auto apply_keys = [](const model::Robot& robot, int joint, Machine* machine) {

@@ -57,6 +57,9 @@ Forms laws::gravity_compensator() {
   spring.joints = every_joint;
   spring.traits.linear_in = 2;
   spring.statement = says("a balancer acts on joint {}");
+  spring.impossible = [](const model::Robot& robot, int joint) {
+    return robot.elastic.joint(joint - 1).slides() ? "it slides, and a balancer leans" : "";
+  };
   Law sine = spring;
   spring.parameters = constant({{"stiffness_torque", "N·m"},
                                 {"pull_torque", "N·m"},

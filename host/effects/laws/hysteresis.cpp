@@ -32,7 +32,7 @@ Law loop_law(const char* form, Loop loop) {
   law.form = form;
   law.joints = every_joint;
   law.traits.linear_in = 1;
-  law.parameters = constant({{"amplitude", "rad"}, {"yield_torque", "N·m"}});
+  law.parameters = of_joint({{"amplitude", "rad"}, {"yield_torque", "N·m"}});
   law.statement = says("joint {} has a loop in its torque-deflection curve");
   add_term([loop](const Values& values, int joint) { return loop_term(joint, loop, values); },
            &law);

@@ -11,14 +11,17 @@ Forms laws::joint_offset() {
   law.traits.is_in_family = true;
   law.traits.alters_model = true;
   law.traits.measures = Measures::zero;
-  law.parameters = constant({{"offset", "rad"}});
+  law.parameters = of_joint({{"offset", "rad"}});
   law.statement = says("the encoder of joint {} has another zero");
   law.apply = [](const Values& values, int joint, Machine* machine) {
     machine->encoder_offset[joint - 1] += values[0];
   };
   return {{law},
           {},
-          {{"", " offset ", [](const Subject&) { return within(M_PI); },
+          {{"", " offset ",
+            [](const Subject& of) {
+              return within(of.joint().slides() ? of.joint().upper - of.joint().lower : M_PI);
+            },
             "an encoder may be set to zero anywhere"}}};
 }
 

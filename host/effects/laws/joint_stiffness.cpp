@@ -9,7 +9,9 @@ constexpr double kSmallestShare = 0.01;  // of a spring's compliance, of one in 
 
 Range joint_spring(const Subject& of) {
   const double known = of.joint().compliance;
-  const double most = softest(kMostTurn, kSpringTurn, of.load());
+  const double most = of.joint().slides()
+                          ? softest(kMostShift, kShiftOfReach * of.size.reach, of.load())
+                          : softest(kMostTurn, kSpringTurn, of.load());
   if (!(known > 0)) {
     return up_to(most);
   }
@@ -27,11 +29,12 @@ Forms laws::joint_stiffness() {
   law.traits.is_in_family = true;
   law.traits.is_model_number = true;
   law.traits.measures = Measures::stiffness;
-  law.parameters = constant({{"compliance_change", "rad/(N·m)"}});
+  law.parameters = of_joint({{"compliance_change", "rad/(N·m)"}});
   law.statement = says("the spring of joint {} has another stiffness");
   law.derived = [](const model::Robot& robot, int joint, const Values& values) {
-    const double known = robot.elastic.joints[index_of(joint)].compliance;
-    return std::vector<Derived>{{"compliance", "rad/(N·m)", known + values[0], 0}};
+    const model::ChainJoint& at = robot.elastic.joints[index_of(joint)];
+    return std::vector<Derived>{
+        {"compliance", model::unit_of(at, "rad/(N·m)"), at.compliance + values[0], 0}};
   };
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {

@@ -37,6 +37,27 @@ std::function<std::vector<Parameter>(const model::Robot&, int)> constant(
   return [parameters = std::move(parameters)](const model::Robot&, int) { return parameters; };
 }
 
+std::function<std::vector<Parameter>(const model::Robot&, int)> of_joint(
+    std::vector<Parameter> parameters) {
+  return [parameters = std::move(parameters)](const model::Robot& robot, int joint) {
+    std::vector<Parameter> here = parameters;
+    for (Parameter& each : here) {
+      each.unit = model::unit_of(robot.elastic.joint(joint - 1), each.unit);
+    }
+    return here;
+  };
+}
+
+std::function<std::vector<Parameter>(const model::Robot&, int)> wave_of_joint(
+    const std::string& unit) {
+  return [unit](const model::Robot& robot, int joint) {
+    const model::ChainJoint& at = robot.elastic.joint(joint - 1);
+    const std::string amplitude = model::unit_of(at, unit);
+    return std::vector<Parameter>{
+        {"sine", amplitude}, {"cosine", amplitude}, {"order", at.slides() ? "rad/m" : "1"}};
+  };
+}
+
 std::function<std::string(int)> says(const char* clause) {
   return [clause](int joint) { return fmt::format(fmt::runtime(clause), joint); };
 }

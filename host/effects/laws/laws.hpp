@@ -28,6 +28,16 @@ namespace laws {
 std::function<std::vector<Parameter>(const model::Robot&, int joint)> constant(
     std::vector<Parameter> parameters);
 
+/// Parameters of a law at a joint, with the units that they have at one that turns: at one that
+/// slides they are m for rad, N for N·m, and so on.
+std::function<std::vector<Parameter>(const model::Robot&, int joint)> of_joint(
+    std::vector<Parameter> parameters);
+
+/// Amplitudes of a sine and a cosine along a joint (their unit as at one that turns), and how many
+/// waves there are in a turn, or radians of the wave in a metre.
+std::function<std::vector<Parameter>(const model::Robot&, int joint)> wave_of_joint(
+    const std::string& unit);
+
 /// A clause about a joint, its number in the place of {}.
 std::function<std::string(int joint)> says(const char* clause);
 

@@ -21,7 +21,7 @@ Forms laws::nonlinear_stiffness() {
   Law law;
   law.joints = every_joint;
   law.traits.linear_in = 1;
-  law.parameters = constant({{"cubic_compliance", "rad/(N·m)^3"}});
+  law.parameters = of_joint({{"cubic_compliance", "rad/(N·m)^3"}});
   law.statement = says("joint {} winds up out of proportion to its torque");
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {

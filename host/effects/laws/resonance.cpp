@@ -62,7 +62,7 @@ Forms laws::resonance() {
               int joint) { return vibration(joint, everywhere(values[0]), values[1]); },
            &constant_mode);
   by_posture.form = "posture";
-  by_posture.parameters = constant({{"stiffness", "N·m/rad"}, {"damping", "1"}});
+  by_posture.parameters = of_joint({{"stiffness", "N·m/rad"}, {"damping", "1"}});
   by_posture.impossible = [](const model::Robot& robot, int joint) {
     const double inertia =
         carried_inertia(robot, simulation::JointValues::Zero(robot.joints()), joint);

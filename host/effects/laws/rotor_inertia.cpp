@@ -10,7 +10,7 @@ Forms laws::rotor_inertia() {
   law.traits.linear_in = 1;
   law.traits.tells_inertia = true;
   law.traits.is_in_family = true;
-  law.parameters = constant({{"inertia", "kg·m^2"}});
+  law.parameters = of_joint({{"inertia", "kg·m^2"}});
   law.statement = says("the rotor of joint {} has another inertia");
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {

@@ -22,7 +22,7 @@ Forms laws::stribeck_friction() {
   Law law;
   law.joints = every_joint;
   law.traits.linear_in = 1;
-  law.parameters = constant({{"excess", "N·m"}, {"speed", "rad/s"}});
+  law.parameters = of_joint({{"excess", "N·m"}, {"speed", "rad/s"}});
   law.statement = says("the friction of joint {} rises at low speed");
   add_term(
       [](const Values& values, int joint) { return slow_friction(joint, values[0], values[1]); },

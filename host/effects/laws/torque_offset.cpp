@@ -8,7 +8,7 @@ Forms laws::torque_offset() {
   law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
-  law.parameters = constant({{"torque", "N·m"}});
+  law.parameters = of_joint({{"torque", "N·m"}});
   law.statement = says("the torque of joint {} has another zero");
   add_term(
       [](const Values& values, int joint) {

@@ -9,7 +9,7 @@ Forms laws::torque_ripple() {
   law.joints = every_joint;
   law.traits.linear_in = 2;
   law.traits.is_wave = true;
-  law.parameters = constant({{"sine", "N·m"}, {"cosine", "N·m"}, {"order", "1"}});
+  law.parameters = wave_of_joint("N·m");
   law.statement = says("the torque of joint {} has a periodic part");
   add_term(
       [](const Values& values, int joint) {

@@ -9,7 +9,7 @@ Forms laws::transmission_ripple() {
   law.joints = every_joint;
   law.traits.linear_in = 2;
   law.traits.is_wave = true;
-  law.parameters = constant({{"sine", "rad"}, {"cosine", "rad"}, {"order", "1"}});
+  law.parameters = wave_of_joint("rad");
   law.statement = says("the gear of joint {} has a periodic error");
   add_term(
       [](const Values& values, int joint) {

@@ -10,7 +10,7 @@ Forms laws::viscous_friction() {
   both_ways.traits.linear_in = 1;
   both_ways.traits.is_in_family = true;
   both_ways.traits.is_model_number = true;
-  both_ways.parameters = constant({{"coefficient", "N·m·s/rad"}});
+  both_ways.parameters = of_joint({{"coefficient", "N·m·s/rad"}});
   both_ways.statement = says("joint {} has another viscous friction");
   alter_keys([](const Values& values, int joint,
                 model::Robot* robot) { robot->dynamics[index_of(joint)].viscous += values[0]; },
@@ -19,7 +19,7 @@ Forms laws::viscous_friction() {
   by_direction.form = "by_direction";
   by_direction.joints = every_joint;
   by_direction.traits.linear_in = 2;
-  by_direction.parameters = constant({{"forward", "N·m·s/rad"}, {"backward", "N·m·s/rad"}});
+  by_direction.parameters = of_joint({{"forward", "N·m·s/rad"}, {"backward", "N·m·s/rad"}});
   by_direction.statement =
       says("joint {} has another viscous friction, unlike in its two directions");
   add_term(
