@@ -15,7 +15,7 @@ struct MovingRobot {
   recording::Recording recording;
 
   MovingRobot() : robot(model::load_robot(FLEXCOMP_ROBOTS "/kr270/robot.yaml")) {
-    constexpr Eigen::Index kRows = 200;
+    constexpr Eigen::Index kRows = FLEXCOMP_FEW_CASES ? 50 : 200;
     constexpr double kMiddle[] = {0, -1.2, 1.4, 0.3, 0.6, 0.1};
     robot.elastic.gravity = {0, 0, -9.81};
     recording.file = "moving.csv";
