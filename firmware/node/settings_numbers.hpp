@@ -24,7 +24,7 @@ constexpr bool is_in_range(Number value, SettingRange range) {
     case SettingRange::up_to_six:
       return value >= 0 && value <= 6;
   }
-  return value == value;
+  return value == value;  // NOLINT(misc-redundant-expression): false for what is no number
 }
 
 /// A number of the settings as `flexcompd` offers it.

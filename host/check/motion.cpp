@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace flexcomp::check {
@@ -74,8 +75,8 @@ Eigen::RowVectorXd usual_top_speed(const Eigen::VectorXd& time, const recording:
 Eigen::RowVectorXd ranges(const recording::Samples& samples) {
   Eigen::RowVectorXd range = Eigen::RowVectorXd::Zero(samples.cols());
   for (Eigen::Index column = 0; column < samples.cols(); ++column) {
-    double least = INFINITY;
-    double most = -INFINITY;
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
     for (Eigen::Index row = 0; row < samples.rows(); ++row) {
       if (std::isfinite(samples(row, column))) {
         least = std::min(least, samples(row, column));

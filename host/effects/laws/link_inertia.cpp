@@ -16,7 +16,7 @@ double least_second_moment(const Matrix3<double>& inertia) {
 }
 
 std::string why_no_density(const model::Robot& model, const model::Robot& altered,
-                           const MachineSize&, int joint) {
+                           const MachineSize& /*size*/, int joint) {
   const auto least = [&](const model::Robot& robot) {
     return least_second_moment(robot.link_inertia[index_of(joint)]);
   };
