@@ -23,6 +23,11 @@ void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction
   }
 }
 
+Eigen::ArrayXd directions(const Simulation& simulation, int joint) {
+  return simulation.velocity.col(joint - 1).array().unaryExpr(
+      [](double speed) { return static_cast<double>(simulation::direction_of_motion(speed)); });
+}
+
 Eigen::VectorXd ripple(const Simulation& simulation, int joint, const std::vector<double>& values) {
   const Eigen::ArrayXd wave = values[2] * simulation.q.col(joint - 1).array();
   return values[0] * wave.sin() + values[1] * wave.cos();

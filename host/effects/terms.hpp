@@ -23,6 +23,9 @@ void add_load_driven(const Simulation& simulation, int joint,
 /// Adds a torque (n, N·m) to a joint's drive.
 void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction);
 
+/// Direction in which a joint moves (n): 1, −1, or 0 where it stands.
+Eigen::ArrayXd directions(const Simulation& simulation, int joint);
+
 /// a sin(order·q) + b cos(order·q) along a joint's angle; values: a, b, order.
 Eigen::VectorXd ripple(const Simulation& simulation, int joint, const std::vector<double>& values);
 

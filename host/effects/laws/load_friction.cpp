@@ -8,10 +8,7 @@ Term friction_under_load(int joint, double coefficient) {
             if (prediction->dynamic_load.cols() == 0) {
               return;
             }
-            const Eigen::ArrayXd direction =
-                at.velocity.col(joint - 1).array().unaryExpr([](double value) {
-                  return static_cast<double>(simulation::direction_of_motion(value));
-                });
+            const Eigen::ArrayXd direction = directions(at, joint);
             add_torque(
                 joint,
                 coefficient * direction * prediction->dynamic_load.col(joint - 1).array().abs(),

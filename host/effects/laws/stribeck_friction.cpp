@@ -6,9 +6,7 @@ namespace {
 Term slow_friction(int joint, double excess, double stribeck_speed) {
   return {Term::output, [=](const Scene&, const Simulation& at, Prediction* prediction) {
             const Eigen::ArrayXd speed = at.velocity.col(joint - 1).array();
-            const Eigen::ArrayXd direction = speed.unaryExpr([](double value) {
-              return static_cast<double>(simulation::direction_of_motion(value));
-            });
+            const Eigen::ArrayXd direction = directions(at, joint);
             add_torque(joint, excess * (-(speed / stribeck_speed).square()).exp() * direction,
                        prediction);
           }};
