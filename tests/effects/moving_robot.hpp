@@ -8,19 +8,19 @@
 
 namespace flexcomp::test {
 
-/// A KR 270 under gravity that swings all joints for two seconds, pushed by a changing force; with
-/// every column that a recording can have.
+/// A KR 270 under gravity that swings all joints, pushed by a changing force, at 100 Hz; with every
+/// column that a recording can have.
 struct MovingRobot {
   model::Robot robot;
   recording::Recording recording;
 
-  MovingRobot() : robot(model::load_robot(FLEXCOMP_ROBOTS "/kr270/robot.yaml")) {
-    constexpr Eigen::Index kRows = FLEXCOMP_FEW_CASES ? 50 : 200;
+  explicit MovingRobot(Eigen::Index rows = 200)
+      : robot(model::load_robot(FLEXCOMP_ROBOTS "/kr270/robot.yaml")) {
     constexpr double kMiddle[] = {0, -1.2, 1.4, 0.3, 0.6, 0.1};
     robot.elastic.gravity = {0, 0, -9.81};
     recording.file = "moving.csv";
-    recording.time = Eigen::VectorXd::LinSpaced(kRows, 0, 0.01 * (kRows - 1));
-    recording::Samples q(kRows, 6);
+    recording.time = Eigen::VectorXd::LinSpaced(rows, 0, 0.01 * static_cast<double>(rows - 1));
+    recording::Samples q(rows, 6);
     for (Eigen::Index joint = 0; joint < 6; ++joint) {
       const double omega = 4 + static_cast<double>(joint);
       q.col(joint) = kMiddle[joint] + 0.2 * (omega * recording.time.array()).sin();
@@ -28,9 +28,9 @@ struct MovingRobot {
     recording.q_cmd = q;
     recording.q_meas = q;
     recording.q_link = q;
-    recording.tau = recording::Samples::Zero(kRows, 6);
-    recording.position = recording::Samples::Zero(kRows, 3);
-    recording.wrench = recording::Samples::Zero(kRows, 6);
+    recording.tau = recording::Samples::Zero(rows, 6);
+    recording.position = recording::Samples::Zero(rows, 3);
+    recording.wrench = recording::Samples::Zero(rows, 6);
     recording.wrench->col(0) = 500 * (3 * recording.time.array()).cos();
     recording.wrench->col(2).setConstant(-800);
     recording.temperature = 20 + recording.time.array();

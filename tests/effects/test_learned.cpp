@@ -16,6 +16,9 @@ using test::MovingRobot;
 
 namespace {
 
+/// Rows of a motion that every law is simulated over: half a second at least.
+constexpr Eigen::Index kRows = FLEXCOMP_FEW_CASES ? 50 : 200;
+
 /// Sizes that any machine could have, by unit.
 double size_of(const std::string& unit) {
   const std::map<std::string, double> sizes = {{"rad", 1e-3},
@@ -67,7 +70,7 @@ std::string place_of(const LawPointer& law, int joint) {
 }
 
 void an_effect_of_no_size_changes_nothing() {
-  const MovingRobot moving;
+  const MovingRobot moving(kRows);
   const simulation::Scene scene = moving.scene();
   const simulation::Machine plain = effects::machine_of(moving.robot);
   at_every_place(moving.robot, [&](const LawPointer& law, int joint) {
@@ -81,7 +84,7 @@ void an_effect_of_no_size_changes_nothing() {
 }
 
 void an_effect_that_was_learnt_is_simulated_from_the_file_it_is_written_to() {
-  const MovingRobot moving;
+  const MovingRobot moving(kRows);
   const simulation::Machine plain = effects::machine_of(moving.robot);
   at_every_place(moving.robot, [&](const LawPointer& law, int joint) {
     const bool is_of_command = law->effect == "servo_lag";

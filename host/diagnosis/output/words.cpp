@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-
 namespace flexcomp::diagnosis {
 
 std::string in_words(const std::string& effect) {

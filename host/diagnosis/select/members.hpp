@@ -9,8 +9,8 @@ namespace flexcomp::diagnosis {
 ///
 /// A machine that is a little off in many places shows no single cause that accounts for most of
 /// the mismatch; its numbers stand together then, or not at all. So none stands unless they account
-/// for enough of the mismatch (kLeastByFamilies) in what was fitted to and in what was held out, and
-/// are several: one or two causes are the search's business.
+/// for enough of the mismatch (kLeastByFamilies) in what was fitted to and in what was held out,
+/// and are several: one or two causes are the search's business.
 std::vector<Finding> members_that_stand(const Inquiry& inquiry, const Fit& whole);
 
 }  // namespace flexcomp::diagnosis
