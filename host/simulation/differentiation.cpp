@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flexcomp::simulation {
@@ -65,26 +66,31 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
   constexpr int kCount = kOrder + 1;
   const Eigen::Index row = window.row;
   const double span = std::max(time[window.last] - time[row], time[row] - time[window.first]);
-  Eigen::Matrix<double, kCount + 1, kCount + 1> gram;
+  std::array<double, 2 * kCount + 1> sums{};  // of the powers of time
   Columns<double, kCount + 1> moment = Columns<double, kCount + 1>::Zero(kCount + 1, q.cols());
-  gram.setZero();
   Eigen::Index used = 0;
   for (Eigen::Index i = window.first; i <= window.last; ++i) {
     if (q.row(i).allFinite()) {
-      Eigen::Matrix<double, kCount + 1, 1> powers;
       const double s = (time[i] - time[row]) / span;
-      powers[0] = 1;
-      for (int k = 1; k <= kCount; ++k) {
-        powers[k] = powers[k - 1] * s;
+      double power = 1;
+      for (int k = 0; k <= 2 * kCount; ++k, power *= s) {
+        sums[static_cast<std::size_t>(k)] += power;
+        if (k <= kCount) {
+          moment.row(k) += power * (q.row(i) - q.row(row));
+        }
       }
-      gram += powers * powers.transpose();
-      moment += powers * (q.row(i) - q.row(row));
       ++used;
     }
   }
   LocalMotion motion(q.cols());
   if (used < kCount) {
     return motion;
+  }
+  Eigen::Matrix<double, kCount + 1, kCount + 1> gram;
+  for (int i = 0; i <= kCount; ++i) {
+    for (int j = 0; j <= kCount; ++j) {
+      gram(i, j) = sums[static_cast<std::size_t>(i + j)];
+    }
   }
   using Square = Eigen::Matrix<double, kCount, kCount>;
   const auto factors = gram.topLeftCorner<kCount, kCount>().ldlt();
@@ -172,6 +178,10 @@ std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recordi
         least[joint] = error[joint];
         best[at] = k;
       }
+    }
+    // A longer window cuts more still.
+    if ((cut.array() > least.array()).all()) {
+      break;
     }
   }
   return best;

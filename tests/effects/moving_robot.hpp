@@ -51,11 +51,8 @@ struct MovingRobot {
   }
 };
 
-/// Largest difference of two machines' predictions, over the largest value of the channel.
-inline double difference(const simulation::Machine& one, const simulation::Machine& other,
-                         const simulation::Scene& scene) {
-  const simulation::Prediction a = simulation::predict(one, {scene}).front();
-  const simulation::Prediction b = simulation::predict(other, {scene}).front();
+/// Largest difference of two predictions, over the largest value of the channel.
+inline double difference(const simulation::Prediction& a, const simulation::Prediction& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.channel.size(); ++i) {
     if (a.channel[i].cols() > 0) {
@@ -64,6 +61,13 @@ inline double difference(const simulation::Machine& one, const simulation::Machi
     }
   }
   return most;
+}
+
+/// The same of two machines' predictions for a scene.
+inline double difference(const simulation::Machine& one, const simulation::Machine& other,
+                         const simulation::Scene& scene) {
+  return difference(simulation::predict(one, {scene}).front(),
+                    simulation::predict(other, {scene}).front());
 }
 
 }  // namespace flexcomp::test

@@ -73,12 +73,14 @@ void an_effect_of_no_size_changes_nothing() {
   const MovingRobot moving(kRows);
   const simulation::Scene scene = moving.scene();
   const simulation::Machine plain = effects::machine_of(moving.robot);
+  const simulation::Prediction as_it_is = simulation::predict(plain, {scene}).front();
   at_every_place(moving.robot, [&](const LawPointer& law, int joint) {
     if (law->traits.linear_in > 0) {
       simulation::Machine machine = plain;
       law->apply(values_of(*law, moving.robot, joint, 0), joint, &machine);
-      TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-9, 0, difference(machine, plain, scene),
-                                        place_of(law, joint).c_str());
+      TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(
+          1e-9, 0, difference(simulation::predict(machine, {scene}).front(), as_it_is),
+          place_of(law, joint).c_str());
     }
   });
 }
@@ -86,9 +88,10 @@ void an_effect_of_no_size_changes_nothing() {
 void an_effect_that_was_learnt_is_simulated_from_the_file_it_is_written_to() {
   const MovingRobot moving(kRows);
   const simulation::Machine plain = effects::machine_of(moving.robot);
+  const simulation::Scene measured = moving.scene();
+  const simulation::Scene commanded = moving.commanded();
   at_every_place(moving.robot, [&](const LawPointer& law, int joint) {
-    const bool is_of_command = law->effect == "servo_lag";
-    const simulation::Scene scene = is_of_command ? moving.commanded() : moving.scene();
+    const simulation::Scene& scene = law->effect == "servo_lag" ? commanded : measured;
     const Placed found{law, joint, values_of(*law, moving.robot, joint, 1)};
     simulation::Machine machine = plain;
     effects::add_effects({found}, &machine);
