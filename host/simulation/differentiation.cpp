@@ -12,10 +12,33 @@ constexpr Eigen::Index kFewestNeighbours = 3;
 constexpr int kOrder = 5;
 constexpr double kStandingStill = 1e-5;  // rad/s, far below any programmed motion
 constexpr double kBeyondNoise = 4;       // deviations
+constexpr double kMostNoiseScale = 4;  // of the variance of the angles' noise, as it was estimated
+constexpr double kTiny = 1e-300;
 
 struct Window {
   Eigen::Index first, row, last;
 };
+
+/// Rows within half a window (s), and so many at least that a polynomial is held.
+Window window_about(const Eigen::VectorXd& time, double half_window, Eigen::Index row) {
+  const Eigen::Index end = time.size() - 1;
+  Eigen::Index first = row;
+  Eigen::Index last = row;
+  while (first > 0 &&
+         (row - first < kFewestNeighbours || time[row] - time[first - 1] <= half_window)) {
+    --first;
+  }
+  while (last < end &&
+         (last - row < kFewestNeighbours || time[last + 1] - time[row] <= half_window)) {
+    ++last;
+  }
+  // At the ends of a recording one side makes up for the other.
+  while (last - first < 2 * kFewestNeighbours && (first > 0 || last < end)) {
+    first -= first > 0 && last == end ? 1 : 0;
+    last += last < end ? 1 : 0;
+  }
+  return {first, row, last};
+}
 
 /// A joint that stands still all the while has no speed, whatever a polynomial says.
 void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
@@ -113,76 +136,93 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
   return motion;
 }
 
+/// Accelerations (rad/s²) at rows all over a recording, and their gain of the angles' noise (1/s²).
+struct Probes {
+  Eigen::MatrixXd acceleration;
+  Eigen::VectorXd gain;
+};
+
+Probes probe(const Eigen::VectorXd& time, const recording::Samples& q, double half_window) {
+  constexpr Eigen::Index kMostProbes = 300;
+  const Eigen::Index count = std::min(kMostProbes, time.size());
+  const Eigen::RowVectorXd exact = Eigen::RowVectorXd::Zero(q.cols());
+  Probes probes{Eigen::MatrixXd(count, q.cols()), Eigen::VectorXd(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index row = i * (time.size() - 1) / std::max<Eigen::Index>(count - 1, 1);
+    const LocalMotion motion = differentiate(time, q, exact, window_about(time, half_window, row));
+    probes.acceleration.row(i) = motion.values.row(1);
+    probes.gain[i] = motion.gain[1];
+  }
+  return probes;
+}
+
+/// Mean square of what the angles' noise does to the accelerations, (rad/s²)².
+Eigen::ArrayXd mean_square_noise(const Probes& probes, const Eigen::RowVectorXd& angle_noise) {
+  return probes.gain.squaredNorm() / static_cast<double>(probes.gain.size()) *
+         angle_noise.array().square().transpose();
+}
+
+/// The window whose noise and cut together are least; `scale` is of the noise's variance.
+std::size_t best_of(Eigen::Index joint, const std::vector<Eigen::ArrayXd>& noise,
+                    const std::vector<Eigen::ArrayXd>& cut, double scale) {
+  constexpr double kMuchBetter = 0.5;  // of the mean square error of the shortest
+  std::size_t best = 0;
+  double least = kMuchBetter * scale * noise[0][joint];
+  for (std::size_t k = 1; k < noise.size(); ++k) {
+    const double gone = noise[0][joint] - noise[k][joint];
+    const double error =
+        std::max(cut[k][joint] - (scale - 1) * gone, 0.0) + scale * noise[k][joint];
+    if (error < least) {
+      least = error;
+      best = k;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
                          const Eigen::RowVectorXd& angle_noise, double half_window,
                          Eigen::Index row) {
-  const Eigen::Index end = time.size() - 1;
-  Eigen::Index first = row;
-  Eigen::Index last = row;
-  while (first > 0 &&
-         (row - first < kFewestNeighbours || time[row] - time[first - 1] <= half_window)) {
-    --first;
-  }
-  while (last < end &&
-         (last - row < kFewestNeighbours || time[last + 1] - time[row] <= half_window)) {
-    ++last;
-  }
-  // At the ends of a recording one side makes up for the other.
-  while (last - first < 2 * kFewestNeighbours && (first > 0 || last < end)) {
-    first -= first > 0 && last == end ? 1 : 0;
-    last += last < end ? 1 : 0;
-  }
-  LocalMotion motion = differentiate(time, q, angle_noise, {first, row, last});
+  const Window window = window_about(time, half_window, row);
+  LocalMotion motion = differentiate(time, q, angle_noise, window);
   if (half_window > kHalfWindows.front()) {
-    find_standing_in_noise(time, q, angle_noise, {first, row, last}, &motion);
+    find_standing_in_noise(time, q, angle_noise, window, &motion);
     return motion;
   }
-  find_standing(time, q, angle_noise, {first, row, last}, &motion);
+  find_standing(time, q, angle_noise, window, &motion);
   return motion;
 }
 
 std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recording::Samples& q,
                                       const Eigen::RowVectorXd& angle_noise) {
-  constexpr Eigen::Index kMostProbes = 300;
-  constexpr double kMuchBetter = 0.5;  // of the mean square error of the shortest
   const Eigen::Index joints = q.cols();
-  const Eigen::Index count = std::min(kMostProbes, time.size());
-  std::vector<std::size_t> best(static_cast<std::size_t>(joints), 0);
-  Eigen::MatrixXd shortest(count, joints);
-  Eigen::VectorXd shortest_gain(count);
-  Eigen::RowVectorXd least(joints);
-  for (std::size_t k = 0; k < kHalfWindows.size(); ++k) {
-    Eigen::RowVectorXd cut = Eigen::RowVectorXd::Zero(joints);
-    double gain_square = 0;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Index row = i * (time.size() - 1) / std::max<Eigen::Index>(count - 1, 1);
-      const LocalMotion motion = local_motion(time, q, angle_noise, kHalfWindows[k], row);
-      const double gain = motion.gain[1];
-      gain_square += gain * gain / static_cast<double>(count);
-      if (k == 0) {
-        shortest.row(i) = motion.values.row(1);
-        shortest_gain[i] = gain;
-      }
-      const double gained = std::max(shortest_gain[i] * shortest_gain[i] - gain * gain, 0.0);
-      cut += ((motion.values.row(1) - shortest.row(i)).array().square() -
-              gained * angle_noise.array().square())
-                 .matrix() /
-             static_cast<double>(count);
-    }
-    const Eigen::RowVectorXd error = cut.cwiseMax(0) + gain_square * angle_noise.cwiseAbs2();
-    for (Eigen::Index joint = 0; joint < joints; ++joint) {
-      const auto at = static_cast<std::size_t>(joint);
-      if (k == 0 || error[joint] < (best[at] == 0 ? kMuchBetter : 1.0) * least[joint]) {
-        least[joint] = error[joint];
-        best[at] = k;
-      }
-    }
+  const Probes shortest = probe(time, q, kHalfWindows[0]);
+  // Of the windows tried: noise of the accelerations, and what differs from the shortest by more.
+  std::vector<Eigen::ArrayXd> noise = {mean_square_noise(shortest, angle_noise)};
+  std::vector<Eigen::ArrayXd> cut = {Eigen::ArrayXd::Zero(joints)};
+  Eigen::ArrayXd scale = Eigen::ArrayXd::Constant(joints, kMostNoiseScale);
+  for (std::size_t k = 1; k < kHalfWindows.size(); ++k) {
+    const Probes longer = probe(time, q, kHalfWindows[k]);
+    noise.push_back(mean_square_noise(longer, angle_noise));
+    const Eigen::ArrayXd gone = (noise[0] - noise[k]).max(0);
+    cut.push_back((longer.acceleration - shortest.acceleration)
+                      .array()
+                      .square()
+                      .colwise()
+                      .mean()
+                      .transpose() -
+                  gone);
+    scale = scale.min((gone > 0.1 * noise[0]).select(1 + cut[k].max(0) / gone.max(kTiny), scale));
     // A longer window cuts more still.
-    if ((cut.array() > least.array()).all()) {
+    if ((cut[k] > 2 * kMostNoiseScale * noise[0]).all()) {
       break;
     }
+  }
+  std::vector<std::size_t> best;
+  for (Eigen::Index joint = 0; joint < joints; ++joint) {
+    best.push_back(best_of(joint, noise, cut, scale[joint]));
   }
   return best;
 }
