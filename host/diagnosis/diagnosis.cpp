@@ -141,6 +141,7 @@ void take_members(const Inquiry& inquiry, const Fit& whole, Diagnosis* diagnosis
   }
   const bool all_stand = chosen.size() == diagnosis->choice.findings.size();
   diagnosis->retuned = all_stand ? Fit{} : fit(observations, std::move(chosen), 0);
+  diagnosis->is_weighed_whole = true;
   diagnosis->nearest.clear();
   diagnosis->indistinguishable.clear();
   const double after = largest_ratio(observations, diagnosis->updated().remainder);

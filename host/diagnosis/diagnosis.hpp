@@ -33,11 +33,14 @@ struct Diagnosis {
   /// The findings, fitted anew, and behind them those of the model's own numbers that stand in for
   /// what is unexplained; nothing chosen where none do.
   Fit retuned;
+  bool is_weighed_whole = false;  ///< the findings were weighed beside what stands in
   std::vector<std::vector<Place>> indistinguishable;
   std::string suggested_experiment;  ///< empty where none is needed
 
   /// The fit behind the updated model: the findings, and the numbers that stand in for the rest.
   const Fit& updated() const { return retuned.chosen.empty() ? choice.fit : retuned; }
+  /// The fit in which the findings were weighed.
+  const Fit& weighed() const { return is_weighed_whole ? updated() : choice.fit; }
 };
 
 struct Settings {

@@ -7,162 +7,13 @@
 #include <limits>
 
 #include "diagnosis/covariance.hpp"
+#include "diagnosis/evaluator.hpp"
 #include "error.hpp"
-#include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kHuber = 3;            // deviations
-constexpr double kRelativeStep = 0.02;  // of a parameter's size, for finite differences
-
-/// Predictions as a function of the parameters of chosen hypotheses.
-class Evaluator {
- public:
-  Evaluator(const Observations& observations, std::vector<Chosen> chosen,
-            const Dictionary* dictionary)
-      : observations_(observations), chosen_(std::move(chosen)), dictionary_(dictionary) {
-    for (const Chosen& each : chosen_) {
-      const bool alters = each.hypothesis.traits().alters_model;
-      const bool is_linear = each.hypothesis.linear == each.hypothesis.parameters.size() &&
-                             !each.hypothesis.traits().is_curved;
-      const Entry* entry = alters && is_linear && dictionary != nullptr
-                               ? dictionary->find(each.hypothesis)
-                               : nullptr;
-      for (std::size_t i = 0; i < each.hypothesis.parameters.size(); ++i) {
-        alters_.push_back(alters);
-        known_.push_back(entry != nullptr ? entry->first + static_cast<Eigen::Index>(i) : -1);
-      }
-    }
-  }
-
-  std::size_t size() const { return alters_.size(); }
-
-  const Parameter& parameter(std::size_t index) const {
-    for (const Chosen& each : chosen_) {
-      if (index < each.hypothesis.parameters.size()) {
-        return each.hypothesis.parameters[index];
-      }
-      index -= each.hypothesis.parameters.size();
-    }
-    return chosen_.front().hypothesis.parameters.front();
-  }
-
-  /// By which the parameters' tolerances hold them: one over the square of each.
-  Eigen::VectorXd precisions() const {
-    Eigen::VectorXd all(static_cast<Eigen::Index>(size()));
-    for (std::size_t i = 0; i < size(); ++i) {
-      all[static_cast<Eigen::Index>(i)] = std::pow(parameter(i).tolerance, -2);
-    }
-    return all;
-  }
-
-  Values values() const {
-    Values all;
-    for (const Chosen& each : chosen_) {
-      all.insert(all.end(), each.values.begin(), each.values.end());
-    }
-    return all;
-  }
-
-  void set(const Values& all) {
-    auto at = all.begin();
-    for (Chosen& each : chosen_) {
-      const auto count = static_cast<std::ptrdiff_t>(each.values.size());
-      each.values.assign(at, at + count);
-      at += count;
-    }
-  }
-
-  const std::vector<Chosen>& chosen() const { return chosen_; }
-
-  std::vector<Simulation> simulate_scenes(const Machine& machine,
-                                          const std::vector<simulation::RigidTorque>& rigid) const {
-    if (!alters_any()) {
-      return observations_.simulations;
-    }
-    std::vector<Simulation> simulations;
-    for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-      const Scene& scene = observations_.scenes[s];
-      simulation::Wanted wanted = wanted_of(machine, scene);
-      wanted.rigid = rigid.empty() ? nullptr : &rigid[s];
-      simulations.push_back(simulate(machine, scene, wanted));
-    }
-    return simulations;
-  }
-
-  bool alters_any() const {
-    return std::any_of(chosen_.begin(), chosen_.end(),
-                       [](const Chosen& each) { return each.hypothesis.traits().alters_model; });
-  }
-
-  /// Rigid-body torques of a machine near which derivatives are wanted; most parameters leave them
-  /// as they are.
-  std::vector<simulation::RigidTorque> rigid_torques(const Machine& machine) const {
-    const std::vector<simulation::RigidTorque>& known = observations_.rigid;
-    if (known.empty() || !alters_any() || known.front().holds_for(machine)) {
-      return known;
-    }
-    std::vector<simulation::RigidTorque> rigid;
-    for (const Scene& scene : observations_.scenes) {
-      rigid.emplace_back(machine, scene);
-    }
-    return rigid;
-  }
-
-  std::vector<Prediction> add_terms(const Machine& machine,
-                                    const std::vector<Simulation>& simulations) const {
-    std::vector<Prediction> predictions;
-    for (std::size_t s = 0; s < simulations.size(); ++s) {
-      predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations[s]));
-    }
-    return predictions;
-  }
-
-  /// Stacked prediction, and its derivative where wanted.
-  Eigen::VectorXd evaluate(const Values& values, Eigen::MatrixXd* derivative) {
-    set(values);
-    const Machine machine = machine_with(observations_, chosen_);
-    const std::vector<simulation::RigidTorque> rigid = rigid_torques(machine);
-    const std::vector<Simulation> simulations = simulate_scenes(machine, rigid);
-    Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
-    if (derivative != nullptr) {
-      derivative->resize(base.size(), static_cast<Eigen::Index>(size()));
-      const std::vector<Chosen> here = chosen_;
-      in_parallel(
-          size(), [](std::size_t, std::size_t) {},
-          [&](std::size_t i) {
-            if (known_[i] >= 0) {
-              derivative->col(static_cast<Eigen::Index>(i)) = dictionary_->columns.col(known_[i]);
-              return;
-            }
-            const Parameter& bounds = parameter(i);
-            double step = kRelativeStep * bounds.step;
-            if (values[i] + step > bounds.upper) {
-              step = -step;
-            }
-            Evaluator moved(observations_, here, nullptr);
-            Values other = values;
-            other[i] += step;
-            moved.set(other);
-            const Machine changed = machine_with(observations_, moved.chosen_);
-            const std::vector<Prediction> predictions =
-                alters_[i] ? add_terms(changed, moved.simulate_scenes(changed, rigid))
-                           : add_terms(changed, simulations);
-            derivative->col(static_cast<Eigen::Index>(i)) =
-                (observations_.stacked(predictions) - base) / step;
-          });
-    }
-    return base;
-  }
-
- private:
-  const Observations& observations_;
-  std::vector<Chosen> chosen_;
-  const Dictionary* dictionary_;
-  std::vector<bool> alters_;
-  std::vector<Eigen::Index> known_;  ///< column of the dictionary, or −1
-};
+constexpr double kHuber = 3;  // deviations
 
 /// Ceres' view: weighted remainder of the samples to fit to, in parameters over their steps.
 class WeightedRemainder : public ceres::CostFunction {
@@ -170,8 +21,12 @@ class WeightedRemainder : public ceres::CostFunction {
   /// `measured` over the noise, and `weight`: of the samples to fit to.
   WeightedRemainder(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight,
                     Evaluator* evaluator)
-      : measured_(measured), root_(weight.cwiseSqrt()), evaluator_(evaluator) {
-    set_num_residuals(static_cast<int>(measured.size()) + static_cast<int>(evaluator->size()));
+      : measured_(measured),
+        root_(weight.cwiseSqrt()),
+        evaluator_(evaluator),
+        bodies_(evaluator->bodies()) {
+    set_num_residuals(static_cast<int>(measured.size() + bodies_.size()) +
+                      static_cast<int>(evaluator->size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(evaluator->size()));
   }
 
@@ -194,15 +49,27 @@ class WeightedRemainder : public ceres::CostFunction {
     for (std::size_t i = 0; i < values.size(); ++i) {
       residuals[static_cast<std::size_t>(n) + i] = -values[i] / evaluator_->parameter(i).tolerance;
     }
+    const auto held = n + static_cast<Eigen::Index>(values.size());
+    Eigen::VectorXd outside;
+    if (bodies_.size() > 0) {
+      outside = bodies_.outside(evaluator_->robot_with(values));
+      Eigen::Map<Eigen::VectorXd>(residuals + held, bodies_.size()) = outside;
+    }
     if (wants) {
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
       const auto columns = static_cast<Eigen::Index>(values.size());
-      Eigen::Map<RowMajor> jacobian(jacobians[0], n + columns, columns);
-      jacobian.bottomRows(columns).setZero();
+      Eigen::Map<RowMajor> jacobian(jacobians[0], n + columns + bodies_.size(), columns);
+      jacobian.bottomRows(columns + bodies_.size()).setZero();
       for (Eigen::Index i = 0; i < columns; ++i) {
         const Parameter& parameter = evaluator_->parameter(static_cast<std::size_t>(i));
         jacobian.col(i).head(n) = -parameter.step * root_.cwiseProduct(derivative.col(i).head(n));
         jacobian(n + i, i) = -parameter.step / parameter.tolerance;
+        if (bodies_.size() > 0) {
+          Values other = values;
+          other[static_cast<std::size_t>(i)] += kRelativeStep * parameter.step;
+          jacobian.col(i).tail(bodies_.size()) =
+              (bodies_.outside(evaluator_->robot_with(other)) - outside) / kRelativeStep;
+        }
       }
     }
     return Eigen::Map<Eigen::VectorXd>(residuals, n).allFinite();
@@ -212,6 +79,7 @@ class WeightedRemainder : public ceres::CostFunction {
   const Eigen::VectorXd& measured_;
   Eigen::VectorXd root_;  ///< of the weights
   Evaluator* evaluator_;
+  Bodies bodies_;
 };
 
 void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int most_steps,

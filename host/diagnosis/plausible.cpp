@@ -70,12 +70,9 @@ bool can_move(const Observations& observations, const model::Robot& learned) {
 /// Why masses cannot be so, of a machine in which a law that changes them acts; empty if they can.
 std::string why_no_body(const Observations& observations, const MachineSize& size,
                         const Hypothesis& hypothesis, const model::Robot& learned) {
-  if (hypothesis.law->no_body) {
-    std::string why =
-        hypothesis.law->no_body(observations.machine.robot, learned, size, hypothesis.joint);
-    if (!why.empty()) {
-      return why;
-    }
+  const effects::Law& law = *hypothesis.law;
+  if (law.excess && law.excess(observations.machine.robot, learned, size, hypothesis.joint) > 0) {
+    return law.no_body;
   }
   return !hypothesis.traits().tells_inertia || can_move(observations, learned)
              ? ""

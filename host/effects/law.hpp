@@ -73,11 +73,12 @@ struct Law {
   std::function<std::vector<Parameter>(const model::Robot&, int joint)> parameters;
   /// Ranges of its parameters, each with its source; a parameter without one may be anything.
   std::vector<ParameterRange> ranges;
-  /// Why a robot that a model became by it, at a joint, could not be, the model's size given; empty
-  /// where it can. May be left out.
-  std::function<std::string(const model::Robot& model, const model::Robot& altered,
-                            const MachineSize&, int joint)>
-      no_body;
+  /// By how much a robot that a model became by it, at a joint, is beyond what could be, the
+  /// model's size given: over the body's own size; zero and less where it can be. May be left out.
+  std::function<double(const model::Robot& model, const model::Robot& altered, const MachineSize&,
+                       int joint)>
+      excess;
+  std::string no_body;  ///< why what has an excess cannot be
   /// Why this robot cannot have it at a joint; empty where it can. May be left out.
   std::function<std::string(const model::Robot&, int joint)> impossible;
   /// Gives the machine the effect, beside the effects it has.

@@ -145,7 +145,7 @@ void inertia_that_no_body_has_is_refused() {
   const auto is_refused = [&](const Values& values) {
     simulation::Machine machine = effects::machine_of(model);
     law->apply(values, 3, &machine);
-    const bool refused = !law->no_body(model, machine.robot, effects::size_of(model), 3).empty();
+    const bool refused = law->excess(model, machine.robot, effects::size_of(model), 3) > 0;
     TEST_ASSERT_TRUE(refused != is_body(machine.robot.link_inertia[2]));
     return refused;
   };
@@ -156,7 +156,7 @@ void inertia_that_no_body_has_is_refused() {
   TEST_ASSERT_TRUE(is_refused({-5.5, 0, 0, 0, 0, 0}));  // a negative moment
   TEST_ASSERT_TRUE(is_refused({0, 0, 0, 4, 0, 0}));     // by a product of inertia
   for (const char* each : {"link_offset", "torque_gain", "load_friction"}) {
-    TEST_ASSERT_FALSE(effects::find_law(each, "")->no_body);  // they are no bodies
+    TEST_ASSERT_FALSE(effects::find_law(each, "")->excess);  // they are no bodies
   }
 }
 

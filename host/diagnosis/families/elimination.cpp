@@ -18,7 +18,8 @@ constexpr Eigen::Index kLagPart = 40;  // of a series, over which a score may be
 /// explained: the scale of the ridge (Hoerl and Kennard 1970), which is none of the numbers' own
 /// units.
 constexpr double kTolerances[] = {0.1, 0.3, 1, 3, 10, 30};
-constexpr double kWidths = 4;  // standard deviations that a plausible range is wide
+constexpr double kEdge = 1e-2;  // of a body's size, for its first fit by simulation
+constexpr double kWidths = 4;   // standard deviations that a plausible range is wide
 /// A smaller set, or a tighter tolerance, is taken where it predicts worse by less than this:
 /// simplicity against error.
 constexpr double kSameError = 1.0002;
@@ -26,6 +27,22 @@ constexpr Eigen::Index kParts = 10;  // that are predicted from all others
 
 bool is_member(const Hypothesis& hypothesis) {
   return hypothesis.traits().is_in_family && hypothesis.linear == hypothesis.parameters.size();
+}
+
+/// Could a hypothesis, within its bounds, change a noticeable part of what is to be explained? What
+/// could not, as masses on stiff springs, only fits what other numbers do to it.
+template <typename Columns>
+bool could_matter(const Hypothesis& hypothesis, const Columns& columns,
+                  const Eigen::VectorXd& target) {
+  constexpr double kNoticeable = 0.1;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
+    const double most = std::max(std::abs(parameter.lower), std::abs(parameter.upper));
+    if (most * columns.col(i).norm() > kNoticeable * target.norm()) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Which part of the samples is predicted together with this one: neighbours in time are.
@@ -37,7 +54,7 @@ Eigen::Index part_of(const Observations& observations, const Sample& at) {
 
 Elimination::Elimination(const Observations& observations, const Fit& given,
                          const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary)
-    : observations_(observations) {
+    : observations_(observations), target_(given.remainder.head(observations.train)) {
   for (std::size_t i = 0; i < given.chosen.size(); ++i) {
     const auto count = static_cast<Eigen::Index>(given.chosen[i].values.size());
     add({given.chosen[i], {}, true}, given.derivative.middleCols(given.first_parameter(i), count));
@@ -48,11 +65,12 @@ Elimination::Elimination(const Observations& observations, const Fit& given,
                     [&](const Chosen& found) { return are_the_same(found.hypothesis, each); });
     const Entry* entry = dictionary.find(each);
     if (is_member(each) && !is_found && entry != nullptr) {
-      add({{each, Values(each.parameters.size(), 0.0)}, {}, false},
-          dictionary.columns.middleCols(entry->first, entry->count));
+      const auto columns = dictionary.columns.middleCols(entry->first, entry->count);
+      if (could_matter(each, columns.topRows(observations.train), target_)) {
+        add({{each, Values(each.parameters.size(), 0.0)}, {}, false}, columns);
+      }
     }
   }
-  target_ = given.remainder.head(observations.train);
   unit_ = target_.norm() * columns_.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
   weight_ = Eigen::VectorXd::Ones(observations.train);
 }
@@ -295,6 +313,9 @@ std::vector<Chosen> Elimination::chosen_of(const Set& set) {
     const Member& member = members_[index];
     all.push_back(member.chosen);
     Chosen& chosen = all.back();
+    if (!member.is_given) {
+      chosen.hypothesis.edge = kEdge / spread_;
+    }
     for (std::size_t i = 0; i < member.columns.size(); ++i) {
       Parameter& parameter = chosen.hypothesis.parameters[i];
       double& value = chosen.values[i];
@@ -319,8 +340,9 @@ std::vector<Chosen> Elimination::best() {
   const double least = std::min_element(sets.begin(), sets.end(), [](const Set& a, const Set& b) {
                          return a.error < b.error;
                        })->error;
-  return chosen_of(*std::find_if(sets.begin(), sets.end(),
-                                 [&](const Set& set) { return set.error < kSameError * least; }));
+  const Set& best = *std::find_if(sets.begin(), sets.end(),
+                                  [&](const Set& set) { return set.error < kSameError * least; });
+  return chosen_of(best);
 }
 
 }  // namespace flexcomp::diagnosis

@@ -56,13 +56,13 @@ class Elimination {
   std::vector<Chosen> chosen_of(const Set& set);
 
   const Observations& observations_;
+  Eigen::VectorXd target_;  ///< what the given findings leave, over the noise
   std::vector<Member> members_;
   Eigen::MatrixXd columns_;  ///< samples to fit to × all columns, over the noise
   Eigen::VectorXd unit_;     ///< of each number: it alone would change as much as is to explain
   std::vector<std::pair<double, double>> bounds_;
   Eigen::VectorXd widest_;  ///< standard deviation of each number over its plausible range
   std::vector<bool> is_held_;
-  Eigen::VectorXd target_;  ///< what the given findings leave, over the noise
   Eigen::VectorXd weight_, remainder_, value_;
   double spread_ = 1;     ///< of the remainder, over the noise
   double tolerance_ = 0;  ///< times each number's unit: how far the model may be off

@@ -127,21 +127,30 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
   return coupled;
 }
 
-/// Findings, and behind them the numbers: a body that cannot be is held closer to the model's while
+/// Holds a body more firmly within what can be, or to the model's, for the reason why it cannot be.
+void hold_to(const std::string& why, Chosen* body) {
+  if (!why.empty() && why == body->hypothesis.law->no_body) {
+    body->hypothesis.edge *= kCloser;
+  } else if (!why.empty()) {
+    for (Parameter& parameter : body->hypothesis.parameters) {
+      parameter.tolerance *= kCloser;
+    }
+  }
+}
+
+/// Findings, and behind them the numbers: a body that cannot be is held more firmly while
 /// `holds_bodies`, any other number that cannot be is left out. True if there was none.
 bool make_possible(const Observations& observations, const Fit& fit, std::size_t findings,
                    bool holds_bodies, std::vector<Chosen>* possible) {
   possible->clear();
   bool all_can_be = true;
   for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
-    const bool can_be = i < findings || why_impossible(observations, fit, i).empty();
-    all_can_be = all_can_be && can_be;
-    if (!can_be && !(holds_bodies && fit.chosen[i].hypothesis.traits().is_body)) {
-      continue;
-    }
-    possible->push_back(fit.chosen[i]);
-    for (Parameter& parameter : possible->back().hypothesis.parameters) {
-      parameter.tolerance *= can_be ? 1 : kCloser;
+    Chosen chosen = fit.chosen[i];
+    const std::string why = i < findings ? "" : why_impossible(observations, fit, i);
+    all_can_be = all_can_be && why.empty();
+    if (why.empty() || (holds_bodies && chosen.hypothesis.traits().is_body)) {
+      hold_to(why, &chosen);
+      possible->push_back(std::move(chosen));
     }
   }
   return all_can_be;

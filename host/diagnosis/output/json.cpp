@@ -66,7 +66,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
                             {"joint", joint_or_null(other.joint)},
                             {"delta_bic", other.delta_bic}});
   }
-  const Channel channel = main_channel(observations, finding.without, choice.fit);
+  const Channel channel = main_channel(observations, finding.without, diagnosis.weighed());
   return {{"effect", hypothesis.effect()},
           {"joint", joint_or_null(hypothesis.joint)},
           {"parameters", parameters_of(observations, finding.chosen, finding.covariance)},
@@ -75,7 +75,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
             {"p_value", finding.evidence.p_value},
             {"channel", kChannels[channel]},
             {"holdout_rms_before", observations.rms(finding.without.remainder, channel, true)},
-            {"holdout_rms_after", observations.rms(choice.fit.remainder, channel, true)}}},
+            {"holdout_rms_after", observations.rms(diagnosis.weighed().remainder, channel, true)}}},
           {"alternatives", alternatives},
           {"statement", statement(observations, diagnosis, index)}};
 }

@@ -57,7 +57,7 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   const std::string number =
       is_told ? fmt::format(" ({} {})", surest.name, readable(surest.value, surest.unit)) : "";
   return fmt::format("{}{}, which the model lacks: {}.", clause, number,
-                     fall(observations, found.without, diagnosis.choice.fit));
+                     fall(observations, found.without, diagnosis.weighed()));
 }
 
 std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis) {

@@ -47,7 +47,10 @@ struct Hypothesis {
   std::size_t linear = 0;  ///< of the parameters, the first so many act (nearly) in proportion
   /// Where to begin with the other parameters; with `linear` zero each start is a whole guess.
   std::vector<Values> starts = {{}};
-  Seek seek = nullptr;       ///< where the starts are sought in what is unexplained
+  Seek seek = nullptr;  ///< where the starts are sought in what is unexplained
+  /// Excess of a body (effects/law.hpp) that a fit holds it within, as by one sample more; endless
+  /// where only the samples decide.
+  double edge = std::numeric_limits<double>::infinity();
   bool is_sketched = false;  ///< the law's sketch is near enough for a first look
 
   const std::string& effect() const { return law->effect; }

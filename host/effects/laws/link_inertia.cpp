@@ -5,24 +5,26 @@
 namespace flexcomp::effects {
 namespace {
 
-constexpr double kLeastShare = 1e-6;  // of the largest second moment: below it a body is flat
+constexpr double kLeastShare = 1e-6;   // of the largest second moment: below it a body is flat
+constexpr double kLeastMoment = 1e-3;  // kg·m²: a model's link may have none
 
-/// Second moments of a body's density about its centre of mass: positive where it can be (Wensing,
-/// Kim and Slotine 2018).
-double least_second_moment(const Matrix3<double>& inertia) {
+/// Second moments of a body's density about its centre of mass, the least first: all are positive
+/// where it can be (Wensing, Kim and Slotine 2018).
+Vector3<double> second_moments(const Matrix3<double>& inertia) {
   const Matrix3<double> moments = 0.5 * inertia.trace() * Matrix3<double>::Identity() - inertia;
-  const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(moments, Eigen::EigenvaluesOnly);
-  return axes.eigenvalues()[0] + kLeastShare * axes.eigenvalues()[2];
+  return Eigen::SelfAdjointEigenSolver<Matrix3<double>>(moments, Eigen::EigenvaluesOnly)
+      .eigenvalues();
 }
 
-std::string why_no_density(const model::Robot& model, const model::Robot& altered,
-                           const MachineSize& /*size*/, int joint) {
-  const auto least = [&](const model::Robot& robot) {
-    return least_second_moment(robot.link_inertia[index_of(joint)]);
+/// How negative the least moment is, more than that of the model's own link.
+double negative_moment(const model::Robot& model, const model::Robot& altered,
+                       const MachineSize& /*size*/, int joint) {
+  const auto least = [&](const Vector3<double>& moments) {
+    return moments[0] + kLeastShare * moments[2];
   };
-  return least(altered) >= std::min(least(model), 0.0)
-             ? ""
-             : "a link whose density is negative somewhere cannot be";
+  const Vector3<double> known = second_moments(model.link_inertia[index_of(joint)]);
+  const Vector3<double> now = second_moments(altered.link_inertia[index_of(joint)]);
+  return (std::min(least(known), 0.0) - least(now)) / std::max(known[2], kLeastMoment);
 }
 
 Range within_size(const Subject& of) {
@@ -42,7 +44,8 @@ Forms laws::link_inertia() {
   law.traits.is_family_only = true;
   law.traits.is_body = true;
   law.traits.tells_inertia = true;
-  law.no_body = why_no_density;
+  law.excess = negative_moment;
+  law.no_body = "a link whose density is negative somewhere cannot be";
   law.parameters = constant({{"ixx", "kg·m^2"},
                              {"iyy", "kg·m^2"},
                              {"izz", "kg·m^2"},

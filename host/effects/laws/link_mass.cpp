@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kLostMass = 0.8;   // of a link's mass
 constexpr double kAddedMass = 2;    // times a link's mass
+constexpr double kLeastMass = 0.1;  // kg, of a link: a model may have none
 constexpr double kLeastLink = 0.2;  // of the reach, about a joint: the size of a link there
 
 double largest_mounted(const Subject& of) {
@@ -21,13 +22,13 @@ double link_size(const model::Chain& elastic, const MachineSize& size, std::size
                    1.5 * elastic.joints[index].center_of_mass.norm()});
 }
 
-std::string why_no_link(const model::Robot& model, const model::Robot& altered,
-                        const MachineSize& size, int joint) {
+/// First moment beyond what a link of its mass can have.
+double moment_outside(const model::Robot& model, const model::Robot& altered,
+                      const MachineSize& size, int joint) {
   const model::ChainJoint& link = altered.elastic.joints[index_of(joint)];
-  return link.mass > 0 &&
-                 link.center_of_mass.norm() <= link_size(model.elastic, size, index_of(joint))
-             ? ""
-             : "a link whose centre of mass lies outside of it cannot be";
+  const double radius = link_size(model.elastic, size, index_of(joint));
+  const double known = std::max(model.elastic.joints[index_of(joint)].mass, kLeastMass);
+  return link.mass * (link.center_of_mass.norm() - radius) / (known * radius);
 }
 
 /// Adds a point mass at the link's origin and a first moment (kg·m), which has no inertia of its
@@ -56,7 +57,8 @@ Forms laws::link_mass() {
   body.traits.linear_in = 1;
   body.traits.is_body = true;
   body.statement = says("the link that joint {} moves has another mass");
-  body.no_body = why_no_link;
+  body.excess = moment_outside;
+  body.no_body = "a link whose centre of mass lies outside of it cannot be";
   Law mounted = body;
   body.traits.tells_inertia = true;
   body.parameters = constant({{"mass", "kg"}});

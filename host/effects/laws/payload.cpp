@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "effects/laws/laws.hpp"
@@ -5,7 +6,8 @@
 namespace flexcomp::effects {
 namespace {
 
-constexpr double kFarthest = 0.5;  // of the reach, from the flange
+constexpr double kFarthest = 0.5;      // of the reach, from the flange
+constexpr double kLeastPayload = 0.1;  // kg
 
 }  // namespace
 
@@ -18,13 +20,14 @@ Forms laws::payload() {
   law.traits.is_in_family = true;
   law.traits.is_body = true;
   law.traits.tells_inertia = true;
-  law.no_body = [](const model::Robot&, const model::Robot& robot, const MachineSize& size, int) {
-    return robot.elastic.payload_mass < 0 ||
-                   robot.elastic.payload_center.norm() > kFarthest * size.reach
-               ? "a payload without mass or farther from the flange than half of the reach cannot "
-                 "be"
-               : "";
+  law.excess = [](const model::Robot&, const model::Robot& robot, const MachineSize& size, int) {
+    const double mass = robot.elastic.payload_mass;
+    const double farthest = kFarthest * size.reach;
+    return (std::abs(mass) * robot.elastic.payload_center.norm() - mass * farthest) /
+           (std::max(std::abs(mass), kLeastPayload) * farthest);
   };
+  law.no_body =
+      "a payload without mass or farther from the flange than half of the reach cannot be";
   law.parameters = constant({{"mass", "kg"}, {"mx", "kg·m"}, {"my", "kg·m"}, {"mz", "kg·m"}});
   law.statement = says("the mass on the flange is another");
   alter_keys(

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/bodies.hpp"
+#include "diagnosis/fit.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// Finite differences, over a parameter's size (`Bounds::step`).
+constexpr double kRelativeStep = 0.02;
+
+/// Predictions as a function of the parameters of chosen hypotheses, in their order.
+class Evaluator {
+ public:
+  /// With a dictionary, derivatives by parameters that alter the model in proportion are its own.
+  Evaluator(const Observations& observations, std::vector<Chosen> chosen,
+            const Dictionary* dictionary);
+
+  std::size_t size() const { return alters_.size(); }
+  const Parameter& parameter(std::size_t index) const;
+  /// By which the parameters' tolerances hold them: one over the square of each.
+  Eigen::VectorXd precisions() const;
+  const std::vector<Chosen>& chosen() const { return chosen_; }
+  Values values() const;
+  void set(const Values& all);
+
+  Bodies bodies() const { return Bodies(observations_, chosen_); }
+  /// The robot with the chosen hypotheses at other values.
+  model::Robot robot_with(const Values& values) const;
+  /// Sets the values. Stacked prediction, and its derivative where wanted.
+  Eigen::VectorXd evaluate(const Values& values, Eigen::MatrixXd* derivative);
+
+ private:
+  bool alters_any() const;
+  std::vector<simulation::RigidTorque> rigid_torques(const Machine& machine) const;
+  std::vector<Simulation> simulate_scenes(const Machine& machine,
+                                          const std::vector<simulation::RigidTorque>& rigid) const;
+  std::vector<Prediction> add_terms(const Machine& machine,
+                                    const std::vector<Simulation>& simulations) const;
+
+  const Observations& observations_;
+  std::vector<Chosen> chosen_;
+  const Dictionary* dictionary_;
+  std::vector<bool> alters_;
+  std::vector<Eigen::Index> known_;  ///< column of the dictionary, or −1
+};
+
+}  // namespace flexcomp::diagnosis
