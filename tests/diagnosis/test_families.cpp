@@ -1,6 +1,7 @@
 // A machine's families of numbers fitted at once: its friction as it is, and bodies that can be.
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/families/families.hpp"
@@ -62,10 +63,34 @@ void friction_of_all_joints_is_told_and_nothing_else_beside_it() {
   }
 }
 
+/// Mass and first moment on the third link, fitted to a machine whose link would have its centre of
+/// mass far outside; by how much it is outside as fitted.
+double excess_within(double edge) {
+  constexpr int kJoint = 3;
+  const effects::LawPointer law = effects::find_law("link_mass", "mounted");
+  simulation::Machine truth = robot().machine();
+  const model::ChainJoint& link = truth.robot.elastic.joints[kJoint - 1];
+  const double far = 3 * link.mass;  // kg·m
+  law->apply({0, 0, far, 0}, kJoint, &truth);
+  const Observations observations = robot().observed(truth);
+  Hypothesis mounted(law, kJoint, robot().robot);
+  mounted.set_bounds({{-1, 1, 0.1}, {-2 * far, 2 * far, 1}, {-2 * far, 2 * far, 1}, {-1, 1, 0.1}});
+  mounted.edge = edge;
+  const Fit fitted = fit(observations, {{mounted, {0, 0, 0, 0}}}, 20);
+  TEST_ASSERT_TRUE(fitted.chosen.front().values[2] > 0.05 * far);
+  return law->excess(robot().robot, fitted.machine.robot, effects::size_of(robot().robot), kJoint);
+}
+
+void a_body_with_an_edge_is_held_within_what_can_be() {
+  TEST_ASSERT_TRUE(excess_within(1e-4) <= 0);
+  TEST_ASSERT_TRUE(excess_within(std::numeric_limits<double>::infinity()) > 0.1);
+}
+
 }  // namespace
 
 int main() {
   UNITY_BEGIN();
+  RUN_TEST(a_body_with_an_edge_is_held_within_what_can_be);
   RUN_TEST(friction_of_all_joints_is_told_and_nothing_else_beside_it);
   return UNITY_END();
 }
