@@ -38,6 +38,21 @@ double noise_of(const Eigen::VectorXd& difference, double prediction_noise, Eige
   return std::min(both, std::max(white, recording::white_noise(difference, memory)));
 }
 
+/// Share of the doubts about a prediction that a residual bears out: where they stand out of the
+/// noise, the residual is as large as they are, or they are too large.
+double borne_out(const Eigen::VectorXd& difference, const Eigen::VectorXd& doubt,
+                 double deviation) {
+  double left = 0;
+  double doubted = 0;
+  for (Eigen::Index row = 0; row < doubt.size(); ++row) {
+    if (std::isfinite(difference[row]) && std::abs(doubt[row]) > deviation) {
+      left += difference[row] * difference[row];
+      doubted += doubt[row] * doubt[row];
+    }
+  }
+  return left < doubted ? std::sqrt(left / doubted) : 1.0;
+}
+
 template <typename Values>
 double largest(const std::vector<Values>& all) {
   double most = 0;
@@ -171,6 +186,11 @@ void Observations::add_component(const Sample& first, const PredictionNoise& pre
                                ? 1e-5
                                : std::max(noise_of(difference, prediction_noise, memory_of(scene)),
                                           kLeastNoise[channel]);
+  Eigen::VectorXd doubt = Eigen::VectorXd::Zero(scene.rows());
+  if (is_predicted_noisily) {
+    doubt = predicted.doubt[channel].col(component);
+    doubt *= borne_out(difference, doubt, deviation);
+  }
   for (Eigen::Index row = top; row < scene.rows(); ++row) {
     if (!std::isfinite(difference[row]) ||
         (channel == joint_torque && !scene.is_static && scene.stands(row, component) != 0)) {
@@ -182,8 +202,7 @@ void Observations::add_component(const Sample& first, const PredictionNoise& pre
     }
     const std::size_t part = splits ? is_held_out(row, scene.rows()) : is_holdout;
     (*parts)[part].push_back({s, row, channel, component});
-    const double doubt = is_predicted_noisily ? predicted.doubt[channel](row, component) : 0.0;
-    (*noises)[part].push_back(std::hypot(deviation, doubt));
+    (*noises)[part].push_back(std::hypot(deviation, doubt[row]));
   }
 }
 
