@@ -150,11 +150,19 @@ void take_members(const Inquiry& inquiry, const Fit& whole, Diagnosis* diagnosis
   diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
 }
 
-/// Fits a machine's numbers beside the findings, and once more without them.
+/// Fits a machine's numbers beside what was found before they took over; where none did, or too few
+/// stand there, beside the findings, and once more without them.
 void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
            Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
   const Dictionary& dictionary = inquiry.dictionary;
+  if (!diagnosis->choice.begun.chosen.empty()) {
+    take_members(inquiry, retune(observations, diagnosis->choice.begun, hypotheses, dictionary),
+                 diagnosis);
+    if (diagnosis->is_weighed_whole) {
+      return;
+    }
+  }
   diagnosis->retuned = retune(observations, diagnosis->choice.fit, hypotheses, dictionary);
   const Fit afresh = diagnosis->choice.findings.empty()
                          ? Fit{}

@@ -328,7 +328,8 @@ std::vector<Chosen> Elimination::chosen_of(const Set& set) {
   return all;
 }
 
-std::vector<Chosen> Elimination::best() {
+/// The best set by the tightest tolerance that predicts as well as any.
+Elimination::Set Elimination::best_set() {
   std::vector<Set> sets;
   for (const double tolerance : kTolerances) {
     tolerance_ = tolerance;
@@ -342,7 +343,11 @@ std::vector<Chosen> Elimination::best() {
                        })->error;
   const Set& best = *std::find_if(sets.begin(), sets.end(),
                                   [&](const Set& set) { return set.error < kSameError * least; });
-  return chosen_of(best);
+  return best;
 }
+
+std::vector<Chosen> Elimination::best() { return chosen_of(best_set()); }
+
+double Elimination::least_error() { return best_set().error; }
 
 }  // namespace flexcomp::diagnosis

@@ -28,6 +28,9 @@ class Elimination {
   /// The members of the best set with their values, each within its bounds and with its tolerance.
   std::vector<Chosen> best();
 
+  /// Robust sum of squares that the best set leaves in stretches that it was not fitted to.
+  double least_error();
+
  private:
   /// Members in use, by index, and the error of a set in stretches that it was not fitted to.
   struct Set {
@@ -53,6 +56,7 @@ class Elimination {
   void hold_impossible(const std::vector<std::size_t>& members);
   Set best_on_path();
   bool is_same_series(Eigen::Index a, Eigen::Index b) const;
+  Set best_set();
   std::vector<Chosen> chosen_of(const Set& set);
 
   const Observations& observations_;

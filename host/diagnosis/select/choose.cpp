@@ -56,7 +56,9 @@ Choice choose(const Inquiry& inquiry, const Tell& tell) {
   Choice choice;
   choice.ranking = rank(propose(inquiry, best));
   best = grow(inquiry, std::move(best), tell);
-  if (is_fresh && !is_settled(observations, best.fit)) {
+  if (best.is_of_families) {
+    choice.begun = best.fit;
+  } else if (is_fresh && !is_settled(observations, best.fit)) {
     best = best_of_pairs(inquiry, std::move(best), tell);
   }
   Proved proved = prove(inquiry, prune(inquiry, fit(observations, best.fit.chosen, kLastSteps)));

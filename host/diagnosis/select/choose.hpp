@@ -9,6 +9,9 @@ struct Choice {
   std::vector<Ranked> ranking;    ///< of all effects at all places before any is chosen, best first
   std::vector<Finding> findings;  ///< the strongest first
   Fit fit;                        ///< of all findings
+  /// Where growth ended since a machine's numbers together account for more than a finding more
+  /// could; else nothing chosen.
+  Fit begun;
   /// Hypotheses that held beside the others, while all of them left most of the mismatch there
   /// standing.
   std::vector<Chosen> withdrawn;
@@ -22,6 +25,7 @@ struct Choice {
 /// chosen;
 ///    where it fails on what was held out, the next best. Then each choice is tried against all
 ///    others anew. Starts that are sought in the residual are sought anew after every step.
+///    Growth ends where a machine's numbers together account for more than a finding could.
 /// 2. Pairs: what grows from two hypotheses is taken if it is better, since a third may look better
 ///    than either of the two alone.
 /// 3. Prune: what no longer stands beside the others is dropped, and findings that account for too

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "diagnosis/families/elimination.hpp"
 #include "diagnosis/select/standards.hpp"
 
 namespace flexcomp::diagnosis {
@@ -81,6 +82,17 @@ Fit revised(const Inquiry& inquiry, const Attempt& current) {
   return fit;
 }
 
+/// Do a machine's numbers together, as far as they act in proportion, account for more of what many
+/// findings leave than one finding more could? Then there is no end to single ones.
+bool is_of_families(const Inquiry& inquiry, const Fit& fit) {
+  if (inquiry.observations.is_static || fit.chosen.size() < kMany) {
+    return false;
+  }
+  Elimination families(inquiry.observations, fit, inquiry.dictionary.hypotheses,
+                       inquiry.dictionary);
+  return families.least_error() < kLeftByFamilies * fit.train_sum;
+}
+
 }  // namespace
 
 Fit best_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
@@ -96,6 +108,10 @@ Attempt grow(const Inquiry& inquiry, Attempt attempt, const Tell& tell) {
     tell(attempt.fit.chosen.size(), kMostFindings);
     attempt.fit = revised(inquiry, attempt);
     attempt.sought = seek(inquiry, attempt.fit);
+    attempt.is_of_families = is_of_families(inquiry, attempt.fit);
+    if (attempt.is_of_families) {
+      break;
+    }
   }
   return attempt;
 }

@@ -22,6 +22,7 @@ using Sought = std::shared_ptr<const Dictionary>;
 struct Attempt {
   Fit fit;
   Sought sought;
+  bool is_of_families = false;  ///< grown no further: a machine's numbers together account for more
 };
 
 /// A hypothesis with values to begin with, and what it promises.

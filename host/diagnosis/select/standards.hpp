@@ -53,6 +53,10 @@ constexpr std::size_t kLongShortlist = 2;
 /// From so many findings on fits are slow and little is ambiguous: a shorter list does (842a13d).
 constexpr std::size_t kMany = 4;
 constexpr std::size_t kShortShortlist = 2;
+/// Share of the squares that so many leave which a machine's numbers together would leave,
+/// predicted: below it no finding is sought more, but all are fitted at once. Time against effects
+/// that are in no family: those are among the first to be found, or not above the rest.
+constexpr double kLeftByFamilies = 0.7;
 /// Steps of fits that are compared, of fits that are kept, and of the last one: time against
 /// exactness (024da06).
 constexpr int kQuickSteps = 4;
