@@ -21,9 +21,8 @@ struct Choice {
 
 /// Chooses what explains the residual.
 ///
-/// 1. Grow: the hypothesis with the largest gain in BIC is added, after a fit of all that are
-/// chosen;
-///    where it fails on what was held out, the next best. Then each choice is tried against all
+/// 1. Grow: the hypothesis with the largest gain in BIC is added, after a fit of all chosen; where
+///    it fails on what was held out, the next best. Then each choice is tried against all
 ///    others anew. Starts that are sought in the residual are sought anew after every step.
 ///    Growth ends where a machine's numbers together account for more than a finding could.
 /// 2. Pairs: what grows from two hypotheses is taken if it is better, since a third may look better
