@@ -150,15 +150,18 @@ void take_members(const Inquiry& inquiry, const Fit& whole, Diagnosis* diagnosis
   diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
 }
 
-/// Fits a machine's numbers beside what was found before they took over; where none did, or too few
-/// stand there, beside the findings, and once more without them.
+/// Fits a machine's numbers beside what was found before they took over, and once more without it;
+/// where they did not, or too few stand there, beside the findings, and once more without them.
 void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
            Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
   const Dictionary& dictionary = inquiry.dictionary;
-  if (!diagnosis->choice.begun.chosen.empty()) {
-    take_members(inquiry, retune(observations, diagnosis->choice.begun, hypotheses, dictionary),
-                 diagnosis);
+  const Fit& begun = diagnosis->choice.begun;
+  if (!begun.chosen.empty()) {
+    Fit beside = retune(observations, begun, hypotheses, dictionary);
+    Fit afresh = retune_afresh(observations, inquiry.given, beside.chosen.empty() ? begun : beside,
+                               hypotheses, dictionary);
+    take_members(inquiry, afresh.chosen.empty() ? std::move(beside) : std::move(afresh), diagnosis);
     if (diagnosis->is_weighed_whole) {
       return;
     }

@@ -7,9 +7,10 @@ namespace flexcomp::effects {
 namespace {
 
 Effect named(const char* name, Forms forms) {
-  Effect effect{name, {}, std::move(forms.apply_keys)};
+  Effect effect{name, "", {}, std::move(forms.apply_keys)};
   for (Law& law : forms.laws) {
     law.effect = name;
+    effect.words = effect.words.empty() ? law.words : effect.words;
     for (const ParameterRange& range : forms.ranges) {
       if (*range.form == 0 || law.form == range.form) {
         law.ranges.push_back(range);

@@ -91,6 +91,7 @@ struct Law {
   /// it.
   std::function<void(const Values&, int joint, model::Robot*)> write_keys;
   bool keys_say_all = false;  ///< the keys need no entry in the list `effects` beside them
+  std::string words;          ///< what people call the effect; empty where its name says it
   /// One plain clause: what the machine has that the model lacks.
   std::function<std::string(int joint)> statement;
 };
@@ -100,6 +101,7 @@ using LawPointer = std::shared_ptr<const Law>;
 /// An effect of the contract's vocabulary, with a law for each form it takes.
 struct Effect {
   std::string name;
+  std::string words;  ///< of its first law that has them
   std::vector<LawPointer> forms;
   /// Adds what a key of the robot's file says of a joint and only terms can simulate; may be left
   /// out. Not called for a joint of which the list `effects` says more.

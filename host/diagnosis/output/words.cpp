@@ -3,39 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+
+#include "effects/law.hpp"
 
 namespace flexcomp::diagnosis {
 
 std::string in_words(const std::string& effect) {
-  static const std::map<std::string, std::string> kWords = {
-      {"backlash", "play"},
-      {"base_frame", "place of the base"},
-      {"coulomb_friction", "dry friction"},
-      {"friction_hysteresis", "dry friction that builds up"},
-      {"gravity_compensator", "gravity compensator"},
-      {"joint_axis", "direction of the axis"},
-      {"joint_offset", "encoder zero"},
-      {"joint_stiffness", "stiffness"},
-      {"link_flexibility", "flexibility of the link"},
-      {"link_length", "length of the link"},
-      {"link_mass", "mass of the link"},
-      {"nonlinear_stiffness", "stiffness that changes with load"},
-      {"resonance", "vibration"},
-      {"stribeck_friction", "friction that falls with speed"},
-      {"tcp_offset", "place of the tool's tip"},
-      {"time_offset", "clocks that disagree"},
-      {"torque_offset", "zero of the torque"},
-      {"torque_ripple", "ripple of the torque"},
-      {"transmission", "coupling of the drives"},
-      {"transmission_ripple", "ripple of the gear"},
-      {"wrench_bias", "zero of the force sensor"},
-      {"wrench_frame", "orientation of the force sensor"},
-      {"wrench_scale", "gain of the force sensor"},
-  };
-  const auto found = kWords.find(effect);
-  if (found != kWords.end()) {
-    return found->second;
+  for (const effects::Effect& each : effects::catalogue()) {
+    if (each.name == effect && !each.words.empty()) {
+      return each.words;
+    }
   }
   std::string words = effect;
   std::replace(words.begin(), words.end(), '_', ' ');

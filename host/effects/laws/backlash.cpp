@@ -58,6 +58,7 @@ Forms laws::backlash() {
   by_load.joints = every_joint;
   by_load.traits.linear_in = 1;
   by_load.parameters = of_joint({{"gap", "rad"}, {"hold", "N·m"}});
+  by_load.words = "play";
   by_load.statement = says("joint {} has play");
   by_load.write_keys = add_key;
   Law by_motion = by_load;

@@ -33,6 +33,7 @@ Forms laws::base_frame() {
   law.traits.can_be_undone = false;
   law.parameters =
       constant({{"x", "m"}, {"y", "m"}, {"z", "m"}, {"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}});
+  law.words = "place of the base";
   law.statement = says("the frame of the TCP measurement is not the robot's base frame");
   add_term(
       [](const Values& values, int) {

@@ -12,6 +12,7 @@ Forms laws::coulomb_friction() {
   law.traits.is_model_number = true;
   law.traits.measures = Measures::friction;
   law.parameters = of_joint({{"torque", "N·m"}});
+  law.words = "dry friction";
   law.statement = says("joint {} has another dry friction");
   alter_keys([](const Values& values, int joint,
                 model::Robot* robot) { robot->dynamics[index_of(joint)].coulomb += values[0]; },

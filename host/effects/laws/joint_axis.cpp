@@ -28,6 +28,7 @@ Forms laws::joint_axis() {
     }
     return parameters;
   };
+  law.words = "direction of the axis";
   law.statement = says("the axis of joint {} is tilted");
   alter_robot(
       [](const Values& values, int joint, model::Robot* robot) {

@@ -12,6 +12,7 @@ Forms laws::joint_offset() {
   law.traits.alters_model = true;
   law.traits.measures = Measures::zero;
   law.parameters = of_joint({{"offset", "rad"}});
+  law.words = "encoder zero";
   law.statement = says("the encoder of joint {} has another zero");
   law.apply = [](const Values& values, int joint, Machine* machine) {
     machine->encoder_offset[joint - 1] += values[0];

@@ -30,6 +30,7 @@ Forms laws::joint_stiffness() {
   law.traits.is_model_number = true;
   law.traits.measures = Measures::stiffness;
   law.parameters = of_joint({{"compliance_change", "rad/(N·m)"}});
+  law.words = "stiffness";
   law.statement = says("the spring of joint {} has another stiffness");
   law.derived = [](const model::Robot& robot, int joint, const Values& values) {
     const model::ChainJoint& at = robot.elastic.joints[index_of(joint)];

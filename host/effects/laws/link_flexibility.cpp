@@ -115,6 +115,7 @@ Forms laws::link_flexibility() {
         "(yield "
         "strain 0.4 %, five times as long as high): no arm is built so"}}};
   for (Law& law : forms.laws) {
+    law.words = "flexibility of the link";
     law.statement = says("the link that joint {} moves gives");
   }
   return forms;

@@ -26,6 +26,7 @@ Forms laws::link_length() {
     const Vector3<double>& along = robot.elastic.joints[index_of(joint) + 1].origin.position;
     return along.norm() < kNothing ? "its link has no length" : "";
   };
+  law.words = "length of the link";
   law.statement = says("the link that joint {} moves has another length");
   alter_robot(
       [](const Values& values, int joint, model::Robot* robot) {

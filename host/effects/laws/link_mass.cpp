@@ -56,6 +56,7 @@ Forms laws::link_mass() {
   body.joints = every_joint;
   body.traits.linear_in = 1;
   body.traits.is_body = true;
+  body.words = "mass of the link";
   body.statement = says("the link that joint {} moves has another mass");
   body.excess = moment_outside;
   body.no_body = "a link whose centre of mass lies outside of it cannot be";

@@ -22,6 +22,7 @@ Forms laws::nonlinear_stiffness() {
   law.joints = every_joint;
   law.traits.linear_in = 1;
   law.parameters = of_joint({{"cubic_compliance", "rad/(N·m)^3"}});
+  law.words = "stiffness that changes with load";
   law.statement = says("joint {} winds up out of proportion to its torque");
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {

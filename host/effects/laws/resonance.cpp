@@ -57,6 +57,7 @@ Forms laws::resonance() {
   constant_mode.traits.can_be_undone = false;
   Law by_posture = constant_mode;
   constant_mode.parameters = constant({{"frequency", "Hz"}, {"damping", "1"}});
+  constant_mode.words = "vibration";
   constant_mode.statement = says("joint {} vibrates in a lightly damped mode");
   add_term([](const Values& values,
               int joint) { return vibration(joint, everywhere(values[0]), values[1]); },

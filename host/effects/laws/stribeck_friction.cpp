@@ -21,6 +21,7 @@ Forms laws::stribeck_friction() {
   law.joints = every_joint;
   law.traits.linear_in = 1;
   law.parameters = of_joint({{"excess", "N·m"}, {"speed", "rad/s"}});
+  law.words = "friction that falls with speed";
   law.statement = says("the friction of joint {} rises at low speed");
   add_term(
       [](const Values& values, int joint) { return slow_friction(joint, values[0], values[1]); },

@@ -10,6 +10,7 @@ Forms laws::tcp_offset() {
   law.traits.linear_in = 3;
   law.traits.is_in_family = true;
   law.parameters = constant({{"x", "m"}, {"y", "m"}, {"z", "m"}});
+  law.words = "place of the tool's tip";
   law.statement = says("the tool tip is elsewhere");
   alter_robot(
       [](const Values& values, int, model::Robot* robot) {

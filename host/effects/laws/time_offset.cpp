@@ -34,6 +34,7 @@ Law clock_law(const char* form, const char* clock) {
   law.joints = whole_machine;
   law.traits.is_clock = true;
   law.parameters = constant({{"delay", "s"}});
+  law.words = "clocks that disagree";
   law.statement = [clock](int) {
     return fmt::format("the clock of the {} disagrees with that of the joint angles", clock);
   };

@@ -9,6 +9,7 @@ Forms laws::torque_offset() {
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
   law.parameters = of_joint({{"torque", "N·m"}});
+  law.words = "zero of the torque";
   law.statement = says("the torque of joint {} has another zero");
   add_term(
       [](const Values& values, int joint) {

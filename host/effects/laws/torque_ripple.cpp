@@ -10,6 +10,7 @@ Forms laws::torque_ripple() {
   law.traits.linear_in = 2;
   law.traits.is_wave = true;
   law.parameters = wave_of_joint("N·m");
+  law.words = "ripple of the torque";
   law.statement = says("the torque of joint {} has a periodic part");
   add_term(
       [](const Values& values, int joint) {

@@ -10,6 +10,7 @@ Forms laws::transmission() {
   law.joints = all_but_the_first;
   law.traits.is_curved = true;
   law.parameters = constant({{"ratio", "1"}});
+  law.words = "coupling of the drives";
   law.statement = says("the motor of joint {} turns with the joint before it as well");
   alter_keys([](const Values& values, int joint,
                 model::Robot* robot) { robot->transmission(joint - 1, joint - 2) += values[0]; },

@@ -10,6 +10,7 @@ Forms laws::transmission_ripple() {
   law.traits.linear_in = 2;
   law.traits.is_wave = true;
   law.parameters = wave_of_joint("rad");
+  law.words = "ripple of the gear";
   law.statement = says("the gear of joint {} has a periodic error");
   add_term(
       [](const Values& values, int joint) {

@@ -11,6 +11,7 @@ Forms laws::wrench_bias() {
   law.traits.linear_in = 6;
   law.parameters = constant(
       {{"fx", "N"}, {"fy", "N"}, {"fz", "N"}, {"mx", "N·m"}, {"my", "N·m"}, {"mz", "N·m"}});
+  law.words = "zero of the force sensor";
   law.statement = says("the force sensor has another zero");
   alter_sensor(
       [](const Values& values, const Wrench<double>& read) {

@@ -12,6 +12,7 @@ Forms laws::wrench_frame() {
   law.traits.linear_in = 3;
   law.traits.is_curved = true;
   law.parameters = constant({{"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}});
+  law.words = "orientation of the force sensor";
   law.statement = says("the force sensor is mounted turned");
   alter_sensor(
       [](const Values& values, const Wrench<double>& read) {

@@ -9,6 +9,7 @@ Forms laws::wrench_scale() {
   law.traits.linear_in = 1;
   law.traits.is_curved = true;
   law.parameters = constant({{"gain_error", "1"}});
+  law.words = "gain of the force sensor";
   law.statement = says("the force sensor has another gain");
   law.derived = [](const model::Robot&, int, const Values& values) {
     return std::vector<Derived>{{"gain", "1", 1 + values[0], 0}};
