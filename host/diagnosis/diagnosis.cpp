@@ -158,10 +158,11 @@ void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   const Dictionary& dictionary = inquiry.dictionary;
   const Fit& begun = diagnosis->choice.begun;
   if (!begun.chosen.empty()) {
-    Fit beside = retune(observations, begun, hypotheses, dictionary);
-    Fit afresh = retune_afresh(observations, inquiry.given, beside.chosen.empty() ? begun : beside,
-                               hypotheses, dictionary);
-    take_members(inquiry, afresh.chosen.empty() ? std::move(beside) : std::move(afresh), diagnosis);
+    const Fit beside = retune(observations, begun, hypotheses, dictionary);
+    const Fit afresh =
+        retune_afresh(observations, inquiry.given, beside.chosen.empty() ? begun : beside,
+                      hypotheses, dictionary);
+    take_members(inquiry, afresh.chosen.empty() ? beside : afresh, diagnosis);
     if (diagnosis->is_weighed_whole) {
       return;
     }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace flexcomp::simulation {
@@ -13,6 +12,7 @@ constexpr int kOrder = 5;
 constexpr double kStandingStill = 1e-5;  // rad/s, far below any programmed motion
 constexpr double kBeyondNoise = 4;       // deviations
 constexpr double kMostNoiseScale = 4;  // of the variance of the angles' noise, as it was estimated
+constexpr double kEnoughGone = 0.1;    // of the noise's variance, to tell its scale by
 constexpr double kTiny = 1e-300;
 
 struct Window {
@@ -89,7 +89,8 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
   constexpr int kCount = kOrder + 1;
   const Eigen::Index row = window.row;
   const double span = std::max(time[window.last] - time[row], time[row] - time[window.first]);
-  std::array<double, 2 * kCount + 1> sums{};  // of the powers of time
+  Eigen::Matrix<double, 2 * kCount + 1, 1> sums;  // of the powers of time
+  sums.setZero();
   Columns<double, kCount + 1> moment = Columns<double, kCount + 1>::Zero(kCount + 1, q.cols());
   Eigen::Index used = 0;
   for (Eigen::Index i = window.first; i <= window.last; ++i) {
@@ -97,7 +98,7 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
       const double s = (time[i] - time[row]) / span;
       double power = 1;
       for (int k = 0; k <= 2 * kCount; ++k, power *= s) {
-        sums[static_cast<std::size_t>(k)] += power;
+        sums[k] += power;
         if (k <= kCount) {
           moment.row(k) += power * (q.row(i) - q.row(row));
         }
@@ -112,7 +113,7 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
   Eigen::Matrix<double, kCount + 1, kCount + 1> gram;
   for (int i = 0; i <= kCount; ++i) {
     for (int j = 0; j <= kCount; ++j) {
-      gram(i, j) = sums[static_cast<std::size_t>(i + j)];
+      gram(i, j) = sums[i + j];
     }
   }
   using Square = Eigen::Matrix<double, kCount, kCount>;
@@ -207,14 +208,10 @@ std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recordi
     const Probes longer = probe(time, q, kHalfWindows[k]);
     noise.push_back(mean_square_noise(longer, angle_noise));
     const Eigen::ArrayXd gone = (noise[0] - noise[k]).max(0);
-    cut.push_back((longer.acceleration - shortest.acceleration)
-                      .array()
-                      .square()
-                      .colwise()
-                      .mean()
-                      .transpose() -
-                  gone);
-    scale = scale.min((gone > 0.1 * noise[0]).select(1 + cut[k].max(0) / gone.max(kTiny), scale));
+    const Eigen::ArrayXXd difference = longer.acceleration - shortest.acceleration;
+    cut.emplace_back(difference.square().colwise().mean().transpose() - gone);
+    scale = scale.min(
+        (gone > kEnoughGone * noise[0]).select(1 + cut[k].max(0) / gone.max(kTiny), scale));
     // A longer window cuts more still.
     if ((cut[k] > 2 * kMostNoiseScale * noise[0]).all()) {
       break;
