@@ -22,6 +22,7 @@ BIN = pathlib.Path(os.environ["FLEXCOMP_BIN"])
 ROBOTS = SOURCE / "host" / "robots"
 DBC = SOURCE / "firmware" / "messages" / "flexcomp.dbc"
 BUS = os.environ.get("FLEXCOMP_BUS", "vcan0")
+ROOM_WITHIN = 5  # s, in the queue of the interface
 LCM = "udpm://239.255.76.67:7667?ttl=0"
 NOT_READY = 15  # a reply
 STATES = {"off": 0, "fading_in": 1, "active": 2, "holding": 3, "fading_out": 4, "latched": 5}
@@ -232,9 +233,14 @@ class Client:
             result.append(self.encode(name, counter, **{k: v for k, v in signals.items() if k in own}))
         return result
 
+    def put(self, frame):
+        """Sends a frame once the interface has room for it: on a busy machine, and where a serial line
+        carries the frames, its queue empties late."""
+        self.bus.send(frame, timeout=ROOM_WITHIN)
+
     def send(self, *names, **signals):
         for frame in self.frames(*names, **signals):
-            self.bus.send(frame)
+            self.put(frame)
 
     def send_setpoint(self, q):
         self.send("SetpointA", "SetpointB", "SetpointC", **{f"q{i + 1}": q[i] for i in range(6)})
@@ -274,7 +280,7 @@ class Feeder:
         for _ in range(max(int(seconds / self.job.period), len(extra) // 10 + 1)):
             self.place += 1
             for frame in extra[:10]:
-                self.client.bus.send(frame)
+                self.client.put(frame)
             del extra[:10]
             row = self.place // 4 % len(self.q)
             after = (row + 1) % len(self.q)

@@ -117,7 +117,7 @@ class Attacker:
         for frames in (setpoint, authenticate(self.client, "Setpoint", setpoint, now, mac), disarm, answer,
                        authenticate(self.client, "Command", disarm, now, mac), self.recorded, self.answer or []):
             for frame in frames:
-                self.client.bus.send(frame)
+                self.client.put(frame)
 
     def uncorrected(self):
         """Joint 1 of the setpoints that flexcompd says it corrected."""
@@ -236,7 +236,7 @@ class Authentication(HilTest):
             while replays_left > 0:
                 replays_left -= node.ticks()
                 for frame in (*attacker.command, *attacker.recorded):
-                    attacker.client.bus.send(frame)
+                    attacker.client.put(frame)
                 attacker.listen(0.02)
             self.assertNotIn("CommandReply", {name for name, _ in decoded(attacker.heard)})
             self.assertGreater(len(attacker.heard), 50)
@@ -253,7 +253,7 @@ class Authentication(HilTest):
             for _ in range(5):  # a busy machine may take too long to start openssl
                 freshness = freshness_now() + 20_000  # ahead of the clock, as is allowed
                 for frame in authenticate(client, "Command", client.frames("Command", command=4), freshness):
-                    client.bus.send(frame)
+                    client.put(frame)
                 listener.listen(0.4)
                 if any(frame.arbitration_id == IDENTIFIER["CommandReply"] for frame in listener.heard):
                     break
