@@ -10,7 +10,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kCloser = 0.3;           // times the tolerance of a body that cannot be
+constexpr double kCloser = 0.3;           // times the edge, or tolerance, of a body that cannot be
 constexpr int kHoldingRounds = 4;         // of holding closer, before a body is left out after all
 constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
 constexpr int kSimulatedSteps = 8;        // of the fit by simulation, from close by
