@@ -22,16 +22,24 @@ Bodies::Bodies(const Observations& observations, const std::vector<Chosen>& chos
   if (!bodies_.empty()) {
     size_of_machine_ = size_of(observations);
   }
+  size_ = outside(model_).size();
 }
 
 Eigen::VectorXd Bodies::outside(const model::Robot& altered) const {
-  Eigen::VectorXd outside(size());
-  for (Eigen::Index i = 0; i < size(); ++i) {
-    const Hypothesis& body = bodies_[static_cast<std::size_t>(i)];
-    const double excess = body.law->excess(model_, altered, size_of_machine_, body.joint);
-    outside[i] = std::max(excess + kMargin, 0.0) / body.edge;
+  Eigen::VectorXd all;
+  for (const Hypothesis& body : bodies_) {
+    const Eigen::VectorXd own =
+        body.law->excess(model_, altered, size_of_machine_, body.joint, kMargin);
+    all.conservativeResize(all.size() + own.size());
+    all.tail(own.size()) = own / body.edge;
   }
-  return outside;
+  return all;
+}
+
+bool Bodies::can_be(const model::Robot& altered) const {
+  return std::all_of(bodies_.begin(), bodies_.end(), [&](const Hypothesis& body) {
+    return body.law->excess(model_, altered, size_of_machine_, body.joint, 0).isZero(0);
+  });
 }
 
 }  // namespace flexcomp::diagnosis

@@ -17,16 +17,21 @@ class Bodies {
  public:
   Bodies(const Observations& observations, const std::vector<Chosen>& chosen);
 
-  Eigen::Index size() const { return static_cast<Eigen::Index>(bodies_.size()); }
+  /// How many numbers tell what is outside.
+  Eigen::Index size() const { return size_; }
 
   /// Of each its excess in a machine, a little before the edge already, over what it is held
-  /// within; zero inside.
+  /// within; zeros inside.
   Eigen::VectorXd outside(const model::Robot& altered) const;
+
+  /// Are all of them within what they can be, in a machine?
+  bool can_be(const model::Robot& altered) const;
 
  private:
   const model::Robot& model_;
   effects::MachineSize size_of_machine_;
   std::vector<Hypothesis> bodies_;
+  Eigen::Index size_ = 0;
 };
 
 }  // namespace flexcomp::diagnosis

@@ -223,4 +223,17 @@ double largest_ratio(const Observations& observations, const Eigen::VectorXd& re
   return most;
 }
 
+bool predicts_better(const Observations& observations, const Fit& before, const Fit& after) {
+  constexpr double kNoticeable = 0.99;
+  double best = 1;
+  double worst = 0;
+  for (const Channel channel : observations.channels()) {
+    const double ratio = observations.rms(after.remainder, channel, true) /
+                         observations.rms(before.remainder, channel, true);
+    best = std::min(best, ratio);
+    worst = std::max(worst, ratio);
+  }
+  return best < kNoticeable && worst <= 1;
+}
+
 }  // namespace flexcomp::diagnosis

@@ -63,4 +63,7 @@ bool fails_held_out(const Observations& observations, const Eigen::VectorXd& rem
 /// it is largest.
 double largest_ratio(const Observations& observations, const Eigen::VectorXd& remainder);
 
+/// Does the held-out error fall noticeably in a channel from one fit to another, and rise in none?
+bool predicts_better(const Observations& observations, const Fit& before, const Fit& after);
+
 }  // namespace flexcomp::diagnosis

@@ -16,8 +16,12 @@ constexpr double kRestTolerance = 1e-3;  // of a parameter's step
 constexpr double kFullyPositive = 1e-9;  // of the largest eigenvalue
 constexpr Eigen::Index kPostures = 10;   // of a scene in which the inertia matrix is looked at
 
+/// What is made of a number that rests on a bound.
+enum AtBound { kBoundTellsNothing, kBoundIsPossible };
+
 /// Why a number cannot be; empty if it can.
-std::string why_not(const Parameter& parameter, const Range& range, double value) {
+std::string why_not(const Parameter& parameter, const Range& range, double value,
+                    AtBound at_bound) {
   const double tolerance = kRestTolerance * parameter.step;
   if (!std::isfinite(value) || value < range.lower - tolerance || value > range.upper + tolerance) {
     return fmt::format("{} of {:.3g} {} cannot be: {}", parameter.name, value, parameter.unit,
@@ -25,9 +29,25 @@ std::string why_not(const Parameter& parameter, const Range& range, double value
   }
   const bool below = range.rest == Rest::below || range.rest == Rest::both;
   const bool above = range.rest == Rest::above || range.rest == Rest::both;
-  if ((value <= parameter.lower + tolerance && !below) ||
-      (value >= parameter.upper - tolerance && !above)) {
+  if (at_bound == kBoundTellsNothing && ((value <= parameter.lower + tolerance && !below) ||
+                                         (value >= parameter.upper - tolerance && !above))) {
     return fmt::format("{} rests on its bound of {:.3g} {}", parameter.name, value, parameter.unit);
+  }
+  return "";
+}
+
+std::string why_number_impossible(const Observations& observations, const Fit& fit,
+                                  std::size_t index, AtBound at_bound) {
+  const Chosen& chosen = fit.chosen[index];
+  const MachineSize size = size_of(observations);
+  for (std::size_t i = 0; i < chosen.values.size(); ++i) {
+    const Parameter& parameter = chosen.hypothesis.parameters[i];
+    const Range range = plausible_range(*chosen.hypothesis.law, observations.machine.robot, size,
+                                        chosen.hypothesis.joint, parameter.name);
+    std::string why = why_not(parameter, range, chosen.values[i], at_bound);
+    if (!why.empty()) {
+      return why;
+    }
   }
   return "";
 }
@@ -71,7 +91,8 @@ bool can_move(const Observations& observations, const model::Robot& learned) {
 std::string why_no_body(const Observations& observations, const MachineSize& size,
                         const Hypothesis& hypothesis, const model::Robot& learned) {
   const effects::Law& law = *hypothesis.law;
-  if (law.excess && law.excess(observations.machine.robot, learned, size, hypothesis.joint) > 0) {
+  if (law.excess &&
+      !law.excess(observations.machine.robot, learned, size, hypothesis.joint, 0).isZero(0)) {
     return law.no_body;
   }
   return !hypothesis.traits().tells_inertia || can_move(observations, learned)
@@ -112,19 +133,18 @@ void keep_plausible(const model::Robot& robot, const MachineSize& size, Hypothes
 }
 
 std::string why_impossible(const Observations& observations, const Fit& fit, std::size_t index) {
-  const Chosen& chosen = fit.chosen[index];
-  const Hypothesis& hypothesis = chosen.hypothesis;
-  const MachineSize size = size_of(observations);
-  for (std::size_t i = 0; i < chosen.values.size(); ++i) {
-    const Parameter& parameter = hypothesis.parameters[i];
-    const Range range = plausible_range(*hypothesis.law, observations.machine.robot, size,
-                                        hypothesis.joint, parameter.name);
-    std::string why = why_not(parameter, range, chosen.values[i]);
-    if (!why.empty()) {
-      return why;
-    }
-  }
-  return why_no_body(observations, size, hypothesis, fit.machine.robot);
+  const std::string why = why_number_impossible(observations, fit, index, kBoundTellsNothing);
+  return why.empty() ? why_no_body(observations, size_of(observations),
+                                   fit.chosen[index].hypothesis, fit.machine.robot)
+                     : why;
+}
+
+bool could_be(const Observations& observations, const Fit& fit, std::size_t index) {
+  const Hypothesis& hypothesis = fit.chosen[index].hypothesis;
+  return why_number_impossible(observations, fit, index,
+                               hypothesis.traits().is_body ? kBoundIsPossible : kBoundTellsNothing)
+             .empty() &&
+         why_no_body(observations, size_of(observations), hypothesis, fit.machine.robot).empty();
 }
 
 }  // namespace flexcomp::diagnosis

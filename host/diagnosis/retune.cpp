@@ -69,10 +69,10 @@ std::vector<Chosen> known_of(const Fit& fit, std::size_t findings) {
   return known;
 }
 
-/// Can all of a fit be?
-bool can_be(const Observations& observations, const Fit& fit) {
-  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
-    if (!why_impossible(observations, fit, i).empty()) {
+/// Could all numbers behind the findings be so?
+bool could_all_be(const Observations& observations, const Fit& fit, std::size_t findings) {
+  for (std::size_t i = findings; i < fit.chosen.size(); ++i) {
+    if (!could_be(observations, fit, i)) {
       return false;
     }
   }
@@ -89,20 +89,6 @@ std::vector<Chosen> possible_of(const Observations& observations, const Fit& fit
     }
   }
   return possible;
-}
-
-/// Does the held-out error fall noticeably in a channel, and rise in none?
-bool predicts_better(const Observations& observations, const Fit& before, const Fit& after) {
-  constexpr double kNoticeable = 0.99;
-  double best = 1;
-  double worst = 0;
-  for (const Channel channel : observations.channels()) {
-    const double ratio = observations.rms(after.remainder, channel, true) /
-                         observations.rms(before.remainder, channel, true);
-    best = std::min(best, ratio);
-    worst = std::max(worst, ratio);
-  }
-  return best < kNoticeable && worst <= 1;
 }
 
 /// The few numbers that every model has: those that can be told from what they are.
@@ -123,7 +109,8 @@ Fit fit_model_numbers(const Observations& observations, const Fit& findings,
 
 /// Do the numbers behind the findings stand?
 bool stands(const Observations& observations, const Fit& findings, const Fit& tuned) {
-  return tuned.chosen.size() > findings.chosen.size() && can_be(observations, tuned) &&
+  return tuned.chosen.size() > findings.chosen.size() &&
+         could_all_be(observations, tuned, findings.chosen.size()) &&
          bic_gain(observations, findings, tuned) > kStrongEvidence &&
          predicts_better(observations, findings, tuned);
 }

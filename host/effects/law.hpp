@@ -74,9 +74,10 @@ struct Law {
   /// Ranges of its parameters, each with its source; a parameter without one may be anything.
   std::vector<ParameterRange> ranges;
   /// By how much a robot that a model became by it, at a joint, is beyond what could be, the
-  /// model's size given: over the body's own size; zero and less where it can be. May be left out.
-  std::function<double(const model::Robot& model, const model::Robot& altered, const MachineSize&,
-                       int joint)>
+  /// model's size given: over the body's own size, and counted from `margin` before the edge. One
+  /// or more numbers that change smoothly; all are zero where it can be. May be left out.
+  std::function<Eigen::VectorXd(const model::Robot& model, const model::Robot& altered,
+                                const MachineSize&, int joint, double margin)>
       excess;
   std::string no_body;  ///< why what has an excess cannot be
   /// Why this robot cannot have it at a joint; empty where it can. May be left out.

@@ -78,7 +78,8 @@ double excess_within(double edge) {
   mounted.edge = edge;
   const Fit fitted = fit(observations, {{mounted, {0, 0, 0, 0}}}, 20);
   TEST_ASSERT_TRUE(fitted.chosen.front().values[2] > 0.05 * far);
-  return law->excess(robot().robot, fitted.machine.robot, effects::size_of(robot().robot), kJoint);
+  return law->excess(robot().robot, fitted.machine.robot, effects::size_of(robot().robot), kJoint, 0)
+      .norm();
 }
 
 void a_body_with_an_edge_is_held_within_what_can_be() {

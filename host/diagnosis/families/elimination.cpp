@@ -108,10 +108,16 @@ std::vector<Eigen::Index> Elimination::columns_of(const std::vector<std::size_t>
 /// Standard deviations that hold the numbers; none is wider than its plausible range.
 Eigen::VectorXd Elimination::tolerance() const { return (tolerance_ * unit_).cwiseMin(widest_); }
 
+/// By how much they hold them, beside samples over the noise. A remainder that hangs together over
+/// time tells less than its samples are many, so the tolerances weigh more beside it.
+Eigen::VectorXd Elimination::precision() const {
+  return repeats_ * (spread_ / tolerance().array()).square().matrix();
+}
+
 Eigen::VectorXd Elimination::solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                                       const std::vector<Eigen::Index>& columns) const {
   Eigen::MatrixXd inner = gram(columns, columns);
-  inner.diagonal() += (spread_ / tolerance()(columns).array()).square().matrix();
+  inner.diagonal() += precision()(columns);
   return inner.ldlt().solve(moment(columns));
 }
 
@@ -129,6 +135,7 @@ void Elimination::solve(const std::vector<std::size_t>& members) {
     remainder_ = target_ - columns_ * value_;
     const auto n = static_cast<double>(remainder_.size());
     spread_ = std::max(1.0, std::sqrt(weight_.dot(remainder_.cwiseAbs2()) / n));
+    repeats_ = n / independent_samples(observations_, remainder_);
     weight_ = (kRobustLimit * spread_ / remainder_.array().abs().max(1e-12)).min(1.0).matrix();
   }
 }
@@ -212,7 +219,7 @@ std::size_t Elimination::weakest_of(const std::vector<std::size_t>& members,
                                     const Eigen::VectorXd& widenings) const {
   const std::vector<Eigen::Index> columns = columns_of(members);
   Eigen::MatrixXd inner = gram_(columns, columns);
-  inner.diagonal() += (spread_ / tolerance()(columns).array()).square().matrix();
+  inner.diagonal() += precision()(columns);
   const Eigen::LDLT<Eigen::MatrixXd> factors(inner);
   const Eigen::VectorXd moment = moment_(columns);
   const Eigen::VectorXd value = factors.solve(moment);
@@ -321,7 +328,7 @@ std::vector<Chosen> Elimination::chosen_of(const Set& set) {
       double& value = chosen.values[i];
       value = std::clamp(value + value_[member.columns[i]], parameter.lower, parameter.upper);
       if (!member.is_given) {
-        parameter.tolerance = tolerance()[member.columns[i]] / spread_;
+        parameter.tolerance = 1 / std::sqrt(precision()[member.columns[i]]);
       }
     }
   }
@@ -336,6 +343,7 @@ Elimination::Set Elimination::best_set() {
     std::fill(is_held_.begin(), is_held_.end(), false);
     weight_.setOnes();
     spread_ = 1;
+    repeats_ = 1;
     sets.push_back(best_on_path());
   }
   const double least = std::min_element(sets.begin(), sets.end(), [](const Set& a, const Set& b) {

@@ -44,6 +44,7 @@ class Elimination {
   void add(Member member, const Columns& columns);
   std::vector<Eigen::Index> columns_of(const std::vector<std::size_t>& members) const;
   Eigen::VectorXd tolerance() const;
+  Eigen::VectorXd precision() const;
   void solve(const std::vector<std::size_t>& members);
   void divide();
   Eigen::VectorXd solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
@@ -69,6 +70,7 @@ class Elimination {
   std::vector<bool> is_held_;
   Eigen::VectorXd weight_, remainder_, value_;
   double spread_ = 1;     ///< of the remainder, over the noise
+  double repeats_ = 1;    ///< samples of the remainder for each that is independent
   double tolerance_ = 0;  ///< times each number's unit: how far the model may be off
   /// Normal equations of all samples, and of those of each part.
   Eigen::MatrixXd gram_;

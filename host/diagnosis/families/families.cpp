@@ -5,12 +5,13 @@
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/elimination.hpp"
+#include "diagnosis/families/possible_bodies.hpp"
 #include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kCloser = 0.3;           // times the edge, or tolerance, of a body that cannot be
+constexpr double kCloser = 0.3;           // times the tolerances of a body that cannot be
 constexpr int kHoldingRounds = 4;         // of holding closer, before a body is left out after all
 constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
 constexpr int kSimulatedSteps = 8;        // of the fit by simulation, from close by
@@ -127,29 +128,20 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
   return coupled;
 }
 
-/// Holds a body more firmly within what can be, or to the model's, for the reason why it cannot be.
-void hold_to(const std::string& why, Chosen* body) {
-  if (!why.empty() && why == body->hypothesis.law->no_body) {
-    body->hypothesis.edge *= kCloser;
-  } else if (!why.empty()) {
-    for (Parameter& parameter : body->hypothesis.parameters) {
-      parameter.tolerance *= kCloser;
-    }
-  }
-}
-
-/// Findings, and behind them the numbers: a body that cannot be is held more firmly while
-/// `holds_bodies`, any other number that cannot be is left out. True if there was none.
+/// Findings, and behind them the numbers: a body that cannot be is held more firmly to the model's
+/// while `holds_bodies`, any other number that cannot be is left out. True if there was none.
 bool make_possible(const Observations& observations, const Fit& fit, std::size_t findings,
                    bool holds_bodies, std::vector<Chosen>* possible) {
   possible->clear();
   bool all_can_be = true;
   for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
     Chosen chosen = fit.chosen[i];
-    const std::string why = i < findings ? "" : why_impossible(observations, fit, i);
-    all_can_be = all_can_be && why.empty();
-    if (why.empty() || (holds_bodies && chosen.hypothesis.traits().is_body)) {
-      hold_to(why, &chosen);
+    const bool can_be = i < findings || could_be(observations, fit, i);
+    all_can_be = all_can_be && can_be;
+    if (can_be || (holds_bodies && chosen.hypothesis.traits().is_body)) {
+      for (Parameter& parameter : chosen.hypothesis.parameters) {
+        parameter.tolerance *= can_be ? 1 : kCloser;
+      }
       possible->push_back(std::move(chosen));
     }
   }
@@ -162,10 +154,13 @@ Fit fit_beside(const Observations& observations, const Fit& findings,
   Elimination families(observations, findings, hypotheses, dictionary);
   Fit whole = fit(observations, families.best(), kSimulatedSteps, &dictionary);
   std::vector<Chosen> possible;
-  for (int round = 0;
-       round < kPossibleRounds && !make_possible(observations, whole, findings.chosen.size(),
-                                                 round < kHoldingRounds, &possible);
-       ++round) {
+  for (int round = 0; round < kPossibleRounds; ++round) {
+    if (round < kHoldingRounds && !bodies_can_be(observations, whole)) {
+      possible = with_possible_bodies(observations, whole);
+    } else if (make_possible(observations, whole, findings.chosen.size(), round < kHoldingRounds,
+                             &possible)) {
+      break;
+    }
     whole = fit(observations, possible, kSimulatedSteps, &dictionary);
   }
   return whole;
@@ -193,6 +188,7 @@ Fit fit_families(const Observations& observations, const Fit& findings,
     Fit next = fit_beside(observations, fit(observations, given, kExtraSteps, &next_dictionary),
                           hypotheses, next_dictionary);
     if (!(bic_gain(observations, best, next) > kStrongEvidence) ||
+        !predicts_better(observations, best, next) ||
         !is_real(observations, next, given.size() - 1)) {
       return best;
     }

@@ -1,4 +1,6 @@
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "effects/laws/laws.hpp"
 
@@ -8,23 +10,31 @@ namespace {
 constexpr double kLeastShare = 1e-6;   // of the largest second moment: below it a body is flat
 constexpr double kLeastMoment = 1e-3;  // kg·m²: a model's link may have none
 
-/// Second moments of a body's density about its centre of mass, the least first: all are positive
-/// where it can be (Wensing, Kim and Slotine 2018).
-Vector3<double> second_moments(const Matrix3<double>& inertia) {
-  const Matrix3<double> moments = 0.5 * inertia.trace() * Matrix3<double>::Identity() - inertia;
-  return Eigen::SelfAdjointEigenSolver<Matrix3<double>>(moments, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+/// Second moments of a body's density about its centre of mass, kg·m²: positive definite where the
+/// body can be (Wensing, Kim and Slotine 2018).
+Eigen::SelfAdjointEigenSolver<Matrix3<double>> second_moments(const Matrix3<double>& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3<double>>(
+      0.5 * inertia.trace() * Matrix3<double>::Identity() - inertia);
 }
 
-/// How negative the least moment is, more than that of the model's own link.
-double negative_moment(const model::Robot& model, const model::Robot& altered,
-                       const MachineSize& /*size*/, int joint) {
-  const auto least = [&](const Vector3<double>& moments) {
-    return moments[0] + kLeastShare * moments[2];
-  };
-  const Vector3<double> known = second_moments(model.link_inertia[index_of(joint)]);
-  const Vector3<double> now = second_moments(altered.link_inertia[index_of(joint)]);
-  return (std::min(least(known), 0.0) - least(now)) / std::max(known[2], kLeastMoment);
+/// The negative part of the second moments, further than that of the model's own link: the six
+/// numbers of a symmetric matrix, each as often as it stands there. Unlike the least eigenvalue
+/// they change smoothly where two eigenvalues meet.
+Eigen::VectorXd negative_moments(const model::Robot& model, const model::Robot& altered,
+                                 const MachineSize& /*size*/, int joint, double margin) {
+  const auto known = second_moments(model.link_inertia[index_of(joint)]);
+  const auto now = second_moments(altered.link_inertia[index_of(joint)]);
+  const double flat = kLeastShare * now.eigenvalues()[2];
+  const double least = std::min(known.eigenvalues()[0] + kLeastShare * known.eigenvalues()[2], 0.0);
+  const double size = std::max(known.eigenvalues()[2], kLeastMoment);
+  const Vector3<double> excess =
+      (((least - flat) - now.eigenvalues().array()) / size + margin).max(0.0);
+  const Matrix3<double> negative =
+      now.eigenvectors() * excess.asDiagonal() * now.eigenvectors().transpose();
+  Eigen::VectorXd numbers(6);
+  numbers << negative.diagonal(),
+      std::sqrt(2.0) * Vector3<double>(negative(0, 1), negative(0, 2), negative(1, 2));
+  return numbers;
 }
 
 Range within_size(const Subject& of) {
@@ -44,7 +54,7 @@ Forms laws::link_inertia() {
   law.traits.is_family_only = true;
   law.traits.is_body = true;
   law.traits.tells_inertia = true;
-  law.excess = negative_moment;
+  law.excess = negative_moments;
   law.no_body = "a link whose density is negative somewhere cannot be";
   law.parameters = constant({{"ixx", "kg·m^2"},
                              {"iyy", "kg·m^2"},

@@ -23,12 +23,13 @@ double link_size(const model::Chain& elastic, const MachineSize& size, std::size
 }
 
 /// First moment beyond what a link of its mass can have.
-double moment_outside(const model::Robot& model, const model::Robot& altered,
-                      const MachineSize& size, int joint) {
+Eigen::VectorXd moment_outside(const model::Robot& model, const model::Robot& altered,
+                               const MachineSize& size, int joint, double margin) {
   const model::ChainJoint& link = altered.elastic.joints[index_of(joint)];
   const double radius = link_size(model.elastic, size, index_of(joint));
   const double known = std::max(model.elastic.joints[index_of(joint)].mass, kLeastMass);
-  return link.mass * (link.center_of_mass.norm() - radius) / (known * radius);
+  const double excess = link.mass * (link.center_of_mass.norm() - radius) / (known * radius);
+  return Eigen::VectorXd::Constant(1, std::max(excess + margin, 0.0));
 }
 
 /// Adds a point mass at the link's origin and a first moment (kg·m), which has no inertia of its

@@ -9,6 +9,16 @@ namespace {
 constexpr double kFarthest = 0.5;      // of the reach, from the flange
 constexpr double kLeastPayload = 0.1;  // kg
 
+/// How far its first moment is beyond that of its mass at the farthest place.
+Eigen::VectorXd too_far(const model::Robot& /*model*/, const model::Robot& altered,
+                        const MachineSize& size, int /*joint*/, double margin) {
+  const double mass = altered.elastic.payload_mass;
+  const double farthest = kFarthest * size.reach;
+  const double excess = (std::abs(mass) * altered.elastic.payload_center.norm() - mass * farthest) /
+                        (std::max(std::abs(mass), kLeastPayload) * farthest);
+  return Eigen::VectorXd::Constant(1, std::max(excess + margin, 0.0));
+}
+
 }  // namespace
 
 // Mass on the flange that differs from the model's, as a point: mass and first moment in the tool
@@ -20,12 +30,7 @@ Forms laws::payload() {
   law.traits.is_in_family = true;
   law.traits.is_body = true;
   law.traits.tells_inertia = true;
-  law.excess = [](const model::Robot&, const model::Robot& robot, const MachineSize& size, int) {
-    const double mass = robot.elastic.payload_mass;
-    const double farthest = kFarthest * size.reach;
-    return (std::abs(mass) * robot.elastic.payload_center.norm() - mass * farthest) /
-           (std::max(std::abs(mass), kLeastPayload) * farthest);
-  };
+  law.excess = too_far;
   law.no_body =
       "a payload without mass or farther from the flange than half of the reach cannot be";
   law.parameters = constant({{"mass", "kg"}, {"mx", "kg·m"}, {"my", "kg·m"}, {"mz", "kg·m"}});

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "diagnosis/fit.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// Are all bodies of a fit that have an edge within what they can be?
+bool bodies_can_be(const Observations& observations, const Fit& fit);
+
+/// The numbers of a fit, moved so that its bodies can be, at the least cost.
+///
+/// Torques are linear in masses, first moments and inertias, so the derivative of the fit tells
+/// what a move costs and nothing is simulated. The edges of the bodies are drawn tighter until all
+/// of them are inside; the other numbers give way. The tighter edges stay with the hypotheses, so
+/// that a fit by simulation from there on stays inside too.
+std::vector<Chosen> with_possible_bodies(const Observations& observations, const Fit& fit);
+
+}  // namespace flexcomp::diagnosis
