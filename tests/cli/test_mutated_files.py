@@ -162,7 +162,7 @@ def mutated_csv(chance, text):
 
 
 class MutatedFiles(Command):
-    each = 12 if os.environ.get("FLEXCOMP_SANITIZED") == "ON" else 40
+    each = 6 if os.environ.get("FLEXCOMP_SANITIZED") == "ON" else 40
     seed = 20261124
     only = None
 

@@ -25,8 +25,12 @@ constexpr double kWidths = 4;   // standard deviations that a plausible range is
 constexpr double kSameError = 1.0002;
 constexpr Eigen::Index kParts = 10;  // that are predicted from all others
 
-bool is_member(const Hypothesis& hypothesis) {
-  return hypothesis.traits().is_in_family && hypothesis.linear == hypothesis.parameters.size();
+/// Is a hypothesis one of a family's numbers here? Positions alone show masses only by what they
+/// bend, which numbers of springs and frames do nearly as well: both together fit what neither is,
+/// and predict poses elsewhere worse.
+bool is_member(const Observations& observations, const Hypothesis& hypothesis) {
+  return hypothesis.traits().is_in_family && hypothesis.linear == hypothesis.parameters.size() &&
+         (!hypothesis.traits().is_body || observations.has(simulation::joint_torque));
 }
 
 /// Could a hypothesis, within its bounds, change a noticeable part of what is to be explained? What
@@ -64,7 +68,7 @@ Elimination::Elimination(const Observations& observations, const Fit& given,
         std::any_of(given.chosen.begin(), given.chosen.end(),
                     [&](const Chosen& found) { return are_the_same(found.hypothesis, each); });
     const Entry* entry = dictionary.find(each);
-    if (is_member(each) && !is_found && entry != nullptr) {
+    if (is_member(observations, each) && !is_found && entry != nullptr) {
       const auto columns = dictionary.columns.middleCols(entry->first, entry->count);
       if (could_matter(each, columns.topRows(observations.train), target_)) {
         add({{each, Values(each.parameters.size(), 0.0)}, {}, false}, columns);
