@@ -1,5 +1,6 @@
 // Every message through LCM's encoding and back.
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "messages/lcm_codec.hpp"
@@ -73,6 +74,30 @@ void commands_and_tables_keep_every_bit() {
   TEST_ASSERT_EQUAL_HEX32_ARRAY(data.words.data(), back.words.data(), 14);
 }
 
+void each_message_goes_on_the_channel_of_its_type() {
+  const std::vector<std::pair<Message, const char*>> channels = {
+      {SetpointMessage{}, "FLEXCOMP_JOINT_SETPOINT"},
+      {WrenchMessage{}, "FLEXCOMP_WRENCH"},
+      {CommandMessage{}, "FLEXCOMP_COMMAND"},
+      {IdentityMessage{}, "FLEXCOMP_IDENTITY"},
+      {TransferBeginMessage{}, "FLEXCOMP_TABLE_BEGIN"},
+      {TransferDataMessage{}, "FLEXCOMP_TABLE_DATA"},
+      {TransferEndMessage{}, "FLEXCOMP_TABLE_END"},
+      {MeasuredJointsMessage{}, "FLEXCOMP_MEASURED_JOINTS"},
+      {MeasuredPositionMessage{}, "FLEXCOMP_MEASURED_POSITION"},
+      {CorrectedMessage{}, "FLEXCOMP_CORRECTED_SETPOINT"},
+      {HeartbeatMessage{}, "FLEXCOMP_HEARTBEAT"},
+      {FaultMessage{}, "FLEXCOMP_FAULT"},
+      {StatisticMessage{}, "FLEXCOMP_STATISTIC"},
+      {TransferReplyMessage{}, "FLEXCOMP_TABLE_REPLY"},
+      {CommandReplyMessage{}, "FLEXCOMP_COMMAND_REPLY"}};
+  TEST_ASSERT_EQUAL(std::variant_size_v<Message> - 1, channels.size());
+  for (const auto& [message, channel] : channels) {
+    TEST_ASSERT_EQUAL_STRING(channel, encode_lcm(message, 0, 0).channel.c_str());
+  }
+  TEST_ASSERT_EQUAL_STRING("", encode_lcm(Message(), 0, 0).channel.c_str());
+}
+
 void a_truncated_event_or_a_foreign_channel_is_no_message() {
   const LcmEvent event = encode_lcm(SetpointMessage{kNoTime, {}}, 0, 0);
   for (std::size_t size = 0; size < event.data.size(); ++size) {
@@ -90,6 +115,7 @@ int main() {
   RUN_TEST(setpoints_and_wrenches_keep_every_bit);
   RUN_TEST(answers_keep_every_bit);
   RUN_TEST(commands_and_tables_keep_every_bit);
+  RUN_TEST(each_message_goes_on_the_channel_of_its_type);
   RUN_TEST(a_truncated_event_or_a_foreign_channel_is_no_message);
   return UNITY_END();
 }
