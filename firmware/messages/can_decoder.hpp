@@ -28,12 +28,15 @@ class CanDecoder {
   std::uint32_t foreign_frames() const { return foreign_frames_; }
 
  private:
+  /// Of the frames of a classic set, one after the other.
+  using Payloads = std::array<std::uint8_t, 8 * kMaxFrameParts>;
+
   /// Parts of one classic set, on their way in.
   struct Set {
     std::uint32_t received = 0;  ///< one bit a part
     std::uint32_t counter = 0;
-    std::array<std::array<std::uint8_t, 8>, kMaxFrameParts> parts{};
-    std::array<std::array<std::uint8_t, 8>, kMaxFrameParts> accepted{};
+    Payloads parts{};
+    Payloads accepted{};
   };
 
   bool complete(const FrameLayout& layout, const CanFrame& frame, std::int64_t now);

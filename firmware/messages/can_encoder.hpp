@@ -26,26 +26,11 @@ class CanEncoder {
   const FrameList& encode(const CorrectedMessage& message);
 
  private:
-  std::uint8_t next_counter(FrameGroup group) {
-    return counters_[static_cast<std::size_t>(group)]++;
-  }
-
   void put(std::monostate nothing);
-  void put(const SetpointMessage& message);
-  void put(const WrenchMessage& message);
-  void put(const CorrectedMessage& message);
-  void put(const TransferDataMessage& message);
-  void put(const CommandMessage& message);
-  void put(const IdentityMessage& message);
-  void put(const TransferBeginMessage& message);
-  void put(const TransferEndMessage& message);
-  void put(const MeasuredJointsMessage& message);
-  void put(const MeasuredPositionMessage& message);
-  void put(const HeartbeatMessage& message);
-  void put(const FaultMessage& message);
-  void put(const StatisticMessage& message);
-  void put(const TransferReplyMessage& message);
-  void put(const CommandReplyMessage& message);
+  template <typename Content>
+  void put(const Content& message);
+  template <typename Format, typename Content>
+  void put_in(const Content& message);
 
   bool fd_;
   FrameList list_;

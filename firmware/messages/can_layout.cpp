@@ -1,80 +1,51 @@
 #include "messages/can_layout.hpp"
 
-#include <algorithm>
 #include <array>
-
-#include "flexcomp_can.h"
 
 namespace flexcomp {
 namespace {
 
-#define FRAME(NAME, fd, group, part, parts)                                              \
-  FrameLayout {                                                                          \
-    FLEXCOMP_CAN_##NAME##_FRAME_ID, FLEXCOMP_CAN_##NAME##_LENGTH, fd, group, part, parts \
+/// One row for each frame of a message, after those that are there.
+template <typename Format, std::size_t Rows, typename... Frames>
+constexpr void add_frames(std::array<FrameLayout, Rows>* layouts, std::size_t* count,
+                          const can::FrameSet<Frames...>& /*format*/) {
+  std::uint8_t part = 0;
+  (((*layouts)[(*count)++] = {Frames::kId, Frames::kSize, Frames::kFd,
+                              FrameGroup{can::kPlace<Format>}, part++, Format::kParts}),
+   ...);
+}
+
+template <typename... Formats>
+constexpr auto make_layouts(const std::tuple<Formats...>& /*formats*/) {
+  std::array<FrameLayout, (std::size_t{Formats::kParts} + ...)> layouts{};
+  std::size_t count = 0;
+  (add_frames<Formats>(&layouts, &count, Formats()), ...);
+  return layouts;
+}
+
+constexpr auto kLayouts = make_layouts(can::Formats());
+
+template <typename Format, std::size_t Rows>
+constexpr void add_authentication(std::array<AuthenticationLayout, Rows>* layouts,
+                                  std::size_t* count) {
+  using Frame = typename Format::Authentication;
+  if constexpr (!std::is_void_v<Frame>) {
+    (*layouts)[(*count)++] = {Frame::kId, Frame::kSize, Frame::kFd, FrameGroup{can::kPlace<Format>},
+                              Format::kParts};
   }
+}
 
-constexpr std::array<FrameLayout, 35> kLayouts = {
-    FRAME(FAULT, false, FrameGroup::fault, 0, 1),
-    FRAME(SETPOINT_A, false, FrameGroup::setpoint, 0, 3),
-    FRAME(SETPOINT_B, false, FrameGroup::setpoint, 1, 3),
-    FRAME(SETPOINT_C, false, FrameGroup::setpoint, 2, 3),
-    FRAME(SETPOINT_FD, true, FrameGroup::setpoint_fd, 0, 1),
-    FRAME(WRENCH_FORCE, false, FrameGroup::wrench, 0, 2),
-    FRAME(WRENCH_MOMENT, false, FrameGroup::wrench, 1, 2),
-    FRAME(WRENCH_FD, true, FrameGroup::wrench_fd, 0, 1),
-    FRAME(COMMAND, false, FrameGroup::command, 0, 1),
-    FRAME(IDENTITY_LOW, false, FrameGroup::identity, 0, 2),
-    FRAME(IDENTITY_HIGH, false, FrameGroup::identity, 1, 2),
-    FRAME(TRANSFER_BEGIN, false, FrameGroup::transfer_begin, 0, 1),
-    FRAME(TRANSFER_DATA, false, FrameGroup::transfer_data, 0, 1),
-    FRAME(TRANSFER_END, false, FrameGroup::transfer_end, 0, 1),
-    FRAME(TRANSFER_DATA_FD, true, FrameGroup::transfer_data_fd, 0, 1),
-    FRAME(MEASURED_A, false, FrameGroup::measured_joints, 0, 3),
-    FRAME(MEASURED_B, false, FrameGroup::measured_joints, 1, 3),
-    FRAME(MEASURED_C, false, FrameGroup::measured_joints, 2, 3),
-    FRAME(MEASURED_POSITION_XY, false, FrameGroup::measured_position, 0, 2),
-    FRAME(MEASURED_POSITION_Z, false, FrameGroup::measured_position, 1, 2),
-    FRAME(CORRECTED_A, false, FrameGroup::corrected, 0, 7),
-    FRAME(CORRECTED_B, false, FrameGroup::corrected, 1, 7),
-    FRAME(CORRECTED_C, false, FrameGroup::corrected, 2, 7),
-    FRAME(UNCORRECTED_A, false, FrameGroup::corrected, 3, 7),
-    FRAME(UNCORRECTED_B, false, FrameGroup::corrected, 4, 7),
-    FRAME(UNCORRECTED_C, false, FrameGroup::corrected, 5, 7),
-    FRAME(CORRECTED_FD, true, FrameGroup::corrected_fd, 0, 1),
-    FRAME(STATUS, false, FrameGroup::corrected, 6, 7),
-    FRAME(LATCHED, false, FrameGroup::heartbeat, 1, 4),
-    FRAME(HEARTBEAT, false, FrameGroup::heartbeat, 0, 4),
-    FRAME(TABLE_LOW, false, FrameGroup::heartbeat, 2, 4),
-    FRAME(TABLE_HIGH, false, FrameGroup::heartbeat, 3, 4),
-    FRAME(STATISTIC, false, FrameGroup::statistic, 0, 1),
-    FRAME(TRANSFER_REPLY, false, FrameGroup::transfer_reply, 0, 1),
-    FRAME(COMMAND_REPLY, false, FrameGroup::command_reply, 0, 1),
-};
+template <typename... Formats>
+constexpr auto make_authentications(const std::tuple<Formats...>& /*formats*/) {
+  constexpr std::size_t kRows =
+      (std::size_t{!std::is_void_v<typename Formats::Authentication>} + ...);
+  std::array<AuthenticationLayout, kRows> layouts{};
+  std::size_t count = 0;
+  (add_authentication<Formats>(&layouts, &count), ...);
+  return layouts;
+}
 
-#undef FRAME
-
-#define AUTHENTICATION(NAME, fd, group, parts)                                                  \
-  AuthenticationLayout {                                                                        \
-    FLEXCOMP_CAN_##NAME##_AUTHENTICATION_FRAME_ID, FLEXCOMP_CAN_##NAME##_AUTHENTICATION_LENGTH, \
-        fd, group, parts                                                                        \
-  }
-
-constexpr std::array<AuthenticationLayout, 12> kAuthentications = {
-    AUTHENTICATION(SETPOINT, false, FrameGroup::setpoint, 3),
-    AUTHENTICATION(SETPOINT_FD, true, FrameGroup::setpoint_fd, 1),
-    AUTHENTICATION(WRENCH, false, FrameGroup::wrench, 2),
-    AUTHENTICATION(WRENCH_FD, true, FrameGroup::wrench_fd, 1),
-    AUTHENTICATION(COMMAND, false, FrameGroup::command, 1),
-    AUTHENTICATION(IDENTITY, false, FrameGroup::identity, 2),
-    AUTHENTICATION(TRANSFER_BEGIN, false, FrameGroup::transfer_begin, 1),
-    AUTHENTICATION(TRANSFER_DATA, false, FrameGroup::transfer_data, 1),
-    AUTHENTICATION(TRANSFER_END, false, FrameGroup::transfer_end, 1),
-    AUTHENTICATION(TRANSFER_DATA_FD, true, FrameGroup::transfer_data_fd, 1),
-    AUTHENTICATION(CORRECTED, false, FrameGroup::corrected, 7),
-    AUTHENTICATION(CORRECTED_FD, true, FrameGroup::corrected_fd, 1),
-};
-
-#undef AUTHENTICATION
+constexpr auto kAuthentications = make_authentications(can::Formats());
 
 template <typename Condition>
 const AuthenticationLayout* first_with(const Condition& holds) {
@@ -82,7 +53,15 @@ const AuthenticationLayout* first_with(const Condition& holds) {
   return found == kAuthentications.end() ? nullptr : found;
 }
 
-constexpr std::uint32_t kMostId = FLEXCOMP_CAN_COMMAND_REPLY_FRAME_ID;
+constexpr std::uint32_t largest_id() {
+  std::uint32_t largest = 0;
+  for (const FrameLayout& layout : kLayouts) {
+    largest = std::max(largest, layout.id);
+  }
+  return largest;
+}
+
+constexpr std::uint32_t kMostId = largest_id();
 constexpr std::uint8_t kNone = 0xFF;
 
 /// For each identifier the place of its layout.

@@ -1,34 +1,28 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+
+#include "messages/can/all_messages.hpp"
 
 namespace flexcomp {
 
-/// Frames that make up one message: those of a group and one counter belong together.
-enum class FrameGroup : std::uint8_t {
-  fault,
-  setpoint,
-  setpoint_fd,
-  wrench,
-  wrench_fd,
-  command,
-  identity,
-  transfer_begin,
-  transfer_data,
-  transfer_data_fd,
-  transfer_end,
-  measured_joints,
-  measured_position,
-  corrected,
-  corrected_fd,
-  heartbeat,
-  statistic,
-  transfer_reply,
-  command_reply,
-};
+/// Frames that make up one message: those of a group and one counter belong together. Each message
+/// has a group of classic frames, and some have one of FD frames beside it.
+enum class FrameGroup : std::uint8_t {};
 
-constexpr std::size_t kFrameGroups = 19;
-constexpr std::size_t kMaxFrameParts = 7;
+template <typename Content>
+constexpr FrameGroup kClassicGroup{can::kPlace<can::Classic<Content>>};
+template <typename Content>
+constexpr FrameGroup kFdGroup{can::kPlace<can::Fd<Content>>};
+
+constexpr std::size_t kFrameGroups = std::tuple_size_v<can::Formats>;
+
+template <typename... Formats>
+constexpr std::size_t most_parts(const std::tuple<Formats...>* /*formats*/) {
+  return std::max({Formats::kParts...});
+}
+constexpr std::size_t kMaxFrameParts = most_parts(static_cast<can::Formats*>(nullptr));
 
 /// Where a frame of flexcomp.dbc belongs.
 struct FrameLayout {

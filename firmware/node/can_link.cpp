@@ -24,10 +24,10 @@ bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
 
 LinkState CanLink::state() const {
   LinkState state;
-  const SequenceMonitor& setpoint = decoder_.monitor(FrameGroup::setpoint);
-  const SequenceMonitor& setpoint_fd = decoder_.monitor(FrameGroup::setpoint_fd);
-  const SequenceMonitor& wrench = decoder_.monitor(FrameGroup::wrench);
-  const SequenceMonitor& wrench_fd = decoder_.monitor(FrameGroup::wrench_fd);
+  const SequenceMonitor& setpoint = decoder_.monitor(kClassicGroup<SetpointMessage>);
+  const SequenceMonitor& setpoint_fd = decoder_.monitor(kFdGroup<SetpointMessage>);
+  const SequenceMonitor& wrench = decoder_.monitor(kClassicGroup<WrenchMessage>);
+  const SequenceMonitor& wrench_fd = decoder_.monitor(kFdGroup<WrenchMessage>);
   state.setpoint_conflict = setpoint.has_conflict() || setpoint_fd.has_conflict();
   state.wrench_conflict = wrench.has_conflict() || wrench_fd.has_conflict();
   state.setpoint = setpoint.counters + setpoint_fd.counters;
@@ -37,8 +37,8 @@ LinkState CanLink::state() const {
 }
 
 void CanLink::forget_conflicts() {
-  for (const FrameGroup group :
-       {FrameGroup::setpoint, FrameGroup::setpoint_fd, FrameGroup::wrench, FrameGroup::wrench_fd}) {
+  for (const FrameGroup group : {kClassicGroup<SetpointMessage>, kFdGroup<SetpointMessage>,
+                                 kClassicGroup<WrenchMessage>, kFdGroup<WrenchMessage>}) {
     decoder_.monitor(group).clear_conflict();
   }
 }

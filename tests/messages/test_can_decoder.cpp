@@ -42,7 +42,7 @@ class Receiver {
   }
 
   void wait(std::int64_t time) { now_ += time; }
-  SequenceMonitor& stream() { return decoder_.monitor(FrameGroup::wrench); }
+  SequenceMonitor& stream() { return decoder_.monitor(kClassicGroup<WrenchMessage>); }
   const StreamCounters& counters() { return stream().counters; }
 
  private:
@@ -193,7 +193,7 @@ void the_counter_wraps_without_a_loss() {
       }
     }
     TEST_ASSERT_EQUAL(messages, received);
-    const FrameGroup group = fd ? FrameGroup::setpoint_fd : FrameGroup::setpoint;
+    const FrameGroup group = fd ? kFdGroup<SetpointMessage> : kClassicGroup<SetpointMessage>;
     TEST_ASSERT_EQUAL(0, decoder.monitor(group).counters.lost);
   }
 }

@@ -322,8 +322,9 @@ void forged_and_replayed_messages_are_no_second_sender() {
     TEST_ASSERT_EQUAL(1, receiver.take(genuine));
     recorded = genuine;
   }
-  TEST_ASSERT_FALSE(receiver.decoder().monitor(FrameGroup::setpoint).has_conflict());
-  TEST_ASSERT_EQUAL(0, receiver.decoder().monitor(FrameGroup::setpoint).counters.contradicting);
+  TEST_ASSERT_FALSE(receiver.decoder().monitor(kClassicGroup<SetpointMessage>).has_conflict());
+  TEST_ASSERT_EQUAL(
+      0, receiver.decoder().monitor(kClassicGroup<SetpointMessage>).counters.contradicting);
 }
 
 }  // namespace
