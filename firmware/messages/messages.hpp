@@ -9,6 +9,15 @@ namespace flexcomp {
 /// Messages, the same on every transport. SI units; vectors in the robot base frame; NaN where the
 /// sender had no value. Times are of the sender's monotonic clock, ns; kNoTime where the transport
 /// carries none.
+///
+/// How to add a message. It lives in four places:
+///   1. here: its struct, and its name in `Message` below;
+///   2. on the wire: its frames in flexcomp.dbc and its type in lcm/*.lcm, by numbers that stay;
+///   3. can/: which frames they are, how they are packed and unpacked (can/frame_set.hpp says how);
+///   4. lcm/: how its type is written and read (lcm/event.hpp).
+/// All else is made from these by the compiler, which stops where one is missing. The tests want
+/// one of it in tests/messages/one_of_each.hpp, its frames in test_frames.py beside that, and the
+/// channel in test_lcm_codec.cpp.
 constexpr std::int64_t kNoTime = -1;
 
 using JointAngles = std::array<double, 6>;
