@@ -180,6 +180,32 @@ void a_command_is_taken_from_a_program_that_starts_anew_for_each() {
   }
 }
 
+/// How many data messages of a table a receiver takes that is sent by a program of its own.
+int taken_of_a_table(CanDecoder* decoder, bool fd, std::int64_t* now) {
+  constexpr std::uint32_t kMessages = 60;
+  CanEncoder encoder(fd);
+  int taken = 0;
+  for (std::uint32_t i = 0; i < kMessages; ++i, *now += kTick) {
+    TransferDataMessage message;
+    message.word_index = i;
+    message.count = 1;
+    const FrameList list = encoder.encode(message);
+    const Message received = decoder->decode(list.frames[0], *now);
+    taken += std::holds_alternative<TransferDataMessage>(received) ? 1 : 0;
+  }
+  return taken;
+}
+
+void a_table_is_taken_whole_from_a_program_that_starts_anew_for_each() {
+  for (const bool fd : {false, true}) {
+    CanDecoder decoder;
+    std::int64_t now = 0;
+    for (int run = 0; run < 3; ++run, now += 1'000'000'000) {
+      TEST_ASSERT_EQUAL(60, taken_of_a_table(&decoder, fd, &now));
+    }
+  }
+}
+
 void the_counter_wraps_without_a_loss() {
   for (const bool fd : {false, true}) {
     CanEncoder encoder(fd);
@@ -213,6 +239,7 @@ int main() {
   RUN_TEST(two_senders_are_found_whatever_their_counters);
   RUN_TEST(a_sender_that_starts_anew_is_accepted_after_a_pause);
   RUN_TEST(a_command_is_taken_from_a_program_that_starts_anew_for_each);
+  RUN_TEST(a_table_is_taken_whole_from_a_program_that_starts_anew_for_each);
   RUN_TEST(the_counter_wraps_without_a_loss);
   return UNITY_END();
 }

@@ -41,6 +41,7 @@ template <>
 struct Fd<TransferDataMessage> : FrameSet<DBC_FRAME(TRANSFER_DATA_FD, transfer_data_fd)> {
   using Authentication = DBC_FRAME(TRANSFER_DATA_FD_AUTHENTICATION,
                                    transfer_data_fd_authentication);
+  static constexpr bool kMayRestart = true;
 
   static bool can_hold(const TransferDataMessage& message) {
     return message.count <= TransferDataMessage::kMaxWords;
