@@ -148,6 +148,10 @@ void summarize(const diagnosis::Observations& observations, const diagnosis::Dia
   if (!result.retuned.chosen.empty()) {
     fmt::print("{}\n", diagnosis::statement_of_retuned(observations, result));
   }
+  const std::string band = diagnosis::statement_of_band(observations, result);
+  if (!band.empty()) {
+    fmt::print("{}\n", band);
+  }
   if (!result.suggested_experiment.empty()) {
     fmt::print("{}\n", result.suggested_experiment);
   }

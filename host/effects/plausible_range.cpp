@@ -14,6 +14,12 @@ double Subject::largest_load() const {
 
 Range within(double size) { return {-size, size}; }
 
+Range within(double size, double usual) {
+  Range range = within(size);
+  range.usual = usual;
+  return range;
+}
+
 Range up_to(double most) { return {0, most, Rest::below}; }
 
 Range change(double known, double most) { return {-known, most - known, Rest::below}; }

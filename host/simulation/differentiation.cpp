@@ -1,6 +1,7 @@
 #include "simulation/differentiation.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +9,7 @@ namespace flexcomp::simulation {
 namespace {
 
 constexpr Eigen::Index kFewestNeighbours = 3;
-constexpr int kOrder = 5;
+constexpr int kOrder = kPolynomialOrder;
 constexpr double kStandingStill = 1e-5;  // rad/s, far below any programmed motion
 constexpr double kBeyondNoise = 4;       // deviations
 constexpr double kMostNoiseScale = 4;  // of the variance of the angles' noise, as it was estimated
@@ -222,6 +223,24 @@ std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recordi
     best.push_back(best_of(joint, noise, cut, scale[joint]));
   }
   return best;
+}
+
+Eigen::VectorXd smoothed(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
+                         double half_window) {
+  Eigen::VectorXd smooth(values.size());
+  for (Eigen::Index row = 0; row < values.size(); ++row) {
+    const Window window = window_about(time, half_window, row);
+    const Eigen::Index count = window.last - window.first + 1;
+    const Eigen::ArrayXd from = time.segment(window.first, count).array() - time[row];
+    const Eigen::ArrayXd scaled = from / std::max(from.abs().maxCoeff(), kTiny);
+    Eigen::MatrixXd powers(count, kOrder + 1);
+    powers.col(0).setOnes();
+    for (int k = 1; k <= kOrder; ++k) {
+      powers.col(k) = powers.col(k - 1).array() * scaled;
+    }
+    smooth[row] = powers.colPivHouseholderQr().solve(values.segment(window.first, count))[0];
+  }
+  return smooth;
 }
 
 }  // namespace flexcomp::simulation

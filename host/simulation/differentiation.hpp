@@ -14,6 +14,9 @@ namespace flexcomp::simulation {
 /// that are rounded. The others are for angles whose noise would drown the acceleration.
 constexpr std::array<double, 8> kHalfWindows = {0.0161, 0.025, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2};
 
+/// Of the polynomials.
+constexpr int kPolynomialOrder = 5;
+
 /// So many numbers of every joint.
 template <typename Scalar, int Rows>
 using Columns =
@@ -50,5 +53,15 @@ LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& 
 /// rules it.
 std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recording::Samples& q,
                                       const Eigen::RowVectorXd& angle_noise);
+
+/// Values through the same polynomials: what of them is as slow as a motion that was differentiated
+/// over half a window (s). Rows as they are; three neighbours on either side at least.
+Eigen::VectorXd smoothed(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
+                         double half_window);
+
+/// Frequency (Hz) at which they pass half of the power, where a window holds many samples: that of
+/// the least-squares kernel of fourth order (in the middle of a window the fifth power adds
+/// nothing).
+constexpr double half_power_frequency(double half_window) { return 0.8463 / half_window; }
 
 }  // namespace flexcomp::simulation

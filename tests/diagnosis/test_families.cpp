@@ -64,6 +64,31 @@ void friction_of_all_joints_is_told_and_nothing_else_beside_it() {
   }
 }
 
+/// Torques of a machine whose masses, friction and torque constants are all off: these multiply
+/// each other, so that the model's own derivatives do not lead to them.
+void gains_are_told_beside_what_they_multiply() {
+  constexpr double kGains[] = {0.2, -0.15, 0.25};
+  simulation::Machine truth = robot().machine();
+  for (std::size_t i = 0; i < kMoving; ++i) {
+    truth.robot.dynamics[i].coulomb += 3 * dry(i);
+    truth.robot.dynamics[i].viscous += 3 * viscous(i);
+  }
+  for (const int joint : {2, 3}) {
+    effects::find_law("link_mass", "body")
+        ->apply({0.3 * robot().robot.elastic.joints[static_cast<std::size_t>(joint - 1)].mass},
+                joint, &truth);
+  }
+  for (int joint = 1; joint <= 3; ++joint) {
+    effects::find_law("torque_gain", "")->apply({kGains[joint - 1]}, joint, &truth);
+  }
+  const Observations observations = robot().observed(truth);
+  const Fit fit = fitted(observations);
+  const double noise =
+      observations.rms(Eigen::VectorXd::Ones(observations.size()), simulation::joint_torque, true);
+  const double left = observations.rms(fit.remainder, simulation::joint_torque, true);
+  TEST_ASSERT_TRUE(left < 1.2 * noise);
+}
+
 constexpr int kBody = 3;  // the link whose body cannot be
 
 /// A machine whose third link would have its centre of mass far outside, as if something else were
@@ -119,6 +144,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(a_body_with_an_edge_is_held_within_what_can_be);
   RUN_TEST(a_body_that_cannot_be_is_moved_to_where_it_can);
+  RUN_TEST(gains_are_told_beside_what_they_multiply);
   RUN_TEST(friction_of_all_joints_is_told_and_nothing_else_beside_it);
   return UNITY_END();
 }

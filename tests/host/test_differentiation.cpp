@@ -110,6 +110,25 @@ void a_joint_that_starts_is_said_to_stand_where_it_starts() {
   TEST_ASSERT_EQUAL_INT(0, coarse.motion(longest, 600).stands[0]);
 }
 
+/// Power that polynomials pass of a sine (Hz), away from the ends.
+double passed_power(double frequency, double half_window) {
+  constexpr Eigen::Index kSamples = 2000;
+  constexpr double kRate = 2000;  // Hz
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(kSamples, 0, (kSamples - 1) / kRate);
+  const Eigen::VectorXd sine = (2 * M_PI * frequency * time.array()).sin();
+  const Eigen::VectorXd smooth = smoothed(time, sine, half_window);
+  return smooth.segment(500, 1000).squaredNorm() / sine.segment(500, 1000).squaredNorm();
+}
+
+void polynomials_pass_what_is_slow_and_half_of_the_power_where_they_say() {
+  for (const double half_window : {0.025, 0.07}) {
+    const double frequency = half_power_frequency(half_window);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1, passed_power(0.3 * frequency, half_window));
+    TEST_ASSERT_DOUBLE_WITHIN(0.03, 0.5, passed_power(frequency, half_window));
+    TEST_ASSERT_TRUE(passed_power(4 * frequency, half_window) < 0.05);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -119,5 +138,6 @@ int main() {
   RUN_TEST(a_joint_that_stands_is_said_to_stand_whatever_its_encoder);
   RUN_TEST(a_joint_that_moves_by_a_count_a_row_and_less_does_not_stand);
   RUN_TEST(a_joint_that_starts_is_said_to_stand_where_it_starts);
+  RUN_TEST(polynomials_pass_what_is_slow_and_half_of_the_power_where_they_say);
   return UNITY_END();
 }

@@ -64,13 +64,14 @@ def _parameter(item):
 
 @dataclasses.dataclass
 class Answer:
-    """diagnosis.json. reason: why something stays unexplained, or empty; nearest: what comes
-    near."""
+    """diagnosis.json. reason: why something stays unexplained, or empty; nearest: what comes near;
+    below_hz: how fast a torque the angles can tell of, or None where any."""
 
     verdict: str
     findings: list
     reason: str
     nearest: list
+    below_hz: float = None
 
     def named(self, effects, joint=None):
         """Findings that are one of these effects (at that joint)."""
@@ -89,7 +90,8 @@ def parse(text):
             for each in answer["findings"]]
         left = answer["unexplained"] or {}
         return Answer(answer["verdict"], findings, left.get("reason", ""),
-                      [_place(each["effect"], each["joint"]) for each in left.get("nearest", [])])
+                      [_place(each["effect"], each["joint"]) for each in left.get("nearest", [])],
+                      (answer.get("joint_torque_in_band") or {}).get("below_hz"))
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise NoAnswer(f"diagnosis.json is not as it should be: {error!r}") from error
 

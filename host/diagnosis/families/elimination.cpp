@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -49,6 +50,15 @@ bool could_matter(const Hypothesis& hypothesis, const Columns& columns,
   return false;
 }
 
+/// What models are usually off by in a number.
+double usual_of(const Observations& observations, const Hypothesis& hypothesis,
+                const Parameter& parameter) {
+  const model::Robot& robot = observations.machine.robot;
+  return effects::plausible_range(*hypothesis.law, robot, size_of(robot), hypothesis.joint,
+                                  parameter.name)
+      .usual;
+}
+
 /// Which part of the samples is predicted together with this one: neighbours in time are.
 Eigen::Index part_of(const Observations& observations, const Sample& at) {
   return stretch_of(at.row, observations.scenes[at.scene].rows()) % kParts;
@@ -58,17 +68,29 @@ Eigen::Index part_of(const Observations& observations, const Sample& at) {
 
 Elimination::Elimination(const Observations& observations, const Fit& given,
                          const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary)
-    : observations_(observations), target_(given.remainder.head(observations.train)) {
-  for (std::size_t i = 0; i < given.chosen.size(); ++i) {
-    const auto count = static_cast<Eigen::Index>(given.chosen[i].values.size());
-    add({given.chosen[i], {}, true}, given.derivative.middleCols(given.first_parameter(i), count));
+    : Elimination(observations, given, given.chosen.size(), hypotheses, dictionary) {}
+
+Elimination::Elimination(const Observations& observations, const Fit& about, std::size_t given,
+                         const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary)
+    : observations_(observations), target_(about.remainder.head(observations.train)) {
+  for (std::size_t i = 0; i < about.chosen.size(); ++i) {
+    const Chosen& chosen = about.chosen[i];
+    const auto count = static_cast<Eigen::Index>(chosen.values.size());
+    const auto columns = about.derivative.middleCols(about.first_parameter(i), count);
+    if (i < given) {
+      add({chosen, {}, true}, columns);
+      continue;
+    }
+    add({{chosen.hypothesis, Values(chosen.values.size(), 0.0)}, {}, false}, columns);
+    target_ += columns.topRows(observations.train) *
+               Eigen::Map<const Eigen::VectorXd>(chosen.values.data(), count);
   }
   for (const Hypothesis& each : hypotheses) {
-    const bool is_found =
-        std::any_of(given.chosen.begin(), given.chosen.end(),
+    const bool is_there =
+        std::any_of(about.chosen.begin(), about.chosen.end(),
                     [&](const Chosen& found) { return are_the_same(found.hypothesis, each); });
     const Entry* entry = dictionary.find(each);
-    if (is_member(observations, each) && !is_found && entry != nullptr) {
+    if (is_member(observations, each) && !is_there && entry != nullptr) {
       const auto columns = dictionary.columns.middleCols(entry->first, entry->count);
       if (could_matter(each, columns.topRows(observations.train), target_)) {
         add({{each, Values(each.parameters.size(), 0.0)}, {}, false}, columns);
@@ -84,14 +106,17 @@ void Elimination::add(Member member, const Columns& columns) {
   const Eigen::Index first = columns_.cols();
   columns_.conservativeResize(observations_.train, first + columns.cols());
   columns_.rightCols(columns.cols()) = columns.topRows(observations_.train);
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    const Parameter& parameter = member.chosen.hypothesis.parameters[static_cast<std::size_t>(i)];
-    bounds_.emplace_back(member.is_given ? -kEndless : parameter.lower,
-                         member.is_given ? kEndless : parameter.upper);
+    const auto at = static_cast<std::size_t>(i);
+    const Parameter& parameter = member.chosen.hypothesis.parameters[at];
+    const double begin = member.chosen.values[at];
+    bounds_.emplace_back(parameter.lower - begin, parameter.upper - begin);
     is_held_.push_back(false);
     widest_.conservativeResize(first + columns.cols());
-    widest_[first + i] = member.is_given ? kEndless : (parameter.upper - parameter.lower) / kWidths;
+    widest_[first + i] =
+        member.is_given ? std::numeric_limits<double>::infinity()
+                        : std::min((parameter.upper - parameter.lower) / kWidths,
+                                   usual_of(observations_, member.chosen.hypothesis, parameter));
     member.columns.push_back(first + i);
   }
   members_.push_back(std::move(member));

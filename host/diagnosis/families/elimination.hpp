@@ -25,6 +25,11 @@ class Elimination {
   Elimination(const Observations& observations, const Fit& given,
               const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
 
+  /// The same anew about a fit of findings and, behind the first `given` of it, numbers: those may
+  /// go again, others may come.
+  Elimination(const Observations& observations, const Fit& about, std::size_t given,
+              const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
+
   /// The members of the best set with their values, each within its bounds and with its tolerance.
   std::vector<Chosen> best();
 
@@ -66,7 +71,9 @@ class Elimination {
   Eigen::MatrixXd columns_;  ///< samples to fit to × all columns, over the noise
   Eigen::VectorXd unit_;     ///< of each number: it alone would change as much as is to explain
   std::vector<std::pair<double, double>> bounds_;
-  Eigen::VectorXd widest_;  ///< standard deviation of each number over its plausible range
+  /// The largest standard deviation of each number: over its plausible range, or what models are
+  /// usually off by.
+  Eigen::VectorXd widest_;
   std::vector<bool> is_held_;
   Eigen::VectorXd weight_, remainder_, value_;
   double spread_ = 1;     ///< of the remainder, over the noise

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/elimination.hpp"
@@ -14,6 +15,7 @@ namespace {
 constexpr double kCloser = 0.3;           // times the tolerances of a body that cannot be
 constexpr int kHoldingRounds = 4;         // of holding closer, before a body is left out after all
 constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
+constexpr int kRoundsAnew = 2;            // of choosing the numbers about those that were fitted
 constexpr int kSimulatedSteps = 8;        // of the fit by simulation, from close by
 constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the joint before its own
 constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
@@ -148,22 +150,54 @@ bool make_possible(const Observations& observations, const Fit& fit, std::size_t
   return all_can_be;
 }
 
-/// Findings, and behind them the numbers of the families that stay beside them.
-Fit fit_beside(const Observations& observations, const Fit& findings,
-               const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  Elimination families(observations, findings, hypotheses, dictionary);
-  Fit whole = fit(observations, families.best(), kSimulatedSteps, &dictionary);
+/// Fits by simulation from numbers close by on, until all that stay behind the findings can be.
+Fit settle(const Observations& observations, std::vector<Chosen> start, std::size_t findings,
+           const Dictionary& dictionary) {
+  Fit whole = fit(observations, std::move(start), kSimulatedSteps, &dictionary);
   std::vector<Chosen> possible;
   for (int round = 0; round < kPossibleRounds; ++round) {
     if (round < kHoldingRounds && !bodies_can_be(observations, whole)) {
       possible = with_possible_bodies(observations, whole);
-    } else if (make_possible(observations, whole, findings.chosen.size(), round < kHoldingRounds,
-                             &possible)) {
+    } else if (make_possible(observations, whole, findings, round < kHoldingRounds, &possible)) {
       break;
     }
     whole = fit(observations, possible, kSimulatedSteps, &dictionary);
   }
   return whole;
+}
+
+/// Chooses the numbers anew about those that were fitted. A torque's gain multiplies what masses
+/// and friction do, which the model's own derivatives do not know.
+Fit fit_anew(const Observations& observations, const Fit& fitted, std::size_t findings,
+             const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Hypothesis> members;
+  std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(members),
+               [](const Hypothesis& each) { return each.traits().is_in_family; });
+  const Dictionary dictionary(observations, members, fitted.machine,
+                              [](std::size_t, std::size_t) {});
+  const Fit about = fit(observations, fitted.chosen, 0);
+  Elimination families(observations, about, findings, members, dictionary);
+  return settle(observations, families.best(), findings, dictionary);
+}
+
+/// The same as often as it predicts better.
+Fit refined(const Observations& observations, Fit best, std::size_t findings,
+            const std::vector<Hypothesis>& hypotheses) {
+  for (int round = 0; round < kRoundsAnew && observations.has(simulation::joint_torque); ++round) {
+    Fit anew = fit_anew(observations, best, findings, hypotheses);
+    if (!predicts_better(observations, best, anew)) {
+      break;
+    }
+    best = std::move(anew);
+  }
+  return best;
+}
+
+/// Findings, and behind them the numbers of the families that stay beside them.
+Fit fit_beside(const Observations& observations, const Fit& findings,
+               const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+  Elimination families(observations, findings, hypotheses, dictionary);
+  return settle(observations, families.best(), findings.chosen.size(), dictionary);
 }
 
 }  // namespace
@@ -174,27 +208,34 @@ Fit fit_families(const Observations& observations, const Fit& findings,
   if (!observations.has(simulation::joint_torque)) {
     return best;
   }
+  best = refined(observations, std::move(best), findings.chosen.size(), hypotheses);
   std::vector<Chosen> given = findings.chosen;
   Dictionary current = dictionary;
   while (true) {
     const std::vector<Extra> extras = propose_extras(observations, best, hypotheses);
     if (extras.empty() || extras.front().gain < kLeastShare * best.train_sum) {
-      return best;
+      break;
     }
-    given.push_back(extras.front().chosen);
-    Dictionary next_dictionary = given.back().hypothesis.traits().is_clock
+    std::vector<Chosen> more = given;
+    more.push_back(extras.front().chosen);
+    Dictionary next_dictionary = more.back().hypothesis.traits().is_clock
                                      ? current
-                                     : with_coupled_drive(observations, current, given.back());
-    Fit next = fit_beside(observations, fit(observations, given, kExtraSteps, &next_dictionary),
-                          hypotheses, next_dictionary);
+                                     : with_coupled_drive(observations, current, more.back());
+    Fit next =
+        refined(observations,
+                fit_beside(observations, fit(observations, more, kExtraSteps, &next_dictionary),
+                           hypotheses, next_dictionary),
+                more.size(), hypotheses);
     if (!(bic_gain(observations, best, next) > kStrongEvidence) ||
         !predicts_better(observations, best, next) ||
-        !is_real(observations, next, given.size() - 1)) {
-      return best;
+        !is_real(observations, next, more.size() - 1)) {
+      break;
     }
     best = std::move(next);
+    given = std::move(more);
     current = std::move(next_dictionary);
   }
+  return best;
 }
 
 }  // namespace flexcomp::diagnosis

@@ -4,6 +4,7 @@
 
 #include "check/json.hpp"
 #include "diagnosis/output/sentences.hpp"
+#include "diagnosis/output/torque_band.hpp"
 #include "diagnosis/parameters.hpp"
 
 namespace flexcomp::diagnosis {
@@ -100,6 +101,21 @@ Json excitation_json(const Excitation& of) {
           {"verdict", verdict(of)}};
 }
 
+/// Errors of torques that passed the filter by which the angles were differentiated.
+Json band_json(const Observations& observations, const Diagnosis& diagnosis) {
+  const std::optional<TorqueBand> band = torque_band(observations);
+  if (!band) {
+    return nullptr;
+  }
+  const auto rms = [&](const Eigen::VectorXd& values) {
+    return Json{{"train_rms", rms_in_band(observations, *band, values, false)},
+                {"holdout_rms", rms_in_band(observations, *band, values, true)}};
+  };
+  return {{"below_hz", band->frequency},
+          {"baseline", rms(observations.residual)},
+          {"final", rms(diagnosis.updated().remainder)}};
+}
+
 /// A form, not a finding: what the residual goes with, whatever causes it.
 Json proposal_json(const std::vector<ProposedTerm>& terms) {
   Json json = Json::array();
@@ -143,6 +159,7 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis,
   json["noise_floor_rms"] = noise_floor(observations);
   json["baseline"] = rms_of(observations, observations.residual);
   json["final"] = rms_of(observations, diagnosis.updated().remainder);
+  json["joint_torque_in_band"] = band_json(observations, diagnosis);
   json["location"] = location(diagnosis.location);
   json["findings"] = Json::array();
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {

@@ -238,7 +238,8 @@ std::string notes_html(const check::Checks& checks) {
 /// Errors in all, then of each joint or axis with the courses behind them.
 std::string errors_html(const Observations& observations, const Diagnosis& diagnosis) {
   const Eigen::VectorXd& after = diagnosis.updated().remainder;
-  std::string html = "<h2>Errors</h2>\n" + channel_table(observations, diagnosis);
+  std::string html = "<h2>Errors</h2>\n" + channel_table(observations, diagnosis) +
+                     fmt::format("<p>{}</p>\n", statement_of_band(observations, diagnosis));
   for (const Channel channel : observations.channels()) {
     html += fmt::format("<h3>In the {}</h3>\n{}{}\n{}\n", in_words(channel),
                         component_table(observations, diagnosis, channel),

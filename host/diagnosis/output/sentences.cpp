@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "diagnosis/output/torque_band.hpp"
 #include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
 
@@ -76,6 +77,23 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
       "({}) {}.",
       found == 0 ? "" : " of what is left", first_few(numbers),
       fall(observations, diagnosis.choice.fit, fit));
+}
+
+std::string statement_of_band(const Observations& observations, const Diagnosis& diagnosis) {
+  const std::optional<TorqueBand> band = torque_band(observations);
+  if (!band) {
+    return "";
+  }
+  const std::string unit = unit_of(observations, simulation::joint_torque);
+  const auto written = [&](const Eigen::VectorXd& values) {
+    return readable(rms_in_band(observations, *band, values, true), unit);
+  };
+  return fmt::format(
+      "Below {:.0f} Hz, which is as fast as these angles can tell a motion (polynomials over "
+      "{:.0f} "
+      "ms), held-out error of joint torque falls from {} to {}.",
+      band->frequency, 2e3 * band->half_window, written(observations.residual),
+      written(diagnosis.updated().remainder));
 }
 
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {

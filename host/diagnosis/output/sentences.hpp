@@ -11,6 +11,9 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
 /// One plain sentence about the numbers that stand in for what is unexplained; empty without any.
 std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis);
 
+/// One plain sentence about the torques that the angles can tell of; empty where that is all.
+std::string statement_of_band(const Observations& observations, const Diagnosis& diagnosis);
+
 /// One plain sentence about the whole.
 std::string headline(const Observations& observations, const Diagnosis& diagnosis);
 

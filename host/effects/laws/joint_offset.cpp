@@ -21,7 +21,9 @@ Forms laws::joint_offset() {
           {},
           {{"", " offset ",
             [](const Subject& of) {
-              return within(of.joint().slides() ? of.joint().upper - of.joint().lower : M_PI);
+              return of.joint().slides()
+                         ? within(of.joint().upper - of.joint().lower, kUsualShift * of.size.reach)
+                         : within(M_PI, 2 * kUsualTilt);
             },
             "an encoder may be set to zero anywhere"}}};
 }

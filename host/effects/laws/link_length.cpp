@@ -8,7 +8,7 @@ namespace {
 Range half_of_length(const Subject& of) {
   const auto& joints = of.robot.elastic.joints;
   const double length = joints[std::min(of.index() + 1, joints.size() - 1)].origin.position.norm();
-  return within(std::max(0.5 * length, 0.02 * of.size.reach));
+  return within(std::max(0.5 * length, 0.02 * of.size.reach), kUsualShift * of.size.reach);
 }
 
 }  // namespace

@@ -46,7 +46,10 @@ Forms laws::link_offset() {
       &law);
   return {{law},
           {},
-          {{"", " x y z ", [](const Subject& of) { return within(kShiftOfReach * of.size.reach); },
+          {{"", " x y z ",
+            [](const Subject& of) {
+              return within(kShiftOfReach * of.size.reach, kUsualShift * of.size.reach);
+            },
             "an axis beside its place by a twentieth of the reach is that of another robot"}}};
 }
 
