@@ -52,6 +52,7 @@ struct Traits {
   bool is_model_number = false;  ///< a number that every model has: it may stand in for physics
                                  ///< that no law has
   bool is_in_family = false;    ///< every machine has a little of it: fitted together with its like
+  bool joins_family = false;    ///< the same, but not linear: it joins when the others are fitted
   bool is_family_only = false;  ///< told beside its like only: no single cause is sought in it
   bool can_be_undone =
       true;  ///< it moves the robot, so that a command can undo it; false for what

@@ -89,6 +89,26 @@ void gains_are_told_beside_what_they_multiply() {
   TEST_ASSERT_TRUE(left < 1.2 * noise);
 }
 
+void friction_that_falls_with_speed_joins_the_family_at_its_joint() {
+  constexpr int kJoint = 2;
+  simulation::Machine truth = robot().machine();
+  for (std::size_t i = 0; i < kMoving; ++i) {
+    truth.robot.dynamics[i].coulomb += dry(i);
+    truth.robot.dynamics[i].viscous += viscous(i);
+  }
+  effects::find_law("stribeck_friction", "")->apply({60, 0.02}, kJoint, &truth);
+  const Observations observations = robot().observed(truth);
+  const Fit fit = fitted(observations);
+  std::vector<int> joints;
+  for (const Chosen& each : fit.chosen) {
+    if (each.hypothesis.effect() == "stribeck_friction") {
+      joints.push_back(each.hypothesis.joint);
+    }
+  }
+  TEST_ASSERT_EQUAL(1, joints.size());
+  TEST_ASSERT_EQUAL(kJoint, joints.front());
+}
+
 constexpr int kBody = 3;  // the link whose body cannot be
 
 /// A machine whose third link would have its centre of mass far outside, as if something else were
@@ -145,6 +165,7 @@ int main() {
   RUN_TEST(a_body_with_an_edge_is_held_within_what_can_be);
   RUN_TEST(a_body_that_cannot_be_is_moved_to_where_it_can);
   RUN_TEST(gains_are_told_beside_what_they_multiply);
+  RUN_TEST(friction_that_falls_with_speed_joins_the_family_at_its_joint);
   RUN_TEST(friction_of_all_joints_is_told_and_nothing_else_beside_it);
   return UNITY_END();
 }

@@ -6,6 +6,7 @@
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/elimination.hpp"
+#include "diagnosis/families/latecomers.hpp"
 #include "diagnosis/families/possible_bodies.hpp"
 #include "diagnosis/plausible.hpp"
 
@@ -193,6 +194,19 @@ Fit refined(const Observations& observations, Fit best, std::size_t findings,
   return best;
 }
 
+/// With what joins the families late, if that predicts better.
+Fit joined(const Observations& observations, Fit best, std::size_t findings,
+           const Dictionary& dictionary) {
+  const std::vector<Chosen> late = latecomers(observations, best, dictionary);
+  if (late.empty()) {
+    return best;
+  }
+  std::vector<Chosen> all = best.chosen;
+  all.insert(all.end(), late.begin(), late.end());
+  Fit with = settle(observations, std::move(all), findings, dictionary);
+  return predicts_better(observations, best, with) ? with : best;
+}
+
 /// Findings, and behind them the numbers of the families that stay beside them.
 Fit fit_beside(const Observations& observations, const Fit& findings,
                const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
@@ -235,7 +249,7 @@ Fit fit_families(const Observations& observations, const Fit& findings,
     given = std::move(more);
     current = std::move(next_dictionary);
   }
-  return best;
+  return joined(observations, std::move(best), given.size(), dictionary);
 }
 
 }  // namespace flexcomp::diagnosis

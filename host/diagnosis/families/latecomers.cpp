@@ -1,0 +1,64 @@
+#include "diagnosis/families/latecomers.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+
+#include "diagnosis/evidence.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+struct Latecomer {
+  const Entry* entry = nullptr;
+  double amplitude = 0;
+  double gain = 0;  ///< fall of the weighted squares, to first order
+};
+
+bool is_there(const Fit& fit, const Hypothesis& hypothesis) {
+  return std::any_of(fit.chosen.begin(), fit.chosen.end(),
+                     [&](const Chosen& each) { return are_the_same(each.hypothesis, hypothesis); });
+}
+
+}  // namespace
+
+std::vector<Chosen> latecomers(const Observations& observations, const Fit& fit,
+                               const Dictionary& dictionary) {
+  const Eigen::Index n = observations.train;
+  const Eigen::VectorXd root = huber_weights(fit.remainder.head(n)).cwiseSqrt();
+  const Eigen::VectorXd left = root.cwiseProduct(fit.remainder.head(n));
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(root.asDiagonal() *
+                                                            fit.derivative.topRows(n));
+  const Eigen::MatrixXd fitted =
+      factors.householderQ() * Eigen::MatrixXd::Identity(n, factors.rank());
+  std::map<std::size_t, Latecomer> best;  // by hypothesis
+  for (const Entry& entry : dictionary.entries) {
+    const Hypothesis& hypothesis = dictionary.hypotheses[entry.hypothesis];
+    if (!hypothesis.traits().joins_family || entry.count != 1 || is_there(fit, hypothesis)) {
+      continue;
+    }
+    Eigen::VectorXd column = root.cwiseProduct(dictionary.columns.col(entry.first).head(n));
+    column -= fitted * (fitted.transpose() * column);
+    const double square = column.squaredNorm();
+    const double amplitude = square > 0 ? column.dot(left) / square : 0;
+    const double gain = amplitude * amplitude * square;
+    const Eigen::VectorXd amplitudes = Eigen::VectorXd::Constant(1, amplitude);
+    Latecomer& known = best[entry.hypothesis];
+    if (gain > known.gain && within_bounds(hypothesis, amplitudes)) {
+      known = {&entry, amplitude, gain};
+    }
+  }
+  const double samples = independent_samples(observations, fit.remainder);
+  std::vector<Chosen> all;
+  for (const auto& [index, late] : best) {
+    if (late.gain > 0 &&
+        bic_gain(samples, fit.train_sum, fit.train_sum - late.gain, 1) > kStrongEvidence) {
+      const Hypothesis& hypothesis = dictionary.hypotheses[index];
+      all.push_back({hypothesis, values_of(hypothesis, *late.entry,
+                                           Eigen::VectorXd::Constant(1, late.amplitude))});
+    }
+  }
+  return all;
+}
+
+}  // namespace flexcomp::diagnosis
