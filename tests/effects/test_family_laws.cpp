@@ -145,7 +145,8 @@ void inertia_that_no_body_has_is_refused() {
   const auto is_refused = [&](const Values& values) {
     simulation::Machine machine = effects::machine_of(model);
     law->apply(values, 3, &machine);
-    const bool refused = !law->excess(model, machine.robot, effects::size_of(model), 3, 0).isZero(0);
+    const bool refused =
+        !law->excess(model, machine.robot, effects::size_of(model), 3, 0).isZero(0);
     TEST_ASSERT_TRUE(refused != is_body(machine.robot.link_inertia[2]));
     return refused;
   };

@@ -24,6 +24,9 @@ bool is_there(const Fit& fit, const Hypothesis& hypothesis) {
 
 std::vector<Chosen> latecomers(const Observations& observations, const Fit& fit,
                                const Dictionary& dictionary) {
+  if (fit.chosen.empty()) {
+    return {};
+  }
   const Eigen::Index n = observations.train;
   const Eigen::VectorXd root = huber_weights(fit.remainder.head(n)).cwiseSqrt();
   const Eigen::VectorXd left = root.cwiseProduct(fit.remainder.head(n));
