@@ -132,10 +132,7 @@ void take_members(const Inquiry& inquiry, const Fit& whole, Diagnosis* diagnosis
   diagnosis->choice.findings = std::move(standing);
   diagnosis->choice.fit = fit(observations, chosen, 0);
   for (const Chosen& each : whole.chosen) {
-    const bool is_found = std::any_of(chosen.begin(), chosen.end(), [&](const Chosen& found) {
-      return are_the_same(found.hypothesis, each.hypothesis);
-    });
-    if (!is_found) {
+    if (!is_chosen(chosen, each.hypothesis)) {
       chosen.push_back(each);
     }
   }

@@ -1,13 +1,11 @@
 #include "diagnosis/fit.hpp"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "diagnosis/covariance.hpp"
-#include "diagnosis/evaluator.hpp"
+#include "diagnosis/held_remainder.hpp"
 #include "error.hpp"
 
 namespace flexcomp::diagnosis {
@@ -15,104 +13,43 @@ namespace {
 
 constexpr double kHuber = 3;  // deviations
 
-/// Ceres' view: weighted remainder of the samples to fit to, in parameters over their steps.
-class WeightedRemainder : public ceres::CostFunction {
+constexpr double kLeastChange = 1e-7;  // of the sum of squares
+
+/// The weighted remainder of the samples to fit to, simulated anew for every step.
+class WeightedRemainder : public HeldRemainder {
  public:
   /// `measured` over the noise, and `weight`: of the samples to fit to.
   WeightedRemainder(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight,
                     Evaluator* evaluator)
-      : measured_(measured),
-        root_(weight.cwiseSqrt()),
-        evaluator_(evaluator),
-        bodies_(evaluator->bodies()) {
-    set_num_residuals(static_cast<int>(measured.size() + bodies_.size()) +
-                      static_cast<int>(evaluator->size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(evaluator->size()));
-  }
+      : HeldRemainder(measured.size(), evaluator), measured_(measured), root_(weight.cwiseSqrt()) {}
 
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    Values values(evaluator_->size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = parameters[0][i] * evaluator_->parameter(i).step;
-    }
-    const bool wants = jacobians != nullptr && jacobians[0] != nullptr;
+ protected:
+  bool leave(const Values& values, Eigen::Ref<Eigen::VectorXd> left,
+             Eigen::MatrixXd* slope) const override {
+    const Eigen::Index n = measured_.size();
     Eigen::MatrixXd derivative;
     Eigen::VectorXd predicted;
     try {
-      predicted = evaluator_->evaluate(values, wants ? &derivative : nullptr);
+      predicted = evaluator_->evaluate(values, slope != nullptr ? &derivative : nullptr);
     } catch (const InputError&) {
       return false;  // springs so soft that there is no rest
     }
-    const Eigen::Index n = measured_.size();
-    Eigen::Map<Eigen::VectorXd>(residuals, n) = root_.cwiseProduct(measured_ - predicted.head(n));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      residuals[static_cast<std::size_t>(n) + i] = -values[i] / evaluator_->parameter(i).tolerance;
+    left = root_.cwiseProduct(measured_ - predicted.head(n));
+    if (slope != nullptr) {
+      *slope = -(root_.asDiagonal() * derivative.topRows(n));
     }
-    const auto held = n + static_cast<Eigen::Index>(values.size());
-    Eigen::VectorXd outside;
-    if (bodies_.size() > 0) {
-      outside = bodies_.outside(evaluator_->robot_with(values));
-      Eigen::Map<Eigen::VectorXd>(residuals + held, bodies_.size()) = outside;
-    }
-    if (wants) {
-      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      const auto columns = static_cast<Eigen::Index>(values.size());
-      Eigen::Map<RowMajor> jacobian(jacobians[0], n + columns + bodies_.size(), columns);
-      jacobian.bottomRows(columns + bodies_.size()).setZero();
-      for (Eigen::Index i = 0; i < columns; ++i) {
-        const Parameter& parameter = evaluator_->parameter(static_cast<std::size_t>(i));
-        jacobian.col(i).head(n) = -parameter.step * root_.cwiseProduct(derivative.col(i).head(n));
-        jacobian(n + i, i) = -parameter.step / parameter.tolerance;
-        if (bodies_.size() > 0) {
-          Values other = values;
-          other[static_cast<std::size_t>(i)] += kRelativeStep * parameter.step;
-          jacobian.col(i).tail(bodies_.size()) =
-              (bodies_.outside(evaluator_->robot_with(other)) - outside) / kRelativeStep;
-        }
-      }
-    }
-    return Eigen::Map<Eigen::VectorXd>(residuals, n).allFinite();
+    return true;
   }
 
  private:
   const Eigen::VectorXd& measured_;
   Eigen::VectorXd root_;  ///< of the weights
-  Evaluator* evaluator_;
-  Bodies bodies_;
 };
 
 void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int most_steps,
            Evaluator* evaluator) {
-  Values scaled = evaluator->values();
-  for (std::size_t i = 0; i < scaled.size(); ++i) {
-    const Parameter& bounds = evaluator->parameter(i);
-    scaled[i] = std::clamp(scaled[i], bounds.lower, bounds.upper) / bounds.step;
-  }
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
   WeightedRemainder cost(measured, weight, evaluator);
-  problem.AddResidualBlock(&cost, nullptr, scaled.data());
-  for (std::size_t i = 0; i < scaled.size(); ++i) {
-    const Parameter& bounds = evaluator->parameter(i);
-    problem.SetParameterLowerBound(scaled.data(), static_cast<int>(i), bounds.lower / bounds.step);
-    problem.SetParameterUpperBound(scaled.data(), static_cast<int>(i), bounds.upper / bounds.step);
-  }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = most_steps;
-  options.function_tolerance = 1e-7;
-  options.logging_type = ceres::SILENT;
-  options.initial_trust_region_radius = 1e6;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  Values values(scaled.size());
-  for (std::size_t i = 0; i < scaled.size(); ++i) {
-    const Parameter& bounds = evaluator->parameter(i);
-    values[i] = std::clamp(scaled[i] * bounds.step, bounds.lower, bounds.upper);
-  }
-  evaluator->set(values);
+  minimise(&cost, most_steps, kLeastChange, evaluator);
 }
 
 /// Parameters that act in steps, like the drag that holds a flank, have no derivative: values
@@ -170,6 +107,11 @@ std::vector<effects::Placed> placed_of(const std::vector<Chosen>& chosen) {
 }
 
 }  // namespace
+
+bool is_chosen(const std::vector<Chosen>& chosen, const Hypothesis& hypothesis) {
+  return std::any_of(chosen.begin(), chosen.end(),
+                     [&](const Chosen& each) { return are_the_same(each.hypothesis, hypothesis); });
+}
 
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder) {
   const double spread =

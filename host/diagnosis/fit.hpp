@@ -14,6 +14,9 @@ struct Chosen {
   Values values;
 };
 
+/// Is the same effect at the same place among those that were chosen, in whatever form?
+bool is_chosen(const std::vector<Chosen>& chosen, const Hypothesis& hypothesis);
+
 /// Hypotheses fitted together to the samples to fit to.
 struct Fit {
   std::vector<Chosen> chosen;

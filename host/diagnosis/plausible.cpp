@@ -36,22 +36,6 @@ std::string why_not(const Parameter& parameter, const Range& range, double value
   return "";
 }
 
-std::string why_number_impossible(const Observations& observations, const Fit& fit,
-                                  std::size_t index, AtBound at_bound) {
-  const Chosen& chosen = fit.chosen[index];
-  const MachineSize size = size_of(observations);
-  for (std::size_t i = 0; i < chosen.values.size(); ++i) {
-    const Parameter& parameter = chosen.hypothesis.parameters[i];
-    const Range range = plausible_range(*chosen.hypothesis.law, observations.machine.robot, size,
-                                        chosen.hypothesis.joint, parameter.name);
-    std::string why = why_not(parameter, range, chosen.values[i], at_bound);
-    if (!why.empty()) {
-      return why;
-    }
-  }
-  return "";
-}
-
 /// Joint-space inertia matrix of the arm with its rotors, kg·m².
 model::JointMatrix inertia_matrix(const model::Robot& robot, const model::JointValues& q) {
   model::Robot weightless = robot;
@@ -100,6 +84,23 @@ std::string why_no_body(const Observations& observations, const MachineSize& siz
              : "an arm of negative inertia cannot be";
 }
 
+/// Why one of a fit's hypotheses, as fitted, cannot be so; empty if it can.
+std::string why_not_so(const Observations& observations, const Fit& fit, std::size_t index,
+                       AtBound at_bound) {
+  const Chosen& chosen = fit.chosen[index];
+  const MachineSize size = size_of(observations);
+  for (std::size_t i = 0; i < chosen.values.size(); ++i) {
+    const Parameter& parameter = chosen.hypothesis.parameters[i];
+    const Range range = plausible_range(*chosen.hypothesis.law, observations.machine.robot, size,
+                                        chosen.hypothesis.joint, parameter.name);
+    std::string why = why_not(parameter, range, chosen.values[i], at_bound);
+    if (!why.empty()) {
+      return why;
+    }
+  }
+  return why_no_body(observations, size, chosen.hypothesis, fit.machine.robot);
+}
+
 }  // namespace
 
 MachineSize size_of(const Observations& observations) {
@@ -133,18 +134,13 @@ void keep_plausible(const model::Robot& robot, const MachineSize& size, Hypothes
 }
 
 std::string why_impossible(const Observations& observations, const Fit& fit, std::size_t index) {
-  const std::string why = why_number_impossible(observations, fit, index, kBoundTellsNothing);
-  return why.empty() ? why_no_body(observations, size_of(observations),
-                                   fit.chosen[index].hypothesis, fit.machine.robot)
-                     : why;
+  return why_not_so(observations, fit, index, kBoundTellsNothing);
 }
 
 bool could_be(const Observations& observations, const Fit& fit, std::size_t index) {
-  const Hypothesis& hypothesis = fit.chosen[index].hypothesis;
-  return why_number_impossible(observations, fit, index,
-                               hypothesis.traits().is_body ? kBoundIsPossible : kBoundTellsNothing)
-             .empty() &&
-         why_no_body(observations, size_of(observations), hypothesis, fit.machine.robot).empty();
+  const bool is_body = fit.chosen[index].hypothesis.traits().is_body;
+  return why_not_so(observations, fit, index, is_body ? kBoundIsPossible : kBoundTellsNothing)
+      .empty();
 }
 
 }  // namespace flexcomp::diagnosis

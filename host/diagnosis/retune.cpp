@@ -19,10 +19,8 @@ std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothes
                                  const Dictionary& dictionary) {
   std::vector<Chosen> all = findings.chosen;
   for (const Hypothesis& each : hypotheses) {
-    const bool is_found =
-        std::any_of(findings.chosen.begin(), findings.chosen.end(),
-                    [&](const Chosen& found) { return are_the_same(found.hypothesis, each); });
-    if (each.traits().is_model_number && !is_found && dictionary.find(each) != nullptr) {
+    if (each.traits().is_model_number && !is_chosen(findings.chosen, each) &&
+        dictionary.find(each) != nullptr) {
       all.push_back({each, Values(each.parameters.size(), 0.0)});
     }
   }

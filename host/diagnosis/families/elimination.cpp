@@ -86,11 +86,8 @@ Elimination::Elimination(const Observations& observations, const Fit& about, std
                Eigen::Map<const Eigen::VectorXd>(chosen.values.data(), count);
   }
   for (const Hypothesis& each : hypotheses) {
-    const bool is_there =
-        std::any_of(about.chosen.begin(), about.chosen.end(),
-                    [&](const Chosen& found) { return are_the_same(found.hypothesis, each); });
     const Entry* entry = dictionary.find(each);
-    if (is_member(observations, each) && !is_there && entry != nullptr) {
+    if (is_member(observations, each) && !is_chosen(about.chosen, each) && entry != nullptr) {
       const auto columns = dictionary.columns.middleCols(entry->first, entry->count);
       if (could_matter(each, columns.topRows(observations.train), target_)) {
         add({{each, Values(each.parameters.size(), 0.0)}, {}, false}, columns);

@@ -67,11 +67,8 @@ void propose_clocks(const Observations& observations, const Fit& fit,
                     const std::vector<Hypothesis>& hypotheses, std::vector<Extra>* all) {
   const auto left = fit.remainder.head(observations.train);
   for (const Hypothesis& hypothesis : hypotheses) {
-    const bool is_known =
-        std::any_of(fit.chosen.begin(), fit.chosen.end(),
-                    [&](const Chosen& each) { return are_the_same(each.hypothesis, hypothesis); });
     if (!hypothesis.traits().is_clock || hypothesis.linear > 0 ||
-        hypothesis.traits().alters_model || is_known) {
+        hypothesis.traits().alters_model || is_chosen(fit.chosen, hypothesis)) {
       continue;
     }
     Extra best{{hypothesis, {}}, 0};

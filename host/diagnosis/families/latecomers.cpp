@@ -1,7 +1,6 @@
 #include "diagnosis/families/latecomers.hpp"
 
 #include <Eigen/QR>
-#include <algorithm>
 #include <map>
 
 #include "diagnosis/evidence.hpp"
@@ -14,11 +13,6 @@ struct Latecomer {
   double amplitude = 0;
   double gain = 0;  ///< fall of the weighted squares, to first order
 };
-
-bool is_there(const Fit& fit, const Hypothesis& hypothesis) {
-  return std::any_of(fit.chosen.begin(), fit.chosen.end(),
-                     [&](const Chosen& each) { return are_the_same(each.hypothesis, hypothesis); });
-}
 
 }  // namespace
 
@@ -37,7 +31,8 @@ std::vector<Chosen> latecomers(const Observations& observations, const Fit& fit,
   std::map<std::size_t, Latecomer> best;  // by hypothesis
   for (const Entry& entry : dictionary.entries) {
     const Hypothesis& hypothesis = dictionary.hypotheses[entry.hypothesis];
-    if (!hypothesis.traits().joins_family || entry.count != 1 || is_there(fit, hypothesis)) {
+    if (!hypothesis.traits().joins_family || entry.count != 1 ||
+        is_chosen(fit.chosen, hypothesis)) {
       continue;
     }
     Eigen::VectorXd column = root.cwiseProduct(dictionary.columns.col(entry.first).head(n));

@@ -18,11 +18,6 @@ Chosen chosen_of(const Dictionary& dictionary, const Screened& screened) {
   return {hypothesis, values_of(hypothesis, entry, screened.amplitude)};
 }
 
-bool is_among(const Hypothesis& hypothesis, const Fit& fit) {
-  return std::any_of(fit.chosen.begin(), fit.chosen.end(),
-                     [&](const Chosen& each) { return are_the_same(each.hypothesis, hypothesis); });
-}
-
 void add_candidates(const Observations& observations, const Fit& fit, const Dictionary& dictionary,
                     bool is_sought, std::vector<Candidate>* all) {
   const std::vector<Hypothesis>& hypotheses = dictionary.hypotheses;
@@ -39,7 +34,7 @@ void add_candidates(const Observations& observations, const Fit& fit, const Dict
   const double before = fit.remainder.head(observations.train).squaredNorm();
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     if (best[h] != nullptr && !hypotheses[h].traits().is_family_only &&
-        !is_among(hypotheses[h], fit)) {
+        !is_chosen(fit.chosen, hypotheses[h])) {
       const double gain = bic_gain(samples, before, best[h]->sum, hypotheses[h].parameters.size());
       all->push_back({gain, chosen_of(dictionary, *best[h]), is_sought, best[h]->entry});
     }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+
+#include "diagnosis/evaluator.hpp"
+
+namespace flexcomp::diagnosis {
+
+/// What a fit makes small: what an evaluator's numbers leave (the first rows), each number over its
+/// tolerance, and the bodies beyond their edges. In numbers over their steps, as Ceres sees them.
+class HeldRemainder : public ceres::CostFunction {
+ public:
+  HeldRemainder(Eigen::Index rows, Evaluator* evaluator);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ protected:
+  /// What values leave, and its slope by them (rows × numbers) where it is wanted; false where they
+  /// cannot be simulated.
+  virtual bool leave(const Values& values, Eigen::Ref<Eigen::VectorXd> left,
+                     Eigen::MatrixXd* slope) const = 0;
+
+  Evaluator* evaluator_;
+
+ private:
+  void differentiate(const Values& values, const Eigen::MatrixXd& slope,
+                     const Eigen::VectorXd& outside, double* target) const;
+
+  Eigen::Index rows_;
+  Bodies bodies_;
+};
+
+/// Minimises it within the numbers' bounds (Levenberg and Marquardt) from the evaluator's values
+/// on, and sets these. `least_change`: of the sum of squares, over it, at which it ends.
+void minimise(HeldRemainder* cost, int most_steps, double least_change, Evaluator* evaluator);
+
+}  // namespace flexcomp::diagnosis
