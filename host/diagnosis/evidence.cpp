@@ -12,9 +12,11 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kAsGoodAsNoise =
-    2;                             // times the noise: a fit that comes so near claims to be right,
-constexpr double kFarWorse = 1.5;  // and must not be so many times worse where it was not fitted
+/// Times the noise: a fit that comes so near claims to be right, and must not be so many times
+/// worse where it was not fitted.
+constexpr double kAsGoodAsNoise = 2;
+constexpr double kFarWorse = 1.5;
+constexpr double kFarOff = 6;  // deviations of a remainder, beyond which a sample does not decide
 constexpr Eigen::Index kNeighboursApart = 40;  // of all rows: half a stretch that is held out
 
 /// Samples that follow each other, though a slow sensor may have none in many rows between; not
@@ -24,29 +26,6 @@ bool are_neighbours(const Observations& observations, const Sample& a, const Sam
       std::max<Eigen::Index>(2, observations.scenes[a.scene].rows() / kNeighboursApart);
   return a.scene == b.scene && a.channel == b.channel && a.component == b.component &&
          b.row - a.row <= nearest;
-}
-
-/// Deviations by which the squares that were held out fall, block by block of time, or row by row
-/// of a load test: what varies is the product of the change with what is left.
-double confirmation_of(const Observations& observations, const Eigen::VectorXd& before,
-                       const Eigen::VectorXd& after) {
-  const Eigen::Index block_size = observations.is_static ? 1 : 25;  // rows
-  double fall = 0;
-  std::map<std::tuple<std::size_t, int, Eigen::Index, Eigen::Index>, double> products;
-  for (Eigen::Index i = observations.train; i < observations.size(); ++i) {
-    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
-    // A sample that is far off either way shall not decide.
-    const double limit = 6;
-    const double b = std::clamp(before[i], after[i] - limit, after[i] + limit);
-    const double a = std::clamp(after[i], -limit, limit);
-    fall += b * b - a * a;
-    products[{at.scene, at.channel, at.component, at.row / block_size}] += a * (b - a);
-  }
-  double variance = 0;
-  for (const auto& [block, product] : products) {
-    variance += 4 * product * product;
-  }
-  return variance > 0 ? fall / std::sqrt(variance) : 0;
 }
 
 /// Sums of squares over samples, weighted so that single samples that are far off after the fit do
@@ -98,6 +77,29 @@ bool are_of_one_place(const Group& a, const Group& b) {
   return a == b || (is_joint && a.second == b.second);
 }
 
+// Block by block of time, or row by row of a load test: the product of the change with the
+// remainder is what varies.
+double confirmation_of(const Observations& observations, const Eigen::VectorXd& before,
+                       const Eigen::VectorXd& after) {
+  const Eigen::Index block_size = observations.is_static ? 1 : 25;  // rows
+  const Eigen::Index held_out = observations.size() - observations.train;
+  const double limit = kFarOff * std::max(1.0, recording::robust_deviation(after.tail(held_out)));
+  double fall = 0;
+  std::map<std::tuple<std::size_t, int, Eigen::Index, Eigen::Index>, double> products;
+  for (Eigen::Index i = observations.train; i < observations.size(); ++i) {
+    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
+    const double a = std::clamp(after[i], -limit, limit);
+    const double b = a + std::clamp(before[i] - after[i], -limit, limit);
+    fall += b * b - a * a;
+    products[{at.scene, at.channel, at.component, at.row / block_size}] += a * (b - a);
+  }
+  double variance = 0;
+  for (const auto& [block, product] : products) {
+    variance += 4 * product * product;
+  }
+  return variance > 0 ? fall / std::sqrt(variance) : 0;
+}
+
 double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder) {
   const auto count = static_cast<double>(observations.train);
   if (observations.is_static) {
@@ -135,7 +137,7 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
   Evidence evidence;
   evidence.impossible = why_impossible(observations, with, with.chosen.size() - 1);
   evidence.effective_samples = independent_samples(observations, with.remainder);
-  const std::size_t parameters = with.chosen.back().values.size();
+  const std::size_t parameters = with.parameters() - without.parameters();
   const double ratio = bic_gain(evidence.effective_samples, without.train_sum, with.train_sum, 0);
   evidence.delta_bic =
       bic_gain(evidence.effective_samples, without.train_sum, with.train_sum, parameters);

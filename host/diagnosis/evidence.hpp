@@ -39,10 +39,15 @@ struct Evidence {
 constexpr double kStrongEvidence = 10;  ///< of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kSameEvidence = 6;     ///< of BIC: below "strong" (the same)
 
-/// Compares two fits to the same observations; `with` has one hypothesis more, its last.
+/// Compares two fits to the same observations; `with` has one hypothesis more, its last, or that
+/// and others weighed together with it.
 /// `places`: how many hypotheses were looked at to find it.
 Evidence weigh(const Observations& observations, const Fit& without, const Fit& with,
                double places);
+
+/// Deviations by which the squares that were held out fall from one remainder to another.
+double confirmation_of(const Observations& observations, const Eigen::VectorXd& before,
+                       const Eigen::VectorXd& after);
 
 /// Samples to fit to that are independent, by the correlation of neighbours in a remainder.
 double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder);

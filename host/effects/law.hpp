@@ -53,6 +53,8 @@ struct Traits {
                                  ///< that no law has
   bool is_in_family = false;    ///< every machine has a little of it: fitted together with its like
   bool joins_family = false;    ///< the same, but not linear: it joins when the others are fitted
+  bool is_friction = false;     ///< one of the forms of a joint's friction: over little of a speed
+                                ///< or load they share what they explain
   bool is_family_only = false;  ///< told beside its like only: no single cause is sought in it
   bool can_be_undone =
       true;  ///< it moves the robot, so that a command can undo it; false for what

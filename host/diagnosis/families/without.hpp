@@ -1,23 +1,27 @@
 #pragma once
 
+#include <vector>
+
 #include "diagnosis/fit.hpp"
 
 namespace flexcomp::diagnosis {
 
-/// A fit without one of its choices, to first order about it: what the others become, each held by
-/// its tolerance, and what they leave. Quick; good where a choice is one of many small ones.
+/// A fit without some of its choices, to first order about it: what the others become, each held by
+/// its tolerance, and what they leave. Quick; good where these are a few of many small ones. The
+/// whole fit is taken to be at its optimum within what bodies can be: a plain step from it would
+/// leave that, and compare unlike with like.
 class Without {
  public:
   Without(const Observations& observations, const Fit& whole);
 
-  Fit operator()(std::size_t index) const;
+  /// `indices`: the choices that go, ascending.
+  Fit operator()(const std::vector<std::size_t>& indices) const;
 
  private:
   const Observations& observations_;
   const Fit& whole_;
-  Eigen::VectorXd value_, precision_;
-  Eigen::MatrixXd gram_;    ///< parameters × parameters, weighted, with the tolerances
-  Eigen::VectorXd moment_;  ///< of the remainder
+  Eigen::VectorXd value_;
+  Eigen::MatrixXd gram_;  ///< parameters × parameters, weighted, with the tolerances
 };
 
 }  // namespace flexcomp::diagnosis

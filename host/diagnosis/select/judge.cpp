@@ -75,7 +75,7 @@ bool is_as_good(const Inquiry& inquiry, const Fit& plain, const Fit& rich) {
 }
 
 bool is_confirmed(const Inquiry& inquiry, const Fit& plain, const Fit& rich) {
-  return weigh_last(inquiry, plain, rich).confirmation > kConfirmed;
+  return confirmation_of(inquiry.observations, plain.remainder, rich.remainder) > kConfirmed;
 }
 
 Fit fit_with(const Inquiry& inquiry, const Fit& before, const Chosen& chosen, int steps) {

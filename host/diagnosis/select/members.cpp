@@ -1,6 +1,7 @@
 #include "diagnosis/select/members.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "diagnosis/families/without.hpp"
@@ -35,15 +36,17 @@ double explained_everywhere(const Observations& observations, const Fit& whole) 
   return least;
 }
 
-/// Weighs one choice of a fit of many, all others being there, to first order.
+/// Weighs one choice of a fit of many, together with others that go with it, all else being there,
+/// to first order. `together`: ascending; holds `index`.
 Finding judge_linearly(const Inquiry& inquiry, const Fit& whole, const Without& without,
-                       std::size_t index) {
+                       std::size_t index, const std::vector<std::size_t>& together) {
   const auto at = static_cast<std::ptrdiff_t>(index);
-  Fit others = without(index);
+  Fit others = without(together);
   Fit last = whole;  // the same fit, its last hypothesis the one that is weighed
   std::rotate(last.chosen.begin() + at, last.chosen.begin() + at + 1, last.chosen.end());
   Evidence evidence = weigh_last(inquiry, others, last);
-  return {whole.chosen[index], {}, std::move(evidence), std::move(others), {}};
+  return {
+      whole.chosen[index], whole.covariance_of(index), std::move(evidence), std::move(others), {}};
 }
 
 /// On a small path errors of geometry, which are smooth along it, imitate whatever else is: only
@@ -59,24 +62,77 @@ bool stands_as_member(const Inquiry& inquiry, const Evidence& evidence) {
          evidence.lowers_held_out && !shows_on_small_path(inquiry.observations, evidence);
 }
 
-}  // namespace
-
-std::vector<Finding> members_that_stand(const Inquiry& inquiry, const Fit& whole) {
+/// Members that stand each beside all others.
+std::vector<Finding> standing_alone(const Inquiry& inquiry, const Fit& whole,
+                                    const Without& without) {
   std::vector<Finding> standing;
-  if (whole.chosen.size() < kLeastMembers ||
-      explained_everywhere(inquiry.observations, whole) < kLeastByFamilies) {
-    return standing;
-  }
-  const Without without(inquiry.observations, whole);
   for (std::size_t i = 0; i < whole.chosen.size(); ++i) {
-    Finding finding = judge_linearly(inquiry, whole, without, i);
+    Finding finding = judge_linearly(inquiry, whole, without, i, {i});
     if (stands_as_member(inquiry, finding.evidence)) {
-      finding.covariance = whole.covariance_of(i);
       standing.push_back(std::move(finding));
     }
   }
+  return standing;
+}
+
+/// Forms of friction that a fit has at each joint.
+std::map<int, std::vector<std::size_t>> friction_by_joint(const Fit& whole) {
+  std::map<int, std::vector<std::size_t>> all;
+  for (std::size_t i = 0; i < whole.chosen.size(); ++i) {
+    const Hypothesis& hypothesis = whole.chosen[i].hypothesis;
+    if (hypothesis.traits().is_friction) {
+      all[hypothesis.joint].push_back(i);
+    }
+  }
+  return all;
+}
+
+bool has_friction_at(const std::vector<Finding>& findings, int joint) {
+  return std::any_of(findings.begin(), findings.end(), [&](const Finding& each) {
+    const Hypothesis& hypothesis = each.chosen.hypothesis;
+    return hypothesis.joint == joint && hypothesis.traits().is_friction;
+  });
+}
+
+/// The one of several choices that is the most deviations from nothing.
+std::size_t surest_of(const Fit& whole, const std::vector<std::size_t>& indices) {
+  const auto deviations = [&](std::size_t index) {
+    const double variance = whole.covariance_of(index)(0, 0);
+    return std::abs(whole.chosen[index].values.front()) / std::sqrt(std::max(variance, 1e-300));
+  };
+  return *std::max_element(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
+    return deviations(a) < deviations(b);
+  });
+}
+
+/// Forms of a joint's friction share what they explain where it moves in a small range of speeds,
+/// so that none may stand beside the others. Its friction stands all the same where they do
+/// together: the surest form is the finding then, as uncertain as it is beside the others.
+void add_friction_as_whole(const Inquiry& inquiry, const Fit& whole, const Without& without,
+                           std::vector<Finding>* standing) {
+  for (const auto& [joint, forms] : friction_by_joint(whole)) {
+    if (forms.size() < 2 || has_friction_at(*standing, joint)) {
+      continue;
+    }
+    Finding finding = judge_linearly(inquiry, whole, without, surest_of(whole, forms), forms);
+    if (stands_as_member(inquiry, finding.evidence)) {
+      standing->push_back(std::move(finding));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> members_that_stand(const Inquiry& inquiry, const Fit& whole) {
+  if (whole.chosen.size() < kLeastMembers ||
+      explained_everywhere(inquiry.observations, whole) < kLeastByFamilies) {
+    return {};
+  }
+  const Without without(inquiry.observations, whole);
+  std::vector<Finding> standing = standing_alone(inquiry, whole, without);
+  add_friction_as_whole(inquiry, whole, without, &standing);
   if (standing.size() < kLeastMembers) {
-    standing.clear();
+    return {};
   }
   std::sort(standing.begin(), standing.end(), [](const Finding& a, const Finding& b) {
     return a.evidence.delta_bic > b.evidence.delta_bic;

@@ -8,6 +8,7 @@ Forms laws::coulomb_friction() {
   Law law;
   law.joints = every_joint;
   law.traits.linear_in = 1;
+  law.traits.is_friction = true;
   law.traits.is_in_family = true;
   law.traits.is_model_number = true;
   law.traits.measures = Measures::friction;

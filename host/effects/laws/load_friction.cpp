@@ -25,6 +25,7 @@ Forms laws::load_friction() {
   Law law;
   law.joints = every_joint;
   law.traits.linear_in = 1;
+  law.traits.is_friction = true;
   law.traits.is_in_family = true;
   law.traits.is_family_only = true;
   law.parameters = constant({{"coefficient", "1"}});

@@ -20,6 +20,7 @@ Forms laws::stribeck_friction() {
   Law law;
   law.joints = every_joint;
   law.traits.linear_in = 1;
+  law.traits.is_friction = true;
   law.traits.joins_family = true;
   law.parameters = of_joint({{"excess", "N·m"}, {"speed", "rad/s"}});
   law.words = "friction that falls with speed";

@@ -8,6 +8,7 @@ Forms laws::viscous_friction() {
   Law both_ways;
   both_ways.joints = every_joint;
   both_ways.traits.linear_in = 1;
+  both_ways.traits.is_friction = true;
   both_ways.traits.is_in_family = true;
   both_ways.traits.is_model_number = true;
   both_ways.parameters = of_joint({{"coefficient", "N·m·s/rad"}});
@@ -19,6 +20,7 @@ Forms laws::viscous_friction() {
   by_direction.form = "by_direction";
   by_direction.joints = every_joint;
   by_direction.traits.linear_in = 2;
+  by_direction.traits.is_friction = true;
   by_direction.parameters = of_joint({{"forward", "N·m·s/rad"}, {"backward", "N·m·s/rad"}});
   by_direction.statement =
       says("joint {} has another viscous friction, unlike in its two directions");
