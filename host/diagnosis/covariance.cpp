@@ -1,6 +1,7 @@
 #include "diagnosis/covariance.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 namespace flexcomp::diagnosis {
@@ -22,7 +23,39 @@ Eigen::MatrixXd scores_of_stretches(const Observations& observations,
   return scores;
 }
 
+bool is_same_series(const Observations& observations, Eigen::Index a, Eigen::Index b) {
+  const Sample& one = observations.samples[static_cast<std::size_t>(a)];
+  const Sample& other = observations.samples[static_cast<std::size_t>(b)];
+  return one.scene == other.scene && one.channel == other.channel &&
+         one.component == other.component;
+}
+
 }  // namespace
+
+double correlated_widening(const Observations& observations, const Eigen::VectorXd& score) {
+  constexpr Eigen::Index kLagPart = 40;  // of a series, over which a score may be correlated
+  double alone = 0;
+  double together = 0;
+  Eigen::Index begin = 0;
+  while (begin < score.size()) {
+    Eigen::Index end = begin + 1;
+    while (end < score.size() && is_same_series(observations, begin, end)) {
+      ++end;
+    }
+    const auto series = score.segment(begin, end - begin);
+    const Eigen::Index lags =
+        observations.is_static ? 0 : std::max<Eigen::Index>(1, series.size() / kLagPart);
+    alone += series.squaredNorm();
+    together += series.squaredNorm();
+    for (Eigen::Index lag = 1; lag <= lags && lag < series.size(); ++lag) {
+      const double share = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
+      const Eigen::Index pairs = series.size() - lag;
+      together += 2 * share * series.head(pairs).dot(series.tail(pairs));
+    }
+    begin = end;
+  }
+  return alone > 0 ? std::max(1.0, together / alone) : 1.0;
+}
 
 Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::MatrixXd& derivative,
                               const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,

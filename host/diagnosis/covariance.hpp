@@ -19,4 +19,9 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::Mat
                               const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,
                               const Eigen::VectorXd& precision, double variance);
 
+/// Times the variance of a number whose scores (derivative times weighted remainder, by sample)
+/// were independent of each other: scores that are correlated over time tell less (Newey and West
+/// 1987, Bartlett's weights). Quicker than the above, and never less than one.
+double correlated_widening(const Observations& observations, const Eigen::VectorXd& score);
+
 }  // namespace flexcomp::diagnosis

@@ -41,6 +41,14 @@ Eigen::VectorXd Evaluator::precisions() const {
   return all;
 }
 
+Eigen::VectorXd Evaluator::widenings() const {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(size()));
+  for (std::size_t i = 0; i < size(); ++i) {
+    all[static_cast<Eigen::Index>(i)] = parameter(i).widening;
+  }
+  return all;
+}
+
 Values Evaluator::values() const {
   Values all;
   for (const Chosen& each : chosen_) {

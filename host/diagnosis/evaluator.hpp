@@ -22,6 +22,8 @@ class Evaluator {
   const Parameter& parameter(std::size_t index) const;
   /// By which the parameters' tolerances hold them: one over the square of each.
   Eigen::VectorXd precisions() const;
+  /// Times the standard deviation of each parameter (Parameter::widening).
+  Eigen::VectorXd widenings() const;
   const std::vector<Chosen>& chosen() const { return chosen_; }
   Values values() const;
   void set(const Values& all);

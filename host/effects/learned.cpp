@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "error.hpp"
 
@@ -101,15 +102,35 @@ model::LearnedEffect entry_of(const model::Robot& robot, const Placed& placed) {
   return entry;
 }
 
+/// Of a law among all forms of all effects; behind them for one that is not among them.
+std::size_t place_in_catalogue(const Law& law) {
+  static const std::vector<const Law*> kLaws = [] {
+    std::vector<const Law*> all;
+    for (const Effect& effect : catalogue()) {
+      for (const LawPointer& form : effect.forms) {
+        all.push_back(form.get());
+      }
+    }
+    return all;
+  }();
+  const auto at = std::find(kLaws.begin(), kLaws.end(), &law);
+  return static_cast<std::size_t>(at - kLaws.begin());
+}
+
 }  // namespace
 
 void add_effects(const std::vector<Placed>& effects, Machine* machine) {
-  for (const bool alters : {true, false}) {
-    for (const Placed& each : effects) {
-      if (each.law->traits.alters_model == alters) {
-        each.law->apply(each.values, each.joint, machine);
-      }
-    }
+  using Rank = std::tuple<bool, std::size_t, int>;
+  std::vector<std::pair<Rank, const Placed*>> ordered;
+  ordered.reserve(effects.size());
+  for (const Placed& each : effects) {
+    const Rank rank{!each.law->traits.alters_model, place_in_catalogue(*each.law), each.joint};
+    ordered.emplace_back(rank, &each);
+  }
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [rank, each] : ordered) {
+    each->law->apply(each->values, each->joint, machine);
   }
 }
 

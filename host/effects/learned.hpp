@@ -11,7 +11,9 @@ struct Placed {
   Values values;
 };
 
-/// Gives a machine effects: first those that alter the model, since terms may hold a copy of it.
+/// Gives a machine effects: first those that alter the model, since terms may hold a copy of it;
+/// within both in the order of the catalogue and of the joints. Turns and gains do not commute, and
+/// a machine must not depend on the order in which its effects are listed.
 void add_effects(const std::vector<Placed>& effects, Machine* machine);
 
 /// The effects that a robot's file lists. Throws InputError for an effect, form, joint or parameter

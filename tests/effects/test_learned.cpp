@@ -103,6 +103,24 @@ void an_effect_that_was_learnt_is_simulated_from_the_file_it_is_written_to() {
   });
 }
 
+void a_machine_does_not_depend_on_the_order_in_which_its_effects_are_listed() {
+  const MovingRobot moving(kRows);
+  const simulation::Scene scene = moving.scene();
+  std::vector<Placed> listed = {{effects::find_law("base_frame", ""), 0, {0, 0.01, 0, 0.01, 0, 0}},
+                                {effects::find_law("tcp_offset", ""), 0, {0.01, 0.02, 0.03}},
+                                {effects::find_law("joint_axis", ""), 3, {0.01, -0.02}},
+                                {effects::find_law("joint_axis", ""), 5, {0.02, 0.01}},
+                                {effects::find_law("joint_offset", ""), 5, {0.02}},
+                                {effects::find_law("torque_offset", ""), 2, {50}},
+                                {effects::find_law("torque_gain", ""), 2, {0.1}}};
+  simulation::Machine forwards = effects::machine_of(moving.robot);
+  effects::add_effects(listed, &forwards);
+  std::reverse(listed.begin(), listed.end());
+  simulation::Machine backwards = effects::machine_of(moving.robot);
+  effects::add_effects(listed, &backwards);
+  TEST_ASSERT_EQUAL_DOUBLE(0, difference(forwards, backwards, scene));
+}
+
 /// Complaint about a robot that lists an effect; empty where nothing is wrong. There is no
 /// length between its last two axes.
 std::string said_of(const model::LearnedEffect& listed) {
@@ -179,6 +197,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(an_effect_of_no_size_changes_nothing);
   RUN_TEST(an_effect_that_was_learnt_is_simulated_from_the_file_it_is_written_to);
+  RUN_TEST(a_machine_does_not_depend_on_the_order_in_which_its_effects_are_listed);
   RUN_TEST(every_mistake_in_the_list_is_refused_without_a_recording);
   RUN_TEST(a_drift_by_temperature_needs_temperatures);
   RUN_TEST(play_by_the_key_follows_the_load_where_there_is_any_and_else_the_motion);

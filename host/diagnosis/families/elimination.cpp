@@ -6,15 +6,15 @@
 #include <limits>
 #include <numeric>
 
+#include "diagnosis/covariance.hpp"
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr int kWeightRounds = 3;       // of Huber's weights: they change little after that
-constexpr double kRobustLimit = 3;     // deviations, as in `fit`
-constexpr Eigen::Index kLagPart = 40;  // of a series, over which a score may be correlated
+constexpr int kWeightRounds = 3;    // of Huber's weights: they change little after that
+constexpr double kRobustLimit = 3;  // deviations, as in `fit`
 /// Tolerances of each number, in units by which it alone would change as much as is to be
 /// explained: the scale of the ridge (Hoerl and Kennard 1970), which is none of the numbers' own
 /// units.
@@ -208,40 +208,6 @@ double Elimination::error_elsewhere(const std::vector<std::size_t>& members) con
   return error;
 }
 
-/// By how much the variance of a column's value is larger than for independent errors: scores that
-/// are correlated over time (Newey and West 1987, Bartlett's weights).
-double Elimination::widening(Eigen::Index column) const {
-  const Eigen::VectorXd score = columns_.col(column).cwiseProduct(weight_).cwiseProduct(remainder_);
-  double alone = 0;
-  double together = 0;
-  Eigen::Index begin = 0;
-  while (begin < score.size()) {
-    Eigen::Index end = begin + 1;
-    while (end < score.size() && is_same_series(begin, end)) {
-      ++end;
-    }
-    const auto series = score.segment(begin, end - begin);
-    const Eigen::Index lags =
-        observations_.is_static ? 0 : std::max<Eigen::Index>(1, series.size() / kLagPart);
-    alone += series.squaredNorm();
-    together += series.squaredNorm();
-    for (Eigen::Index lag = 1; lag <= lags && lag < series.size(); ++lag) {
-      const double share = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
-      const Eigen::Index pairs = series.size() - lag;
-      together += 2 * share * series.head(pairs).dot(series.tail(pairs));
-    }
-    begin = end;
-  }
-  return alone > 0 ? std::max(1.0, together / alone) : 1.0;
-}
-
-bool Elimination::is_same_series(Eigen::Index a, Eigen::Index b) const {
-  const Sample& one = observations_.samples[static_cast<std::size_t>(a)];
-  const Sample& other = observations_.samples[static_cast<std::size_t>(b)];
-  return one.scene == other.scene && one.channel == other.channel &&
-         one.component == other.component;
-}
-
 /// The member that is known least beside the others, by Wald's statistic over its degrees of
 /// freedom; members_.size() where only given ones are left.
 std::size_t Elimination::weakest_of(const std::vector<std::size_t>& members,
@@ -323,7 +289,8 @@ Elimination::Set Elimination::best_on_path() {
   divide();
   Eigen::VectorXd widenings(columns_.cols());
   for (Eigen::Index column = 0; column < columns_.cols(); ++column) {
-    widenings[column] = widening(column);
+    widenings[column] = correlated_widening(
+        observations_, columns_.col(column).cwiseProduct(weight_).cwiseProduct(remainder_));
   }
   while (true) {
     hold_impossible(members);
@@ -340,10 +307,43 @@ Elimination::Set Elimination::best_on_path() {
   }
 }
 
+/// Variances of numbers, over the noise's; endless certainty, zero, of those that are not among
+/// them.
+Eigen::VectorXd Elimination::variances(const std::vector<Eigen::Index>& columns) const {
+  Eigen::MatrixXd inner = gram_(columns, columns);
+  inner.diagonal() += precision()(columns);
+  const Eigen::MatrixXd inverse =
+      inner.ldlt().solve(Eigen::MatrixXd::Identity(inner.rows(), inner.cols()));
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(columns_.cols());
+  all(columns) = inverse.diagonal();
+  return all;
+}
+
+/// By how much each number of a set is less certain if the members that were left out are no more
+/// than unlikely. Another form of friction is a matter of words, and left out all the same.
+Eigen::VectorXd Elimination::widenings_by_others(const std::vector<std::size_t>& members) const {
+  const std::vector<Eigen::Index> own = columns_of(members);
+  std::vector<Eigen::Index> all = own;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Member& member = members_[i];
+    if (std::find(members.begin(), members.end(), i) == members.end() &&
+        !member.chosen.hypothesis.traits().is_friction) {
+      all.insert(all.end(), member.columns.begin(), member.columns.end());
+    }
+  }
+  const Eigen::VectorXd alone = variances(own);
+  const Eigen::VectorXd beside = variances(all);
+  return (alone.array() > 0)
+      .select(beside.cwiseQuotient(alone.cwiseMax(1e-300)), 1)
+      .cwiseMax(1)
+      .cwiseSqrt();
+}
+
 std::vector<Chosen> Elimination::chosen_of(const Set& set) {
   tolerance_ = set.tolerance;
   is_held_ = set.is_held;
   solve(set.members);
+  const Eigen::VectorXd widenings = widenings_by_others(set.members);
   std::vector<Chosen> all;
   for (const std::size_t index : set.members) {
     const Member& member = members_[index];
@@ -356,6 +356,7 @@ std::vector<Chosen> Elimination::chosen_of(const Set& set) {
       Parameter& parameter = chosen.hypothesis.parameters[i];
       double& value = chosen.values[i];
       value = std::clamp(value + value_[member.columns[i]], parameter.lower, parameter.upper);
+      parameter.widening = widenings[member.columns[i]];
       if (!member.is_given) {
         parameter.tolerance = 1 / std::sqrt(precision()[member.columns[i]]);
       }

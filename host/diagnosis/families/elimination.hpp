@@ -55,14 +55,14 @@ class Elimination {
   Eigen::VectorXd solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                            const std::vector<Eigen::Index>& columns) const;
   double error_elsewhere(const std::vector<std::size_t>& members) const;
-  double widening(Eigen::Index column) const;
   std::size_t weakest_of(const std::vector<std::size_t>& members,
                          const Eigen::VectorXd& widenings) const;
   Eigen::Index farthest_out(const std::vector<std::size_t>& members) const;
   void hold_impossible(const std::vector<std::size_t>& members);
   Set best_on_path();
-  bool is_same_series(Eigen::Index a, Eigen::Index b) const;
   Set best_set();
+  Eigen::VectorXd variances(const std::vector<Eigen::Index>& columns) const;
+  Eigen::VectorXd widenings_by_others(const std::vector<std::size_t>& members) const;
   std::vector<Chosen> chosen_of(const Set& set);
 
   const Observations& observations_;

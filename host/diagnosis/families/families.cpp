@@ -181,7 +181,7 @@ Fit fit_anew(const Observations& observations, const Fit& fitted, std::size_t fi
 /// The same as often as it predicts better.
 Fit refined(const Observations& observations, Fit best, std::size_t findings,
             const std::vector<Hypothesis>& hypotheses) {
-  for (int round = 0; round < kRoundsAnew && observations.has(simulation::joint_torque); ++round) {
+  for (int round = 0; round < kRoundsAnew; ++round) {
     Fit anew = fit_anew(observations, best, findings, hypotheses);
     if (!predicts_better(observations, best, anew)) {
       break;
@@ -215,11 +215,11 @@ Fit fit_beside(const Observations& observations, const Fit& findings,
 
 Fit fit_families(const Observations& observations, const Fit& findings,
                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  Fit best = fit_beside(observations, findings, hypotheses, dictionary);
+  Fit best = refined(observations, fit_beside(observations, findings, hypotheses, dictionary),
+                     findings.chosen.size(), hypotheses);
   if (!observations.has(simulation::joint_torque)) {
     return best;
   }
-  best = refined(observations, std::move(best), findings.chosen.size(), hypotheses);
   std::vector<Chosen> given = findings.chosen;
   Dictionary current = dictionary;
   while (true) {

@@ -34,6 +34,8 @@ struct Parameter {
   double step;  ///< as in Bounds
   /// Standard deviation about zero that a fit holds it to; endless where only the samples decide.
   double tolerance = std::numeric_limits<double>::infinity();
+  /// Times as uncertain as among what is fitted: numbers that were left out could do the same.
+  double widening = 1;
 };
 
 /// A law at one place, and where to begin with it in these observations.
