@@ -56,8 +56,8 @@ class InstalledPackage(unittest.TestCase):
         run(os.environ["FLEXCOMP_C"], "-std=c11", PROJECT / "controller_loop.c", *flags, "-o", program)
         self.assertRegex(run(program), r"^active: TCP would be off by ")
 
-    def test_the_readme_shows_the_program_that_is_tested(self):
-        shown = re.search(r"```c\n(.*?)```", (SOURCE / "README.md").read_text(), re.DOTALL)
+    def test_the_guide_shows_the_program_that_is_tested(self):
+        shown = re.search(r"```c\n(.*?)```", (SOURCE / "include/flexcomp/README.md").read_text(), re.DOTALL)
         self.assertIsNotNone(shown)
         self.assertEqual(shown.group(1), (PROJECT / "controller_loop.c").read_text())
 
