@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
+import generated
 import pages
 
 SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
@@ -113,6 +114,12 @@ class Reference(unittest.TestCase):
         described = (SOURCE / "host/README.md").read_text()
         self.assertEqual(set(), {name for name in names if f"`{name}`" not in described})
 
+    def test_the_options_of_the_daemon_are_those_of_its_help(self):
+        _, shown, _ = generated.between_markers((SOURCE / "firmware/README.md").read_text(), "options")
+        self.assertEqual(generated.options_table(PROGRAMS), shown)
+        offered = set(re.findall(r"^  --([a-z-]+)", help_of("flexcompd"), re.MULTILINE)) - {"version", "config"}
+        self.assertEqual(offered, set(re.findall(r"^\| `([a-z-]+)`", shown, re.MULTILINE)))
+
     def test_the_page_on_effects_shows_the_files_that_are_tested(self):
         shown = [content for words, content in pages.Page(SOURCE / "host/effects/README.md").blocks() if words == ["cpp"]]
         tested = SOURCE / "tests/effects/extra"
@@ -123,6 +130,30 @@ class Reference(unittest.TestCase):
                                  re.MULTILINE))
         described = (SOURCE / "host/diagnosis/README.md").read_text()
         self.assertEqual(set(), {name for name in effects if f"`{name}`" not in described})
+
+
+class Errors(unittest.TestCase):
+    """The indexes of errors quote the programs: what they show is in the sources."""
+
+    def test_every_text_is_one_of_the_programs(self):
+        said = "\n".join(literals())
+        for page, part in (("host/README.md", "# Errors by their text"), ("firmware/README.md", "## Messages by their text")):
+            table = (SOURCE / page).read_text().split(part + "\n")[1]
+            texts = [text for row in re.findall(r"^\|(.*?)(?<!\\)\|", table, re.MULTILINE)
+                     for text in re.findall(r"`([^`]*)`", row) if " " in text and not text.startswith("flexcomp")]
+            self.assertGreater(len(texts), 10)
+            missing = [piece for text in texts for piece in re.split("…|'…'", text)
+                       if piece.strip(" :;,.'") and piece.strip(" ") not in said]
+            self.assertEqual([], missing, page)
+
+
+def literals():
+    """The programs' texts, with those that continue on the next line put together, and `…` for what is filled in."""
+    for folder in ("host", "firmware", "tools"):
+        for path in (SOURCE / folder).rglob("*"):
+            if path.suffix in (".cpp", ".hpp") or path.parent.name == "tools" and path.is_file():
+                for found in re.findall(r'(?:"(?:[^"\\\n]|\\.)*"\s*)+', path.read_text()):
+                    yield "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', found))
 
 
 class Tutorial(unittest.TestCase):
@@ -137,8 +168,10 @@ class Tutorial(unittest.TestCase):
         workplace = self.follow("host/README.md")
         self.assertIn("compliance: 8.9", (workplace.folder / "diagnosis/updated_model.yaml").read_text())
 
-    def test_the_commands_before_the_bus_run_as_they_stand(self):
-        self.follow("firmware/README.md", with_sources=True)
+    def test_the_commands_of_the_other_pages_run_as_they_stand(self):
+        for page in ("README.md", "firmware/README.md", "host/study/README.md", "host/control/README.md"):
+            with self.subTest(page=page):
+                self.follow(page, with_sources=True)
 
 
 if __name__ == "__main__":
