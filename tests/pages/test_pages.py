@@ -69,6 +69,13 @@ class Everywhere(unittest.TestCase):
                    if (found := commands.unknown(page.code()))}
         self.assertEqual({}, unknown)
 
+    def test_options_of_tools_that_are_named_exist(self):
+        unknown = {f"{page.path.relative_to(SOURCE)}: tools/{tool} {option}" for page in PAGES
+                   for tool, rest in re.findall(r"\btools/([a-z][a-z-]*)((?: [^\n|&>]*)?)", page.code())
+                   if (SOURCE / "tools" / tool).is_file() for option in OPTION.findall(rest)
+                   if option not in (SOURCE / "tools" / tool).read_text()}
+        self.assertEqual(set(), unknown)
+
     def test_this_sees_what_it_looks_for(self):
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder) / "page.md"
