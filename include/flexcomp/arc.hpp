@@ -108,8 +108,8 @@ template <typename Scalar, int Joints>
 class AdaptiveRobustController {
  public:
   using Gains = ArcGains<Scalar, Joints>;                    ///< made by flexcomp design-arc
-  using Input = ArcInput<Scalar, Joints>;                    ///< of a tick
-  using Output = ArcOutput<Scalar, Joints>;                  ///< of a tick
+  using Input = ArcInput<Scalar, Joints>;                    ///< one for each tick
+  using Output = ArcOutput<Scalar, Joints>;                  ///< one for each tick
   using Angles = JointVector<Scalar, Joints>;                ///< one number a joint
   using LinkParameters = Eigen::Matrix<Scalar, Joints, 3>;   ///< α₁, a row a joint
   using MotorParameters = Eigen::Matrix<Scalar, Joints, 4>;  ///< α₂

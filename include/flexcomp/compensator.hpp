@@ -63,7 +63,7 @@ struct CompensatorConfig {
   Scalar wrench_age_limit = 0;    ///< s
   JointVector<Scalar, Joints> joint_speed =  ///< rad/s, largest plausible
       JointVector<Scalar, Joints>::Zero();
-  std::array<CorrectionLimits<Scalar>, Joints> limits{};  ///< of the correction
+  std::array<CorrectionLimits<Scalar>, Joints> limits{};  ///< the correction's
   Scalar deflection_limit = 0;                            ///< m, largest correction at the TCP
   Scalar chart_margin = 0;  ///< rad, outside the chart, over which the correction fades
   Scalar hold_time =
@@ -117,8 +117,8 @@ class Compensator {
 
  public:
   using Config = CompensatorConfig<Scalar, Joints>;  ///< given once
-  using Input = CompensatorInput<Scalar, Joints>;    ///< of a tick
-  using Output = CompensatorOutput<Scalar, Joints>;  ///< of a tick
+  using Input = CompensatorInput<Scalar, Joints>;    ///< one for each tick
+  using Output = CompensatorOutput<Scalar, Joints>;  ///< one for each tick
 
   /// Takes a configuration and forgets all that was. Returns ok or bad_config.
   Result configure(const Config& config);

@@ -6,9 +6,9 @@
 ///
 /// A robot bends under a force on its tool. In every control period the core takes the joint
 /// setpoint and the measured wrench, and returns the setpoint that puts the bent robot's tool where
-/// that of a stiff one would be.
+/// a stiff robot would have it.
 ///
-/// What to call, in which order, from which thread:
+/// The calls in their order, and the thread that makes them:
 ///
 ///     at start (any thread)
 ///       flexcomp_table_open            check a table where it lies (flash, or a buffer you keep)
@@ -197,7 +197,7 @@ typedef struct flexcomp_table {
 
 /// Content of a table's header that a caller may want to know.
 typedef struct flexcomp_table_info {
-  uint64_t model_hash;      ///< of the robot it was made for
+  uint64_t model_hash;      ///< fingerprint of the robot it was made for
   bool is_path;             ///< else a joint grid
   uint32_t node_count;      ///< records in it
   uint32_t size;            ///< bytes
@@ -247,7 +247,7 @@ typedef struct flexcomp_config {
   float setpoint_age_limit;  ///< s, beyond it a setpoint is stale
   float wrench_age_limit;    ///< s
   float joint_speed[FLEXCOMP_JOINTS];         ///< rad/s, largest plausible
-  flexcomp_limits_t limits[FLEXCOMP_JOINTS];  ///< of the correction
+  flexcomp_limits_t limits[FLEXCOMP_JOINTS];  ///< the correction's
   float deflection_limit;                     ///< m, largest correction at the TCP
   float chart_margin;  ///< rad, outside the chart, over which the correction fades
   /// s, a fault may last before fading out. Bad ticks count up, good ones down: a fault that comes

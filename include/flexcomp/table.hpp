@@ -16,8 +16,8 @@ enum class Chart : std::uint32_t {
   joint_grid = 2,  ///< boxes over the middle joints; joints 1 and 6 enter as exact rotations
 };
 
-constexpr std::uint32_t kTableVersion = 1;  ///< of the format
-constexpr std::size_t kTableJoints = 6;     ///< of every robot that has tables
+constexpr std::uint32_t kTableVersion = 1;  ///< the format's
+constexpr std::size_t kTableJoints = 6;     ///< every robot that has tables has six
 constexpr std::size_t kMaxGridAxes = 4;     ///< joints that a grid may cover
 
 /// First bytes of a table: a flat blob of little-endian 32-bit words, read where it lies (flash).
@@ -132,8 +132,8 @@ class Table {
     return sizeof(TableHeader) +
            sizeof(float) * static_cast<std::size_t>(shape_.node_count) * shape_.record_size;
   }
-  Chart chart() const { return static_cast<Chart>(shape_.chart); }      ///< path or grid
-  std::uint64_t model_hash() const;                                     ///< of the robot it is for
+  Chart chart() const { return static_cast<Chart>(shape_.chart); }  ///< path or grid
+  std::uint64_t model_hash() const;                                 ///< fingerprint of its robot
   bool has_weight() const { return (shape_.contents & kWeight) != 0; }  ///< weights act
   /// Base, links or tool give too.
   bool has_structure() const { return (shape_.contents & kStructure) != 0; }
@@ -154,7 +154,7 @@ class Table {
 
 /// Where in the chart the last lookup ended; keeps the next one short. Zero to begin with.
 struct TableCursor {
-  std::uint32_t segment = 0;   ///< of the path, from 0
+  std::uint32_t segment = 0;   ///< the path's, from 0
   std::uint32_t searched = 0;  ///< segments looked at since the program was lost
 };
 
@@ -163,7 +163,7 @@ template <typename Scalar, int Joints>
 struct TableEntry {
   static_assert(Joints == static_cast<int>(kTableJoints), "the format holds six joints");
 
-  Jacobian<Scalar, Joints> jacobian;                    ///< of the TCP
+  Jacobian<Scalar, Joints> jacobian;                    ///< the TCP's
   JointVector<Scalar, Joints> weight_torque;            ///< N·m, of the weights on the joints
   Compliance<Scalar> structure;                         ///< D, of base, link and tool springs
   Eigen::Matrix<Scalar, Joints, 6> structure_motion;    ///< J⁺ D

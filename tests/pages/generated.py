@@ -1,4 +1,4 @@
-"""What the programs write into the pages, between two markers."""
+"""Parts of the pages that the programs write, between two markers."""
 
 import json
 import re

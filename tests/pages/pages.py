@@ -38,7 +38,7 @@ class Page:
         return LINK.findall(INLINE_CODE.sub("", self.prose()))
 
     def anchors(self):
-        """Of its headings, as GitHub makes them."""
+        """Its headings' anchors, as GitHub makes them."""
         headings = re.findall(r"^#+ (.*)$", self.prose(), re.MULTILINE)
         return {anchor(heading) for heading in headings}
 

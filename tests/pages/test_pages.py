@@ -27,7 +27,7 @@ def help_of(*words):
 
 
 class Commands:
-    """What the programs know of commands and options."""
+    """Commands and options, as the programs' own help lists them."""
 
     def __init__(self):
         self.helps = {}
