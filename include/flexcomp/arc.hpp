@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// The joints' own control: adaptive robust control of flexible joints.
+
 #include <Eigen/Core>
 #include <cstdint>
 
@@ -19,6 +22,7 @@ enum ArcStatusBit : std::uint32_t {
   kArcBoundLimited = 1U << 17,   ///< a bound is near its limit: it adapts less, or no more
 };
 
+/// The bits that refuse a tick.
 constexpr std::uint32_t kArcRefusedBits = 0xFFFFU;
 
 /// A few words for a person on one status bit; never null.
@@ -28,7 +32,7 @@ const char* describe(ArcStatusBit bit);
 /// joint side of the gear. `flexcomp design-arc` makes all of them.
 template <typename Scalar, int Joints>
 struct ArcGains {
-  using Angles = JointVector<Scalar, Joints>;
+  using Angles = JointVector<Scalar, Joints>;  ///< one number a joint
 
   Scalar period = 0;                      ///< s, from one tick to the next
   Angles rotor_inertia = Angles::Zero();  ///< kg·m², J₀
@@ -54,9 +58,10 @@ struct ArcGains {
   Angles torque_limit = Angles::Zero();       ///< N·m
 };
 
+/// Input of one tick.
 template <typename Scalar, int Joints>
 struct ArcInput {
-  using Angles = JointVector<Scalar, Joints>;
+  using Angles = JointVector<Scalar, Joints>;  ///< one number a joint
 
   Angles link = Angles::Zero();             ///< rad, q₁, link side of the springs
   Angles link_velocity = Angles::Zero();    ///< rad/s
@@ -70,9 +75,10 @@ struct ArcInput {
   Angles external_torque = Angles::Zero();
 };
 
+/// Result of one tick.
 template <typename Scalar, int Joints>
 struct ArcOutput {
-  using Angles = JointVector<Scalar, Joints>;
+  using Angles = JointVector<Scalar, Joints>;  ///< one number a joint
 
   Angles torque =
       Angles::Zero();  ///< N·m, of the motors, joint side; always finite, within the limit
@@ -101,12 +107,12 @@ struct ArcOutput {
 template <typename Scalar, int Joints>
 class AdaptiveRobustController {
  public:
-  using Gains = ArcGains<Scalar, Joints>;
-  using Input = ArcInput<Scalar, Joints>;
-  using Output = ArcOutput<Scalar, Joints>;
-  using Angles = JointVector<Scalar, Joints>;
-  using LinkParameters = Eigen::Matrix<Scalar, Joints, 3>;
-  using MotorParameters = Eigen::Matrix<Scalar, Joints, 4>;
+  using Gains = ArcGains<Scalar, Joints>;                    ///< made by flexcomp design-arc
+  using Input = ArcInput<Scalar, Joints>;                    ///< one for each tick
+  using Output = ArcOutput<Scalar, Joints>;                  ///< one for each tick
+  using Angles = JointVector<Scalar, Joints>;                ///< one number a joint
+  using LinkParameters = Eigen::Matrix<Scalar, Joints, 3>;   ///< α₁, a row a joint
+  using MotorParameters = Eigen::Matrix<Scalar, Joints, 4>;  ///< α₂
 
   /// Takes the nominal robot (its joint compliances are K₀⁻¹) and the gains, and starts anew.
   /// Returns ok; bad_model as `InverseDynamics::configure`, or for a compliance that is not above

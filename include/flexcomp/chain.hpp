@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// Kinematics of a serial chain.
+
 #include <Eigen/Geometry>
 #include <array>
 
@@ -12,7 +15,7 @@ template <typename Scalar, int Joints>
 struct Kinematics {
   std::array<Pose<Scalar>, Joints> links;    ///< frame of the link that joint i moves
   std::array<Vector3<Scalar>, Joints> axes;  ///< unit axis of joint i
-  Pose<Scalar> tcp;
+  Pose<Scalar> tcp;                          ///< tool centre point
 };
 
 /// Forward kinematics at joint angles `q` (rad). Exact for any serial chain of revolute joints.

@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// The tick: setpoint and wrench in, corrected setpoint and status out.
+
 #include <array>
 #include <cstdint>
 
@@ -18,6 +21,7 @@ enum class State : std::uint8_t {
   latched = 5,     ///< no correction after a fault, until `reset`
 };
 
+/// A few words for a person; never null.
 const char* describe(State state);
 
 /// Bits of the status word. The lower half are faults: each makes the compensator hold and, if it
@@ -40,11 +44,13 @@ enum StatusBit : std::uint32_t {
   kNoSetpoint = 1U << 20,         ///< there never was a usable setpoint: do not use the output
 };
 
+/// The bits that are faults.
 constexpr std::uint32_t kFaultBits = 0xFFFFU;
 
 /// A few words for a person on one status bit; never null.
 const char* describe(StatusBit bit);
 
+/// Numbers of a compensator; the robot controller's, the sensor's and the job's.
 template <typename Scalar, int Joints>
 struct CompensatorConfig {
   Scalar period = 0;              ///< s, from one tick to the next
@@ -57,15 +63,16 @@ struct CompensatorConfig {
   Scalar wrench_age_limit = 0;    ///< s
   JointVector<Scalar, Joints> joint_speed =  ///< rad/s, largest plausible
       JointVector<Scalar, Joints>::Zero();
-  std::array<CorrectionLimits<Scalar>, Joints> limits{};
-  Scalar deflection_limit = 0;  ///< m, largest correction at the TCP
-  Scalar chart_margin = 0;      ///< rad, outside the chart, over which the correction fades
+  std::array<CorrectionLimits<Scalar>, Joints> limits{};  ///< the correction's
+  Scalar deflection_limit = 0;                            ///< m, largest correction at the TCP
+  Scalar chart_margin = 0;  ///< rad, outside the chart, over which the correction fades
   Scalar hold_time =
       0;  ///< s, by which time with a fault may exceed time without before fading out
   Scalar fade_time = 0;  ///< s, from nothing to full correction and back; at most 1e6 periods
   std::uint32_t ready_ticks = 10;  ///< good inputs in a row before it may be armed
 };
 
+/// Input of one tick.
 template <typename Scalar, int Joints>
 struct CompensatorInput {
   JointVector<Scalar, Joints> setpoint;  ///< rad, uncorrected
@@ -75,6 +82,7 @@ struct CompensatorInput {
   bool external_fault = false;           ///< anything the caller knows: bus off, late tick, …
 };
 
+/// Result of one tick.
 template <typename Scalar, int Joints>
 struct CompensatorOutput {
   JointVector<Scalar, Joints> setpoint;    ///< rad, corrected; always finite
@@ -82,7 +90,7 @@ struct CompensatorOutput {
   Twist<Scalar> deflection;      ///< predicted for the filtered wrench, base frame; zero when off
   std::uint32_t status;          ///< bits of this tick
   std::uint32_t latched_faults;  ///< what led to the last fade-out, until `reset`
-  State state;
+  State state;                   ///< after this tick
 };
 
 /// The tick: setpoint, wrench and their ages in; corrected setpoint and status out.
@@ -108,9 +116,9 @@ class Compensator {
   static_assert(Joints == static_cast<int>(kTableJoints), "it reads tables, which hold six joints");
 
  public:
-  using Config = CompensatorConfig<Scalar, Joints>;
-  using Input = CompensatorInput<Scalar, Joints>;
-  using Output = CompensatorOutput<Scalar, Joints>;
+  using Config = CompensatorConfig<Scalar, Joints>;  ///< given once
+  using Input = CompensatorInput<Scalar, Joints>;    ///< one for each tick
+  using Output = CompensatorOutput<Scalar, Joints>;  ///< one for each tick
 
   /// Takes a configuration and forgets all that was. Returns ok or bad_config.
   Result configure(const Config& config);
@@ -133,7 +141,7 @@ class Compensator {
   /// One control period.
   Output tick(const Input& input);
 
-  State state() const { return state_; }
+  State state() const { return state_; }  ///< after the last call
 
  private:
   using Angles = JointVector<Scalar, Joints>;

@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// How a robot gives way under wrench and weight, and the correction against it.
+
 #include "flexcomp/chain.hpp"
 
 namespace flexcomp {

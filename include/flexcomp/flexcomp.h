@@ -1,7 +1,33 @@
 #ifndef FLEXCOMP_H
 #define FLEXCOMP_H
 
+/// @file
 /// flexcomp for C: the real-time core in single precision for six joints.
+///
+/// A robot bends under a force on its tool. In every control period the core takes the joint
+/// setpoint and the measured wrench, and returns the setpoint that puts the bent robot's tool where
+/// a stiff robot would have it.
+///
+/// The calls in their order, and the thread that makes them:
+///
+///     at start (any thread)
+///       flexcomp_table_open            check a table where it lies (flash, or a buffer you keep)
+///       flexcomp_table_check_model     with the model at hand: does it say the same of the robot?
+///       flexcomp_compensator_init      period, limits, ranges, the robot's fingerprint
+///       flexcomp_compensator_set_table
+///     every period (the control thread)
+///       flexcomp_compensator_tick      send output.setpoint to the drives, in every state
+///     between two ticks (the control thread)
+///       flexcomp_compensator_arm       FLEXCOMP_NOT_READY until ready_ticks good inputs in a row
+///       flexcomp_compensator_set_table another table, also while correcting
+///       flexcomp_compensator_disarm    then tick on until the state is FLEXCOMP_STATE_OFF
+///       flexcomp_compensator_reset     after a fault: from latched to off, then arm again
+///     on a PC or in a slow thread
+///       flexcomp_table_build_path, flexcomp_table_build_grid, flexcomp_model_evaluate
+///
+/// A bad input holds the correction; if it lasts, the correction fades to zero and is latched. It
+/// never jumps. Every call says in its result or status what is wrong; no number from outside is
+/// trusted.
 ///
 /// SI units throughout (m, rad, s, N, N·m, kg); vectors in the robot base frame unless said
 /// otherwise. A wrench is {fx, fy, fz, mx, my, mz}: force and moment acting ON the tool at the tool
@@ -9,7 +35,7 @@
 ///
 /// No call allocates, blocks, does I/O, or keeps anything outside the objects it is given. Calls on
 /// different objects may run at the same time; one object belongs to one thread at a time. Nothing
-/// here is a safety function.
+/// here is a safety function. README.md beside this file in the sources has a whole program.
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,6 +45,7 @@
 extern "C" {
 #endif
 
+/// Joints of every robot here.
 #define FLEXCOMP_JOINTS 6
 
 /// Result of a call. Stable numbers.
@@ -70,12 +97,14 @@ enum {
   FLEXCOMP_CHART_EDGE = 1 << 19,          ///< outside the chart but within the margin
   FLEXCOMP_NO_SETPOINT = 1 << 20          ///< no usable setpoint yet: do not use the output
 };
+/// The bits that are faults.
 #define FLEXCOMP_FAULT_BITS 0xFFFFu
 
 /// A few words for a person; never null.
 const char* flexcomp_describe_result(flexcomp_result_t result);
+/// A few words for a person; never null.
 const char* flexcomp_describe_state(flexcomp_state_t state);
-/// `bit`: one bit of the status word.
+/// A few words for a person; never null. `bit`: one bit of the status word.
 const char* flexcomp_describe_status_bit(uint32_t bit);
 
 /// Version of the library, for example "0.1.0"; never null.
@@ -83,10 +112,11 @@ const char* flexcomp_version(void);
 
 /// A robot: rotations are row by row; a frame's pose is given in the frame before it.
 typedef struct flexcomp_pose {
-  float rotation[9];
-  float position[3];
+  float rotation[9];  ///< row by row
+  float position[3];  ///< m
 } flexcomp_pose_t;
 
+/// A joint, its spring, and the link that it moves.
 typedef struct flexcomp_joint {
   flexcomp_pose_t origin;    ///< joint frame in the previous link's frame
   float axis[3];             ///< unit vector in the joint frame
@@ -99,6 +129,7 @@ typedef struct flexcomp_joint {
   float center_of_mass[3];   ///< m, link frame
 } flexcomp_joint_t;
 
+/// A robot of six revolute joints with limits.
 typedef struct flexcomp_model {
   flexcomp_joint_t joints[FLEXCOMP_JOINTS];  ///< base to tip
   flexcomp_pose_t tool;                      ///< TCP in the last link's frame
@@ -144,7 +175,7 @@ typedef struct flexcomp_table_requirements {
 ///
 /// FLEXCOMP_OK, or BAD_ARGUMENT, BAD_MODEL, BAD_PATH, BUFFER_TOO_SMALL, TOLERANCE_NOT_MET; then the
 /// buffer holds no table. Cost: some thousand evaluations of the model a node (not for the tick);
-/// memory: the buffer, about 450 bytes a node, and 12 KiB of stack.
+/// memory: the buffer, 244 to 544 bytes a node, and 12 KiB of stack.
 flexcomp_result_t flexcomp_table_build_path(const flexcomp_model_t* model, const float* points,
                                             size_t count,
                                             const flexcomp_table_requirements_t* requirements,
@@ -160,14 +191,15 @@ flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const
 
 /// A checked view of a table, which must outlive it. Do not touch the members.
 typedef struct flexcomp_table {
-  const void* header;
-  const void* end;
+  const void* header;  ///< first byte
+  const void* end;     ///< behind the last
 } flexcomp_table_t;
 
+/// Content of a table's header that a caller may want to know.
 typedef struct flexcomp_table_info {
-  uint64_t model_hash;
-  bool is_path;  ///< else a joint grid
-  uint32_t node_count;
+  uint64_t model_hash;      ///< fingerprint of the robot it was made for
+  bool is_path;             ///< else a joint grid
+  uint32_t node_count;      ///< records in it
   uint32_t size;            ///< bytes
   float force_bound;        ///< N
   float moment_bound;       ///< N·m
@@ -197,12 +229,14 @@ flexcomp_result_t flexcomp_table_check_model(const flexcomp_table_t* table,
 flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
                                           flexcomp_table_info_t* info);
 
+/// Limits of one joint's correction, which hold whatever the input.
 typedef struct flexcomp_limits {
   float value;         ///< rad, largest correction of the joint
   float rate;          ///< rad/s
   float acceleration;  ///< rad/s²
 } flexcomp_limits_t;
 
+/// Numbers of a compensator; the robot controller's, the sensor's and the job's.
 typedef struct flexcomp_config {
   float period;              ///< s, from one tick to the next
   uint64_t model_hash;       ///< of the robot that is there; a table of another is refused
@@ -212,10 +246,10 @@ typedef struct flexcomp_config {
   float moment_range;        ///< N·m
   float setpoint_age_limit;  ///< s, beyond it a setpoint is stale
   float wrench_age_limit;    ///< s
-  float joint_speed[FLEXCOMP_JOINTS];  ///< rad/s, largest plausible
-  flexcomp_limits_t limits[FLEXCOMP_JOINTS];
-  float deflection_limit;  ///< m, largest correction at the TCP
-  float chart_margin;      ///< rad, outside the chart, over which the correction fades
+  float joint_speed[FLEXCOMP_JOINTS];         ///< rad/s, largest plausible
+  flexcomp_limits_t limits[FLEXCOMP_JOINTS];  ///< the correction's
+  float deflection_limit;                     ///< m, largest correction at the TCP
+  float chart_margin;  ///< rad, outside the chart, over which the correction fades
   /// s, a fault may last before fading out. Bad ticks count up, good ones down: a fault that comes
   /// and goes fades out too, once bad ticks outnumber good ones by this time.
   float hold_time;
@@ -223,6 +257,7 @@ typedef struct flexcomp_config {
   uint32_t ready_ticks;  ///< good inputs in a row before it may be armed
 } flexcomp_config_t;
 
+/// Input of one tick.
 typedef struct flexcomp_input {
   float setpoint[FLEXCOMP_JOINTS];  ///< rad, uncorrected
   float setpoint_age;               ///< s, since it was made
@@ -231,22 +266,24 @@ typedef struct flexcomp_input {
   bool external_fault;              ///< anything the caller knows: bus off, late tick
 } flexcomp_input_t;
 
+/// Result of one tick.
 typedef struct flexcomp_output {
   float setpoint[FLEXCOMP_JOINTS];    ///< rad, corrected; always finite
   float correction[FLEXCOMP_JOINTS];  ///< rad, part of the above; within all limits
   float deflection[6];                ///< m, rad; predicted for the filtered wrench
   uint32_t status;                    ///< bits of this tick
   uint32_t latched_faults;            ///< what led to the last fade-out, until a reset
-  flexcomp_state_t state;
+  flexcomp_state_t state;             ///< after this tick
 } flexcomp_output_t;
 
-/// Room for a compensator. Do not touch the member; any memory will do, static included.
+/// Bytes of a compensator.
 #define FLEXCOMP_COMPENSATOR_BYTES 768
+/// Room for a compensator. Do not touch the member; any memory will do, static included.
 typedef struct flexcomp_compensator {
 #ifdef __cplusplus
-  alignas(16) unsigned char bytes[FLEXCOMP_COMPENSATOR_BYTES];
+  alignas(16) unsigned char bytes[FLEXCOMP_COMPENSATOR_BYTES];  ///< opaque
 #else
-  _Alignas(16) unsigned char bytes[FLEXCOMP_COMPENSATOR_BYTES];
+  _Alignas(16) unsigned char bytes[FLEXCOMP_COMPENSATOR_BYTES];  ///< opaque
 #endif
 } flexcomp_compensator_t;
 
@@ -290,6 +327,7 @@ enum {
   FLEXCOMP_ARC_TORQUE_LIMITED = 1 << 16,  ///< a joint asks for more than its torque limit
   FLEXCOMP_ARC_BOUND_LIMITED = 1 << 17    ///< a bound is near its limit: it adapts less, or no more
 };
+/// The bits that refuse a tick.
 #define FLEXCOMP_ARC_REFUSED_BITS 0xFFFFu
 
 /// A few words for a person; never null. `bit`: one bit of the status word.
@@ -298,27 +336,28 @@ const char* flexcomp_describe_arc_status_bit(uint32_t bit);
 /// Gains of adaptive robust control, joint side of the gears; flexcomp design-arc writes them as a
 /// header. flexcomp/arc.hpp says what each is.
 typedef struct flexcomp_arc_gains {
-  float period;                               ///< s
-  float rotor_inertia[FLEXCOMP_JOINTS];       ///< kg·m²
-  float viscous[FLEXCOMP_JOINTS];             ///< N·m·s/rad
-  float link_rate[FLEXCOMP_JOINTS];           ///< 1/s
-  float link_damping;                         ///< 1/s
-  float motor_rate[FLEXCOMP_JOINTS];          ///< 1/s
-  float motor_damping;                        ///< 1/s
-  float motor_stiffness[FLEXCOMP_JOINTS];     ///< N·m/rad
-  float filter_frequency;                     ///< rad/s
-  float leak;                                 ///< 1/s
-  float link_adaptation[FLEXCOMP_JOINTS][3];  ///< squared units of the parameters by J
-  float motor_adaptation[FLEXCOMP_JOINTS][4];
-  float link_gain[FLEXCOMP_JOINTS];          ///< 1/W
-  float motor_gain[FLEXCOMP_JOINTS];         ///< 1/W
-  float link_gain_limit[FLEXCOMP_JOINTS];    ///< N·m·s/rad
-  float motor_gain_limit[FLEXCOMP_JOINTS];   ///< N·m·s/rad
-  float link_bound_limit[FLEXCOMP_JOINTS];   ///< N·m
-  float motor_bound_limit[FLEXCOMP_JOINTS];  ///< N·m
-  float torque_limit[FLEXCOMP_JOINTS];       ///< N·m
+  float period;                                ///< s
+  float rotor_inertia[FLEXCOMP_JOINTS];        ///< kg·m²
+  float viscous[FLEXCOMP_JOINTS];              ///< N·m·s/rad
+  float link_rate[FLEXCOMP_JOINTS];            ///< 1/s
+  float link_damping;                          ///< 1/s
+  float motor_rate[FLEXCOMP_JOINTS];           ///< 1/s
+  float motor_damping;                         ///< 1/s
+  float motor_stiffness[FLEXCOMP_JOINTS];      ///< N·m/rad
+  float filter_frequency;                      ///< rad/s
+  float leak;                                  ///< 1/s
+  float link_adaptation[FLEXCOMP_JOINTS][3];   ///< squared units of the parameters by J
+  float motor_adaptation[FLEXCOMP_JOINTS][4];  ///< the same of the motors
+  float link_gain[FLEXCOMP_JOINTS];            ///< 1/W
+  float motor_gain[FLEXCOMP_JOINTS];           ///< 1/W
+  float link_gain_limit[FLEXCOMP_JOINTS];      ///< N·m·s/rad
+  float motor_gain_limit[FLEXCOMP_JOINTS];     ///< N·m·s/rad
+  float link_bound_limit[FLEXCOMP_JOINTS];     ///< N·m
+  float motor_bound_limit[FLEXCOMP_JOINTS];    ///< N·m
+  float torque_limit[FLEXCOMP_JOINTS];         ///< N·m
 } flexcomp_arc_gains_t;
 
+/// Input of one tick of adaptive robust control.
 typedef struct flexcomp_arc_input {
   float link[FLEXCOMP_JOINTS];                 ///< rad, link side of the springs
   float link_velocity[FLEXCOMP_JOINTS];        ///< rad/s
@@ -330,6 +369,7 @@ typedef struct flexcomp_arc_input {
   float external_torque[FLEXCOMP_JOINTS];      ///< N·m, of the measured wrench; zero if unmeasured
 } flexcomp_arc_input_t;
 
+/// Result of one tick of adaptive robust control.
 typedef struct flexcomp_arc_output {
   float torque[FLEXCOMP_JOINTS];       ///< N·m, joint side; finite, within the limit
   float link_bound[FLEXCOMP_JOINTS];   ///< N·m, adapted bound of what disturbs the link
@@ -337,13 +377,14 @@ typedef struct flexcomp_arc_output {
   uint32_t status;                     ///< bits of this tick
 } flexcomp_arc_output_t;
 
-/// Room for a controller, aligned for the widest vector registers. Do not touch the member.
+/// Bytes of a controller.
 #define FLEXCOMP_ARC_BYTES 3072
+/// Room for a controller, aligned for the widest vector registers. Do not touch the member.
 typedef struct flexcomp_arc {
 #ifdef __cplusplus
-  alignas(64) unsigned char bytes[FLEXCOMP_ARC_BYTES];
+  alignas(64) unsigned char bytes[FLEXCOMP_ARC_BYTES];  ///< opaque
 #else
-  _Alignas(64) unsigned char bytes[FLEXCOMP_ARC_BYTES];
+  _Alignas(64) unsigned char bytes[FLEXCOMP_ARC_BYTES];          ///< opaque
 #endif
 } flexcomp_arc_t;
 

@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// Limits of a correction, which hold whatever the target.
+
 #include <array>
 
 #include "flexcomp/status.hpp"
@@ -45,15 +48,15 @@ class Guard {
   /// One period further. A target that is not finite counts as the present value. Constant time.
   Scalar advance(Scalar target);
 
-  Scalar value() const { return value_; }
-  const GuardBounds<Scalar>& bounds() const { return bounds_; }
+  Scalar value() const { return value_; }                        ///< rad, of the correction
+  const GuardBounds<Scalar>& bounds() const { return bounds_; }  ///< in use
 
   /// Is the correction at zero and at rest?
   bool is_at_rest_at_zero() const { return value_ == Scalar(0) && step_ == Scalar(0); }
 
   /// Did the last call fall short of the target it was given, and why?
   bool limited_by_value() const { return limited_by_value_; }
-  bool limited_by_rate() const { return limited_by_rate_; }
+  bool limited_by_rate() const { return limited_by_rate_; }  ///< or by acceleration
 
  private:
   GuardBounds<Scalar> bounds_;
@@ -84,7 +87,7 @@ class JointGuards {
 
   /// Did the last call fall short of a target, of any joint, and why?
   bool limited_by_value() const { return limited_by_value_; }
-  bool limited_by_rate() const { return limited_by_rate_; }
+  bool limited_by_rate() const { return limited_by_rate_; }  ///< or by acceleration
 
  private:
   std::array<Scalar, Joints> largest_value_{};

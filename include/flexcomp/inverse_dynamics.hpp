@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// Torques of inertia, motion and weight.
+
 #include <array>
 
 #include "flexcomp/model.hpp"
@@ -25,7 +28,7 @@ using LinkInertia = std::array<Matrix3<Scalar>, static_cast<std::size_t>(Joints)
 template <typename Scalar, int Joints>
 class InverseDynamics {
  public:
-  using Angles = JointVector<Scalar, Joints>;
+  using Angles = JointVector<Scalar, Joints>;  ///< one number a joint
 
   /// Takes geometry, masses, gravity and payload (a point mass) from the model. Returns ok, or
   /// bad_model for a model or an inertia that cannot be; then nothing has changed.

@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// The largest gain at which correcting from a measured force is stable.
+
 #include "flexcomp/table.hpp"
 
 namespace flexcomp {
@@ -18,6 +21,7 @@ struct FeedbackRange {
   double least = 0;  ///< zero or below
   double most = 0;   ///< zero or above
 
+  /// Widens the range to hold a value.
   void include(double feedback) {
     least = feedback < least ? feedback : least;
     most = feedback > most ? feedback : most;
@@ -31,7 +35,7 @@ struct GainLimit {
   /// How many times as deep as nominal the cut becomes: with the safe gain, and should the
   /// correction fade out, as it must on any fault. Infinite where the tool digs in by itself.
   double engagement = 1;
-  double engagement_without = 1;
+  double engagement_without = 1;  ///< the second of the two
 
   /// Does the tool dig in, or does no stable gain keep the cut from becoming twice as deep?
   bool digs_in() const { return !(engagement <= kMargin); }

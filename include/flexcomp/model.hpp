@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// A robot: joints, springs and weights.
+
 #include <array>
 #include <cstdint>
 

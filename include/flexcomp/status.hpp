@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// Results of calls.
+
 #include <cstdint>
 
 namespace flexcomp {

@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// Tables: their format, how they are opened and looked up.
+
 #include <cstddef>
 #include <cstdint>
 
@@ -13,9 +16,9 @@ enum class Chart : std::uint32_t {
   joint_grid = 2,  ///< boxes over the middle joints; joints 1 and 6 enter as exact rotations
 };
 
-constexpr std::uint32_t kTableVersion = 1;
-constexpr std::size_t kTableJoints = 6;
-constexpr std::size_t kMaxGridAxes = 4;
+constexpr std::uint32_t kTableVersion = 1;  ///< the format's
+constexpr std::size_t kTableJoints = 6;     ///< every robot that has tables has six
+constexpr std::size_t kMaxGridAxes = 4;     ///< joints that a grid may cover
 
 /// First bytes of a table: a flat blob of little-endian 32-bit words, read where it lies (flash).
 ///
@@ -25,29 +28,29 @@ constexpr std::size_t kMaxGridAxes = 4;
 /// deflection C w, and the joint correction, which at the singular postures of a wrist could not be
 /// had from C alone because J has no inverse there.
 struct TableHeader {
-  std::uint32_t magic;
-  std::uint32_t version;
-  std::uint32_t size;  ///< bytes of the whole table
-  std::uint32_t crc;   ///< CRC-32 (IEEE 802.3) of the whole table with this word zero
-  std::uint32_t model_hash_low;
-  std::uint32_t model_hash_high;
-  std::uint32_t chart;
-  std::uint32_t contents;  ///< bits: 1 weight acts, 2 base, link or tool springs
-  std::uint32_t joints;
-  std::uint32_t record_size;  ///< floats
-  std::uint32_t node_count;
-  std::uint32_t closed;  ///< path: 1 if the last node is the first again
-  std::uint32_t grid_axes;
+  std::uint32_t magic;            ///< `Table::kMagic`
+  std::uint32_t version;          ///< `kTableVersion`
+  std::uint32_t size;             ///< bytes of the whole table
+  std::uint32_t crc;              ///< CRC-32 (IEEE 802.3) of the whole table with this word zero
+  std::uint32_t model_hash_low;   ///< fingerprint of the robot
+  std::uint32_t model_hash_high;  ///< its upper half
+  std::uint32_t chart;            ///< `Chart`
+  std::uint32_t contents;         ///< bits: 1 weight acts, 2 base, link or tool springs
+  std::uint32_t joints;           ///< `kTableJoints`
+  std::uint32_t record_size;      ///< floats
+  std::uint32_t node_count;       ///< records
+  std::uint32_t closed;           ///< path: 1 if the last node is the first again
+  std::uint32_t grid_axes;        ///< grid: how many joints it covers
   std::uint32_t grid_joint[kMaxGridAxes];  ///< index of the joint along each axis, from 0
-  std::uint32_t grid_nodes[kMaxGridAxes];
-  float grid_lower[kMaxGridAxes];   ///< grid: rad; path: `inside_error`
-  float grid_step[kMaxGridAxes];    ///< grid: rad
+  std::uint32_t grid_nodes[kMaxGridAxes];  ///< nodes along each axis
+  float grid_lower[kMaxGridAxes];          ///< grid: rad; path: `inside_error`
+  float grid_step[kMaxGridAxes];           ///< grid: rad
   float fixed_angle[kTableJoints];  ///< grid: rad, where the middle joints off the axes must stand;
                                     ///< path: `gain_basis`
   float first_axis[3];              ///< grid: axis of joint 1, base frame
   float joint_lower[kTableJoints];  ///< rad, limits of the robot
-  float joint_upper[kTableJoints];
-  float compliance[kTableJoints];        ///< rad/(N·m)
+  float joint_upper[kTableJoints];  ///< rad
+  float compliance[kTableJoints];   ///< rad/(N·m)
   float cubic_compliance[kTableJoints];  ///< rad/(N·m)³
   float force_bound;                     ///< N, the certificate holds for forces up to this
   float moment_bound;                    ///< N·m
@@ -78,25 +81,27 @@ struct InsideError {
 /// A path table's fields lie in words of the header that only a grid uses otherwise. Tables of
 /// before they were stated have zeros there; so has a grid for those who ask.
 GainBasis gain_basis(const TableHeader& header);
+/// The other way.
 void set_gain_basis(const GainBasis& basis, TableHeader* header);
 
 /// The certificate for all joint angles that a tick takes for inside a path table, which may be off
 /// the chord between two nodes by the width that stands in the record: more than the error on the
 /// program itself, for which the table was made. Zero where it is not stated.
 InsideError inside_error(const TableHeader& header);
+/// The other way.
 void set_inside_error(const InsideError& error, TableHeader* header);
 
 /// The fields of a header that sizes, indices and branches come from, in narrow types that hold any
 /// value a table can have.
 struct TableShape {
-  std::uint8_t chart = 0;
-  std::uint8_t contents = 0;
-  std::uint16_t record_size = 0;  ///< floats
-  std::uint32_t node_count = 0;
-  bool closed = false;
-  std::uint8_t grid_axes = 0;
-  std::uint8_t grid_joint[kMaxGridAxes] = {};
-  std::uint16_t grid_nodes[kMaxGridAxes] = {};
+  std::uint8_t chart = 0;                       ///< as in the header, and so all of these
+  std::uint8_t contents = 0;                    ///< bits
+  std::uint16_t record_size = 0;                ///< floats
+  std::uint32_t node_count = 0;                 ///< records
+  bool closed = false;                          ///< path: the last node is the first again
+  std::uint8_t grid_axes = 0;                   ///< grid: how many joints it covers
+  std::uint8_t grid_joint[kMaxGridAxes] = {};   ///< from 0
+  std::uint16_t grid_nodes[kMaxGridAxes] = {};  ///< along each axis
 };
 
 /// A checked, read-only view of a table. Copying the view does not copy the table, which must
@@ -120,25 +125,26 @@ class Table {
   /// the fields still fit the size. Returns ok, bad_argument or table_corrupt.
   static Result reopen(const void* data, std::size_t size, Table* table);
 
-  bool is_open() const { return header_ != nullptr; }
-  const TableHeader& header() const { return *header_; }
-  const TableShape& shape() const { return shape_; }
-  std::size_t size() const {  ///< bytes
+  bool is_open() const { return header_ != nullptr; }     ///< only then the rest may be asked
+  const TableHeader& header() const { return *header_; }  ///< where it lies
+  const TableShape& shape() const { return shape_; }      ///< as it was checked
+  std::size_t size() const {                              ///< bytes
     return sizeof(TableHeader) +
            sizeof(float) * static_cast<std::size_t>(shape_.node_count) * shape_.record_size;
   }
-  Chart chart() const { return static_cast<Chart>(shape_.chart); }
-  std::uint64_t model_hash() const;
-  bool has_weight() const { return (shape_.contents & kWeight) != 0; }
+  Chart chart() const { return static_cast<Chart>(shape_.chart); }  ///< path or grid
+  std::uint64_t model_hash() const;                                 ///< fingerprint of its robot
+  bool has_weight() const { return (shape_.contents & kWeight) != 0; }  ///< weights act
+  /// Base, links or tool give too.
   bool has_structure() const { return (shape_.contents & kStructure) != 0; }
   /// `node` is below `shape().node_count`.
   const float* record(std::uint32_t node) const {
     return records_ + static_cast<std::size_t>(node) * shape_.record_size;
   }
 
-  static constexpr std::uint32_t kMagic = 0x31544346;  // "FCT1"
-  static constexpr std::uint32_t kWeight = 1;
-  static constexpr std::uint32_t kStructure = 2;
+  static constexpr std::uint32_t kMagic = 0x31544346;  ///< "FCT1"
+  static constexpr std::uint32_t kWeight = 1;          ///< bit of the contents
+  static constexpr std::uint32_t kStructure = 2;       ///< bit of the contents
 
  private:
   const TableHeader* header_ = nullptr;
@@ -148,7 +154,7 @@ class Table {
 
 /// Where in the chart the last lookup ended; keeps the next one short. Zero to begin with.
 struct TableCursor {
-  std::uint32_t segment = 0;
+  std::uint32_t segment = 0;   ///< the path's, from 0
   std::uint32_t searched = 0;  ///< segments looked at since the program was lost
 };
 
@@ -157,8 +163,8 @@ template <typename Scalar, int Joints>
 struct TableEntry {
   static_assert(Joints == static_cast<int>(kTableJoints), "the format holds six joints");
 
-  Jacobian<Scalar, Joints> jacobian;
-  JointVector<Scalar, Joints> weight_torque;
+  Jacobian<Scalar, Joints> jacobian;                    ///< the TCP's
+  JointVector<Scalar, Joints> weight_torque;            ///< N·m, of the weights on the joints
   Compliance<Scalar> structure;                         ///< D, of base, link and tool springs
   Eigen::Matrix<Scalar, Joints, 6> structure_motion;    ///< J⁺ D
   Twist<Scalar> structure_weight;                       ///< TCP twist from weight on those springs

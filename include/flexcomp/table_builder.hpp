@@ -1,5 +1,8 @@
 #pragma once
 
+/// @file
+/// How tables are built and their certificates derived.
+
 #include "flexcomp/table.hpp"
 
 namespace flexcomp {
@@ -26,8 +29,8 @@ struct TableError {
 /// Angles of one joint that a grid covers; a range of zero width fixes the joint there.
 template <typename Scalar>
 struct GridRange {
-  Scalar lower;
-  Scalar upper;
+  Scalar lower;  ///< rad
+  Scalar upper;  ///< rad
 };
 
 /// Builds a path table into `buffer` (`capacity` bytes, 4-byte aligned).

@@ -1,11 +1,17 @@
 #pragma once
 
+/// @file
+/// Vectors, matrices and poses.
+
 #include <Eigen/Core>
 
+/// The real-time core. No heap, exceptions, RTTI, locks or I/O.
 namespace flexcomp {
 
+/// Three numbers, m where it is a place.
 template <typename Scalar>
 using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+/// Three by three: a rotation, an inertia.
 template <typename Scalar>
 using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
@@ -17,9 +23,10 @@ using Wrench = Eigen::Matrix<Scalar, 6, 1>;
 template <typename Scalar>
 using Twist = Eigen::Matrix<Scalar, 6, 1>;
 
-/// Maps a wrench to a twist (or the six diagonal terms of such a map).
+/// Maps a wrench to a twist.
 template <typename Scalar>
 using Compliance = Eigen::Matrix<Scalar, 6, 6>;
+/// The six diagonal terms of a compliance: m/N (3), rad/(N·m) (3).
 template <typename Scalar>
 using DiagonalCompliance = Eigen::Matrix<Scalar, 6, 1>;
 
@@ -34,9 +41,10 @@ using Jacobian = Eigen::Matrix<Scalar, 6, Joints>;
 /// Rigid placement of one frame in another: x_outer = rotation * x_inner + position.
 template <typename Scalar>
 struct Pose {
-  Matrix3<Scalar> rotation = Matrix3<Scalar>::Identity();
-  Vector3<Scalar> position = Vector3<Scalar>::Zero();
+  Matrix3<Scalar> rotation = Matrix3<Scalar>::Identity();  ///< orthonormal, determinant 1
+  Vector3<Scalar> position = Vector3<Scalar>::Zero();      ///< m
 
+  /// Placement in the outer frame of what is placed in the inner.
   Pose operator*(const Pose& inner) const {
     return {rotation * inner.rotation, rotation * inner.position + position};
   }

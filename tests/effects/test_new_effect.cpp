@@ -8,12 +8,12 @@ using namespace flexcomp;
 
 namespace {
 
-constexpr double kLift = 4e-4;  // m/rad
+constexpr double kSlope = 4e-4;  // m/rad
 
 void a_new_effect_is_found_named_and_learnt() {
   const test::SwingingRobot swinging(1);
   Eigen::MatrixXd error = Eigen::MatrixXd::Zero(swinging.rows(), 3);
-  error.col(2) = kLift * swinging.scene.q.col(0);
+  error.col(2) = kSlope * swinging.scene.q.col(0);
   diagnosis::Observations observations = swinging.observed(error);
   const std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
   diagnosis::Settings settings;
@@ -22,11 +22,11 @@ void a_new_effect_is_found_named_and_learnt() {
   const diagnosis::Diagnosis found = diagnosis::diagnose(&observations, hypotheses, settings);
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
   const nlohmann::ordered_json first = to_json(observations, found).at("findings").at(0);
-  TEST_ASSERT_EQUAL_STRING("test_lift", first.at("effect").get<std::string>().c_str());
-  const double lift = first.at("parameters").at("lift").at("value");
-  TEST_ASSERT_DOUBLE_WITHIN(0.02 * kLift, kLift, lift);
+  TEST_ASSERT_EQUAL_STRING("sloping_floor", first.at("effect").get<std::string>().c_str());
+  const double slope = first.at("parameters").at("slope").at("value");
+  TEST_ASSERT_DOUBLE_WITHIN(0.02 * kSlope, kSlope, slope);
   const model::Robot updated = effects::with_learned(swinging.robot, found.updated().placed());
-  TEST_ASSERT_EQUAL_STRING("test_lift", updated.effects.at(0).effect.c_str());
+  TEST_ASSERT_EQUAL_STRING("sloping_floor", updated.effects.at(0).effect.c_str());
   const simulation::Machine machine = effects::machine_of(updated, {swinging.scene});
   const Eigen::MatrixXd shown =
       simulation::predict(machine, {swinging.scene}).front().channel[simulation::tcp_position];

@@ -10,6 +10,8 @@ import unittest
 SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
 BUILD = pathlib.Path(os.environ["FLEXCOMP_BUILD"])
 PROJECT = SOURCE / "tests" / "package"
+GUIDE = SOURCE / "include" / "flexcomp" / "README.md"
+KR270 = SOURCE / "host" / "robots" / "kr270" / "robot.yaml"
 
 
 def run(*command):
@@ -56,10 +58,31 @@ class InstalledPackage(unittest.TestCase):
         run(os.environ["FLEXCOMP_C"], "-std=c11", PROJECT / "controller_loop.c", *flags, "-o", program)
         self.assertRegex(run(program), r"^active: TCP would be off by ")
 
-    def test_the_readme_shows_the_program_that_is_tested(self):
-        shown = re.search(r"```c\n(.*?)```", (SOURCE / "README.md").read_text(), re.DOTALL)
-        self.assertIsNotNone(shown)
-        self.assertEqual(shown.group(1), (PROJECT / "controller_loop.c").read_text())
+    def test_a_table_made_on_a_pc_lies_in_the_memory_of_a_program_in_c(self):
+        part = GUIDE.read_text().split("## Your robot and your table\n")[1].split("\n## ")[0]
+        commands = "\n".join(re.findall(r"^    (.*)$", re.sub(r"```c\n.*?```", "", part, flags=re.DOTALL), re.MULTILINE))
+        (self.folder / "table_in_flash.c").write_text((PROJECT / "table_in_flash.c").read_text())
+        (package,) = self.prefix.rglob("flexcomp.pc")
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(package.parent),
+                       "PATH": f"{self.prefix / 'bin'}:{os.environ['PATH']}"}
+        plan = f"flexcomp plan circle --model {KR270} --center 1.6,0,1.2 --plane xz --out path.csv\n"
+
+        def printed_with(fingerprint):
+            script = (plan + commands.replace("robot.yaml", str(KR270)).replace("0x${hash}u", fingerprint)
+                      + "\n./table_in_flash || true\n")
+            done = subprocess.run(["bash", "-euc", script], cwd=self.folder, env=environment, check=True,
+                                  capture_output=True, text=True)
+            return done.stdout.splitlines()[-1]
+
+        self.assertEqual("ok", printed_with("0x${hash}u"))
+        self.assertEqual("the table was made for another robot, tool or payload", printed_with("0x1u"))
+
+    def test_the_guide_shows_the_programs_that_are_tested(self):
+        shown = re.findall(r"```c\n(.*?)```", GUIDE.read_text(), re.DOTALL)
+        self.assertEqual([(PROJECT / name).read_text() for name in ("controller_loop.c", "table_in_flash.c")], shown)
+
+    def test_no_page_is_installed_among_the_headers(self):
+        self.assertEqual([], list(self.prefix.rglob("*.md")))
 
 
 if __name__ == "__main__":

@@ -2,12 +2,12 @@
 
 namespace flexcomp::effects {
 
-// An effect of this test alone: the TCP stands higher by a part of joint 1's angle.
-Forms laws::test_lift() {
+// The floor slopes: the TCP stands higher by a part of joint 1's angle.
+Forms laws::sloping_floor() {
   Law law;
   law.joints = whole_machine;
   law.traits.linear_in = 1;
-  law.parameters = constant({{"lift", "m/rad"}});
+  law.parameters = constant({{"slope", "m/rad"}});
   law.statement = says("the floor slopes");
   add_term(
       [](const Values& values, int) {
@@ -21,7 +21,7 @@ Forms laws::test_lift() {
       &law);
   return {{law},
           {},
-          {{"", " lift ", [](const Subject&) { return within(0.1); },
+          {{"", " slope ", [](const Subject&) { return within(0.1); },
             "no floor slopes by more than a tenth of a metre a radian"}}};
 }
 
