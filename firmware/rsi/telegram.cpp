@@ -118,6 +118,8 @@ class Contents {
         return setpoint_.take(name, text);
       case kWrench:
         return wrench_.take(name, text);
+      case kApplied:
+        return applied_.take(name, text);
       case kLate:
         return name == kLateNames[0] ? take_late(text) : RsiReading::ok;
       default:
@@ -143,6 +145,7 @@ class Contents {
     const bool is_whole = has(kIpoc) && actual_.is_complete() && setpoint_.is_complete() &&
                           (schema_.wrench.empty() || wrench_.is_complete()) &&
                           (schema_.armed.empty() || has(kArmed)) &&
+                          (schema_.applied.empty() || applied_.is_complete()) &&
                           (!schema_.needs_late || late_.has_value());
     if (!is_whole) {
       return RsiReading::missing;
@@ -153,11 +156,12 @@ class Contents {
     telegram->late = late_;
     telegram->wrench = schema_.wrench.empty() ? std::nullopt : std::optional(wrench_.values());
     telegram->armed = armed_;
+    telegram->applied = schema_.applied.empty() ? std::nullopt : std::optional(applied_.values());
     return RsiReading::ok;
   }
 
  private:
-  enum Kind : unsigned { kActual, kSetpoint, kIpoc, kLate, kWrench, kArmed, kOther };
+  enum Kind : unsigned { kActual, kSetpoint, kIpoc, kLate, kWrench, kArmed, kApplied, kOther };
 
   Kind kind_of(std::string_view name) const {
     if (name == "AIPos") {
@@ -174,6 +178,9 @@ class Contents {
     }
     if (name == schema_.wrench) {
       return kWrench;
+    }
+    if (name == schema_.applied) {
+      return kApplied;
     }
     return name == schema_.armed ? kArmed : kOther;
   }
@@ -207,6 +214,7 @@ class Contents {
   NumberAttributes<kAxes> actual_{kAxisNames};
   NumberAttributes<kAxes> setpoint_{kAxisNames};
   NumberAttributes<kAxes> wrench_{kWrenchNames};
+  NumberAttributes<kAxes> applied_{kAxisNames};
   std::uint64_t ipoc_ = 0;
   std::optional<std::uint64_t> late_;
   std::optional<bool> armed_;

@@ -18,14 +18,16 @@ struct RsiTelegram {
   std::optional<std::uint64_t> late;            ///< Delay: answers that came late, as it counts
   std::optional<std::array<double, 6>> wrench;  ///< N, N·m, on the tool at the TCP, base frame
   std::optional<bool> armed;                    ///< an output of the robot's program
+  std::optional<AxisAngles> applied;  ///< degrees, the correction that the controller moves by
 };
 
 /// Which elements a telegram must have beside `AIPos`, `ASPos` and `IPOC`. A name that is empty
 /// stands for an element that is not asked for.
 struct RsiSchema {
-  std::string_view wrench;  ///< element with the attributes Fx Fy Fz Mx My Mz
-  std::string_view armed;   ///< element with the text 1 or 0, TRUE or FALSE
-  bool needs_late = false;  ///< Delay must be there
+  std::string_view wrench;   ///< element with the attributes Fx Fy Fz Mx My Mz
+  std::string_view armed;    ///< element with the text 1 or 0, TRUE or FALSE
+  std::string_view applied;  ///< element with the attributes A1 to A6, as of RSI's AXISCORRMON
+  bool needs_late = false;   ///< Delay must be there
 };
 
 /// Result of reading a telegram. The numbers are stable.
