@@ -29,18 +29,39 @@ bool read_address(const std::string& text, sockaddr_in* address) {
          inet_pton(AF_INET, host.c_str(), &address->sin_addr) == 1;
 }
 
+sockaddr_in address_of(const std::string& text) {
+  sockaddr_in address{};
+  if (!read_address(text, &address)) {
+    throw std::runtime_error("'" + text + "': expected udp://ADDRESS:PORT in numbers");
+  }
+  return address;
+}
+
+FileDescriptor open_socket() {
+  FileDescriptor result(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!result.is_open()) {
+    throw std::runtime_error(std::string("cannot have a socket: ") + std::strerror(errno));
+  }
+  return result;
+}
+
 }  // namespace
 
-UdpSocket::UdpSocket(const std::string& address) {
-  sockaddr_in bound{};
-  if (!read_address(address, &bound)) {
-    throw std::runtime_error("'" + address + "': expected udp://ADDRESS:PORT in numbers");
-  }
-  socket_ = FileDescriptor(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!socket_.is_open() ||
-      bind(socket_.number(), reinterpret_cast<const sockaddr*>(&bound), sizeof bound) != 0) {
+UdpSocket::UdpSocket(const std::string& address) : socket_(open_socket()) {
+  const sockaddr_in bound = address_of(address);
+  if (bind(socket_.number(), reinterpret_cast<const sockaddr*>(&bound), sizeof bound) != 0) {
     throw std::runtime_error("cannot listen at '" + address + "': " + std::strerror(errno));
   }
+}
+
+UdpSocket UdpSocket::to(const std::string& address) {
+  UdpSocket result;
+  result.socket_ = open_socket();
+  const sockaddr_in peer = address_of(address);
+  if (connect(result.number(), reinterpret_cast<const sockaddr*>(&peer), sizeof peer) != 0) {
+    throw std::runtime_error("cannot send to '" + address + "': " + std::strerror(errno));
+  }
+  return result;
 }
 
 long UdpSocket::receive(char* data, std::size_t size, sockaddr_in* from) {
@@ -52,6 +73,11 @@ bool UdpSocket::send(std::string_view datagram, const sockaddr_in& to) {
   return sendto(socket_.number(), datagram.data(), datagram.size(), 0,
                 reinterpret_cast<const sockaddr*>(&to),
                 sizeof to) == static_cast<long>(datagram.size());
+}
+
+bool UdpSocket::send(std::string_view datagram) {
+  return ::send(socket_.number(), datagram.data(), datagram.size(), 0) ==
+         static_cast<long>(datagram.size());
 }
 
 }  // namespace flexcomp

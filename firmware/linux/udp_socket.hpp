@@ -18,6 +18,9 @@ class UdpSocket {
   /// it is none or cannot be had.
   explicit UdpSocket(const std::string& address);
 
+  /// A socket that sends to such an address, and receives from there alone. Throws as above.
+  static UdpSocket to(const std::string& address);
+
   bool is_open() const { return socket_.is_open(); }
   int number() const { return socket_.number(); }
 
@@ -27,6 +30,9 @@ class UdpSocket {
 
   /// False if it was not taken. Does not allocate.
   bool send(std::string_view datagram, const sockaddr_in& to);
+
+  /// The same to the address of `to`.
+  bool send(std::string_view datagram);
 
  private:
   FileDescriptor socket_;

@@ -66,6 +66,7 @@ void RsiLink::begin_session(const RsiTelegram& telegram, Node* node) {
 
 void RsiLink::hand_over(const RsiTelegram& telegram, Node* node, std::int64_t now) {
   if (telegram.wrench) {
+    ++wrenches_;
     node->receive(WrenchMessage{kNoTime, *telegram.wrench, false}, Source::rsi, now);
   }
   if (telegram.armed) {
@@ -153,6 +154,7 @@ void RsiLink::add_to(LinkState* state) const {
   StreamCounters counters = session_.counters;
   counters.corrupt = corrupt_;
   state->setpoint = state->setpoint + counters;
+  state->wrench.received += wrenches_;
   state->setpoint_conflict |= session_.has_conflict();
   state->rsi = {true, late_answers_, session_.sessions(), limited_answers_};
 }

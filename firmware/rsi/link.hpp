@@ -95,6 +95,7 @@ class RsiLink {
   std::int64_t ask_again_at_ = 0;
 
   std::uint32_t corrupt_ = 0;
+  std::uint32_t wrenches_ = 0;
   std::uint64_t late_answers_ = 0;
   std::uint32_t limited_answers_ = 0;
   RsiReading last_refusal_ = RsiReading::ok;
