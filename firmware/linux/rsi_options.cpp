@@ -34,6 +34,10 @@ std::array<double, 6> six(const std::vector<double>& numbers) {
 void add_elements(OptionList* app, RsiOptions* options) {
   app->add_fixed("--rsi-type", &options->type, "SENTYPE of the controller's configuration")
       ->check(kName);
+  app->add_fixed(
+         "--rsi-correction", &options->correction,
+         "element of the answer with the corrections, as the controller's configuration has it")
+      ->check(kName);
   app->add_fixed("--rsi-wrench", &options->wrench,
                  "element of the telegram with the wrench on the tool at the TCP, base frame, in\n"
                  "attributes Fx Fy Fz Mx My Mz (N, N m); else it comes over CAN or LCM")
@@ -95,6 +99,7 @@ RsiConfig to_config(const RsiOptions& options, std::uint32_t tolerated_losses) {
   config.schema.applied = options.applied;
   config.schema.needs_late = config.mode == RsiMode::relative;
   config.type = options.type;
+  config.correction_name = options.correction;
   config.state_name = options.state;
   config.tolerated_losses = tolerated_losses;
   return config;

@@ -13,6 +13,7 @@ struct RsiOptions {
   std::string address;            ///< to listen at, or empty: no RSI
   std::string mode = "absolute";  ///< or relative
   std::string type = "ImFree";
+  std::string correction = "AK";  ///< element of the answer
   std::string wrench;   ///< element of the telegram; empty: the wrench comes over CAN or LCM
   std::string armed;    ///< element of the telegram; empty: commands come over CAN or LCM
   std::string applied;  ///< element of the telegram; empty: taken to be zero at the start

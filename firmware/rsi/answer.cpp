@@ -16,7 +16,8 @@ void RsiAnswerText::write(const RsiAnswer& answer) {
   size_ = 0;
   add("<Sen Type=\"");
   add(answer.type);
-  add("\"><AK");
+  add("\"><");
+  add(answer.correction_name);
   for (std::size_t i = 0; i < kAttributes.size(); ++i) {
     add(kAttributes[i]);
     add_degrees(answer.correction[i]);

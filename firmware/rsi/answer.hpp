@@ -9,11 +9,12 @@
 
 namespace flexcomp {
 
-/// What RSI expects back within the cycle: `<Sen Type="…">` with the axis corrections `AK` and the
-/// `IPOC` of the telegram that it answers.
+/// What RSI expects back within the cycle: `<Sen Type="…">` with the axis corrections, an element
+/// that is usually `AK`, and the `IPOC` of the telegram that it answers.
 struct RsiAnswer {
-  std::string_view type;        ///< as in the controller's configuration (SENTYPE)
-  AxisAngles correction{};      ///< degrees, absolute or relative as the RSI context is started
+  std::string_view type;    ///< as in the controller's configuration (SENTYPE)
+  AxisAngles correction{};  ///< degrees, absolute or relative as the RSI context is started
+  std::string_view correction_name = "AK";
   std::string_view state_name;  ///< of an element with the node's state; empty for none
   std::uint8_t state = 0;       ///< State of compensator.hpp
   std::uint64_t ipoc = 0;
@@ -22,7 +23,7 @@ struct RsiAnswer {
 /// Text of an answer, in memory of its own.
 class RsiAnswerText {
  public:
-  static constexpr std::size_t kLongestName = 32;  ///< of the type, and of the state's element
+  static constexpr std::size_t kLongestName = 32;  ///< of the type and of an element
 
   /// Writes an answer over the one before. Six decimals of a degree, which are 17 nrad. A
   /// correction must be a number of at most 360 in size; names have at most kLongestName

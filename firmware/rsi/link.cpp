@@ -136,6 +136,7 @@ std::string_view RsiLink::answer() {
   bool is_limited = false;
   RsiAnswer answer;
   answer.type = config_.type;
+  answer.correction_name = config_.correction_name;
   answer.state_name = config_.state_name;
   answer.state = state_;
   answer.ipoc = telegram_.ipoc;

@@ -20,7 +20,8 @@ struct RsiConfig {
   double largest_step = 0.05;  ///< degrees, from one answer to the next
   RsiSchema schema;
   std::string_view type = "ImFree";  ///< SENTYPE of the controller's configuration
-  std::string_view state_name;       ///< element of the answer with the node's state; empty: none
+  std::string_view correction_name = "AK";
+  std::string_view state_name;  ///< element of the answer with the node's state; empty: none
   std::uint32_t tolerated_losses = 3;
 };
 

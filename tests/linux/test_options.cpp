@@ -32,6 +32,7 @@ void what_only_the_start_reads_is_refused_by_name() {
       {"rsi", {"--can", "can0", "--rsi", "udp://127.0.0.1:49152"}},
       {"rsi-mode", {"--can", "can0", "--rsi-mode", "relative"}},
       {"rsi-type", {"--can", "can0", "--rsi-type", "a"}},
+      {"rsi-correction", {"--can", "can0", "--rsi-correction", "a"}},
       {"rsi-wrench", {"--can", "can0", "--rsi-wrench", "a"}},
       {"rsi-arm", {"--can", "can0", "--rsi-arm", "a"}},
       {"rsi-applied", {"--can", "can0", "--rsi-applied", "a"}},

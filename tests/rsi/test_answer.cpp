@@ -39,6 +39,12 @@ void the_state_is_told_where_it_has_a_name() {
   TEST_ASSERT_TRUE(written(answer).find("/><State>2</State><IPOC>0</IPOC>") != std::string::npos);
 }
 
+void the_element_of_the_corrections_may_have_another_name() {
+  RsiAnswer answer = answer_with(0);
+  answer.correction_name = "AKorr";
+  TEST_ASSERT_TRUE(written(answer).find("\"><AKorr A1=\"0.000000\"") != std::string::npos);
+}
+
 void what_is_written_is_the_number_to_half_its_last_place() {
   for (double degrees = -2; degrees < 2; degrees += 0.000'377) {
     const std::string text = written(answer_with(degrees));
@@ -55,6 +61,7 @@ void the_largest_answer_is_written_whole() {
   const std::string name(RsiAnswerText::kLongestName, 'n');
   RsiAnswer answer;
   answer.type = name;
+  answer.correction_name = name;
   answer.state_name = name;
   answer.state = 255;
   answer.correction.fill(-360);
@@ -70,6 +77,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(an_answer_has_the_corrections_in_degrees_and_the_same_ipoc);
   RUN_TEST(the_state_is_told_where_it_has_a_name);
+  RUN_TEST(the_element_of_the_corrections_may_have_another_name);
   RUN_TEST(what_is_written_is_the_number_to_half_its_last_place);
   RUN_TEST(what_rounds_to_zero_has_no_sign);
   RUN_TEST(the_largest_answer_is_written_whole);
