@@ -7,6 +7,7 @@ import unittest
 
 from bench_on_a_bus import BIN, STATES, Flexcompd, HilTest, Job, circularity, flexcomp
 from rsi_bench import OPTIONS, Controller, free_port, telegram
+from test_flexcompd import shared_library
 
 LARGEST_SHARE = 0.05  # of the circularity without compensation
 
@@ -20,8 +21,9 @@ class RsiTest(HilTest):
         self.job.be_patient()
         self.port = free_port()
 
-    def node(self, *options):
-        node = Flexcompd(self.job, *OPTIONS, *options, bus=("--rsi", f"udp://127.0.0.1:{self.port}"))
+    def node(self, *options, preload=None):
+        node = Flexcompd(self.job, *OPTIONS, *options, preload=preload,
+                         bus=("--rsi", f"udp://127.0.0.1:{self.port}"))
         self.addCleanup(node.__exit__)
         return node
 
@@ -60,6 +62,18 @@ class Circle(RsiTest):
         self.assertEqual(1, done.returncode, done.stderr)
         self.assertIn("RSI stopped the robot: 101 answers were late, 100 are tolerated", done.stderr)
         self.assertEqual(0, node.stop())
+
+
+    def test_the_real_time_thread_never_touches_the_heap(self):
+        """That the trap works is shown where CAN is (test_flexcompd.py)."""
+        node = self.node("--trigger", "lockstep", preload=shared_library(self.folder, "abort_on_allocation"))
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+            for datagram in (b"", b"<Rob>", b"x" * 9000):
+                stranger.sendto(datagram, ("127.0.0.1", self.port))
+        _, run = self.mill("with", "--rsi", f"udp://127.0.0.1:{self.port}", "--lockstep")
+        self.assertTrue(run["armed"])
+        self.assertEqual(0, node.stop(), node.messages())
+        self.assertEqual(3, node.statistics()["setpoint"]["corrupt"])
 
 
 class Faults(RsiTest):

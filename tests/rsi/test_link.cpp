@@ -225,6 +225,15 @@ void an_output_that_is_high_from_the_start_does_not_arm() {
   TEST_ASSERT_EQUAL(State::off, controller.node.state());
 }
 
+void an_output_that_rose_while_the_controller_was_started_again_does_not_arm() {
+  Controller controller;
+  controller.cycles(30);
+  controller.now += 600'000'000;
+  controller.output = true;
+  controller.cycles(100);
+  TEST_ASSERT_EQUAL(State::off, controller.node.state());
+}
+
 void an_output_that_rises_before_the_node_is_ready_arms_when_it_is() {
   Controller controller;
   controller.cycles(2);
@@ -442,6 +451,7 @@ int main() {
   RUN_TEST(signs_of_the_axes_turn_setpoint_and_correction);
   RUN_TEST(the_output_arms_as_it_rises_and_disarms_as_it_falls);
   RUN_TEST(an_output_that_is_high_from_the_start_does_not_arm);
+  RUN_TEST(an_output_that_rose_while_the_controller_was_started_again_does_not_arm);
   RUN_TEST(an_output_that_rises_before_the_node_is_ready_arms_when_it_is);
   RUN_TEST(lost_telegrams_are_borne_until_they_are_too_many);
   RUN_TEST(a_latched_fault_is_taken_back_when_the_output_rises_again);
