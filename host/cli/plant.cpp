@@ -30,6 +30,7 @@ struct PlantOptions {
   std::string path;
   std::string bus;
   std::string rsi;
+  std::string rsi_type = "ImFree";
   bool rsi_relative = false;
   std::string key;
   std::string table;
@@ -157,6 +158,7 @@ std::unique_ptr<simulation::RobotInCut> robot_in_cut(const PlantOptions& options
 std::unique_ptr<simulation::PlantBus> rsi_controller(const PlantOptions& options) {
   simulation::RsiControllerOptions rsi;
   rsi.period = options.plant.period;
+  rsi.type = options.rsi_type;
   rsi.mode = options.rsi_relative ? RsiMode::relative : RsiMode::absolute;
   return simulation::open_rsi_controller(options.rsi, rsi);
 }
@@ -280,6 +282,8 @@ void add_plant(CLI::App* app, Action* action) {
                       "udp://ADDRESS:PORT where flexcompd --rsi listens: the plant is a KUKA whose "
                       "RSI sends its\ntelegrams there, arms by an output, and stops where too many "
                       "answers are late (exit code 1)");
+  command->add_option("--rsi-type", options->rsi_type,
+                      "with --rsi: SENTYPE; answers of another are not taken");
   command->add_flag("--rsi-relative", options->rsi_relative,
                     "with --rsi: takes corrections as what is added each cycle");
   command->add_option("--key", options->key,

@@ -10,7 +10,7 @@ import time
 import types
 import unittest
 
-from bench_on_a_bus import Flexcompd, HilTest, Job
+from bench_on_a_bus import Flexcompd, HilTest, Job, flexcomp
 from rsi_bench import AXES, free_port
 
 SKIPPED = 77  # an exit code, for ctest
@@ -29,41 +29,31 @@ def echo_server():
 
 EchoServer = echo_server()
 
-# Its own elements, and those of its configuration that matter here.
-CONFIGURATION = """<ROOT><CONFIG><IP_NUMBER>127.0.0.1</IP_NUMBER><PORT>{port}</PORT><SENTYPE>ImFree</SENTYPE>
-<ONLYSEND>FALSE</ONLYSEND></CONFIG><SEND><ELEMENTS>{sent}</ELEMENTS></SEND>
-<RECEIVE><ELEMENTS>{received}</ELEMENTS></RECEIVE></ROOT>"""
-
-
-def configuration(port):
-    internal = "".join(f'<ELEMENT TAG="DEF_{name}" TYPE="DOUBLE" INDX="INTERNAL"/>'
-                       for name in ("RIst", "RSol", "AIPos", "ASPos", "Delay"))
-    monitor = "".join(f'<ELEMENT TAG="AxisCorrMon.{axis}" TYPE="DOUBLE" INDX="{i + 1}"/>'
-                      for i, axis in enumerate(AXES))
-    received = "".join(f'<ELEMENT TAG="AKorr.{axis}" TYPE="DOUBLE" INDX="{i + 1}" HOLDON="0"/>'
-                       for i, axis in enumerate(AXES))
-    return CONFIGURATION.format(port=port, sent=internal + monitor, received=received)
-
-
 @unittest.skipIf(EchoServer is None, "RSIPI is not installed")
 class Rsipi(HilTest):
     def bring_up(self, mode):
         job = Job(self.folder, "kr270", 0.05, radius=0.05)
-        job.be_patient()
-        port = free_port()
-        file = self.folder / "ethernet.xml"
-        file.write_text(configuration(port))
-        server = EchoServer(str(file), delay_ms=4, mode=mode, timeout_packets=1000)
+        files = self.configure(job, mode, free_port())
+        server = EchoServer(str(files / "flexcomp.xml"), delay_ms=4, mode=mode, rsi_file=str(files / "flexcomp.rsi.xml"))
+        self.assertEqual(100, server.timeout_packets)  # as the context says
         self.addCleanup(server.stop)
         with job.path.open() as path:
             self.stand(server, next(csv.DictReader(path)))
         # It sends positions in steps of 0.01 degree, and as it corrects, the corrected ones as setpoint.
-        node = Flexcompd(job, "--rsi-mode", mode, "--rsi-correction", "AKorr", "--rsi-wrench", "FT", "--rsi-arm",
-                         "Arm", "--rsi-applied", "AxisCorrMon", "--without-identity", "--priority", "0",
-                         bus=("--rsi", f"udp://127.0.0.1:{port}"))
+        node = Flexcompd(job, "--rsi-correction", "AKorr", "--priority", "0", bus=())
         self.addCleanup(node.__exit__)
         server.start()
         return server, node
+
+    def configure(self, job, mode, port):
+        """The controller's files as flexcomp writes them. It knows corrections by one name alone."""
+        files = self.folder / "controller"
+        flexcomp("configure", "--model", job.model, "--table", job.table, "--out", job.config, "--rsi", files,
+                 "--rsi-address", f"127.0.0.1:{port}", "--rsi-force", *(["--rsi-relative"] * (mode == "relative")))
+        job.be_patient()
+        ethernet = files / "flexcomp.xml"
+        ethernet.write_text(ethernet.read_text().replace('"AK.', '"AKorr.'))
+        return files
 
     def stand(self, server, row):
         """At the beginning of the path, in the cut."""
@@ -71,7 +61,6 @@ class Rsipi(HilTest):
             server.state[name] = {axis: math.degrees(float(row[f"q_cmd_{i + 1}"])) for i, axis in enumerate(AXES)}
         server.base_pose = {name: copy.deepcopy(value) for name, value in server.state.items()
                             if isinstance(value, dict)}
-        server.state["Arm"] = 0
         self.press(server, 0)
 
     @staticmethod
