@@ -225,6 +225,7 @@ void RealTimeLoop::take_telegrams(std::int64_t now) {
     if (received == RsiTransport::Received::setpoint) {
       on_setpoint(now);
       rsi_->answer();
+      note_answer();
     }
   }
 }
@@ -310,15 +311,20 @@ void RealTimeLoop::tick(std::int64_t now) {
   if (trial_.has_run() && !trial_told_) {
     trial_told_ = exchange_->from_real_time.send(TableHasRun{in_use_});
   }
-  if (answers_setpoint_) {
-    answers_setpoint_ = false;
-    node_->record_latency(monotonic_now() - setpoint_at_);
-  }
+  note_answer();
   Message message;
   for (int i = 0; i < kMessagesATick && node_->next_message(&message); ++i) {
     send(message);
   }
   hand_over_tables(monotonic_now());
+}
+
+/// The last setpoint has been answered, if it was not before.
+void RealTimeLoop::note_answer() {
+  if (answers_setpoint_) {
+    answers_setpoint_ = false;
+    node_->record_latency(monotonic_now() - setpoint_at_);
+  }
 }
 
 void RealTimeLoop::send(const Message& message) {

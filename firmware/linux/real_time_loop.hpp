@@ -48,6 +48,7 @@ class RealTimeLoop {
   void take(const CanFrame& frame, std::int64_t now);
   void take_telegrams(std::int64_t now);
   void note_link_state();
+  void note_answer();
   void on_setpoint(std::int64_t now);
   void on_timer(std::int64_t now);
   void on_period_end(std::int64_t now);
