@@ -38,9 +38,9 @@ void RsiAnswerText::write(const RsiAnswer& answer) {
 }
 
 void RsiAnswerText::add(std::string_view text) {
-  const std::size_t count = std::min(text.size(), kRoom - size_);
-  std::copy_n(text.data(), count, text_.data() + size_);
-  size_ += count;
+  const std::string_view fitting = text.substr(0, kRoom - size_);
+  std::copy(fitting.begin(), fitting.end(), text_.data() + size_);
+  size_ += fitting.size();
 }
 
 void RsiAnswerText::add_whole(std::uint64_t number) {

@@ -29,8 +29,14 @@ class Cursor {
     place_ += is_there ? 1U : 0U;
     return is_there;
   }
-  /// A sign, where there is one.
-  bool take_minus() { return take('-') || (take('+') && false); }
+  /// Takes a sign, where there is one; true for a minus.
+  bool take_minus() {
+    const bool is_minus = take('-');
+    if (!is_minus) {
+      take('+');
+    }
+    return is_minus;
+  }
 
  private:
   std::string_view text_;

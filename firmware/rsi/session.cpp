@@ -7,6 +7,11 @@ constexpr std::int64_t kPause = 50'000'000;        // ns, after which others may
 constexpr std::int64_t kEnd = 500'000'000;         // ns, after which the controller has given up
 constexpr std::uint64_t kLargestFirstStep = 1000;  // of IPOC, from the first telegram to the second
 
+RsiSession::Verdict refuse(std::uint32_t* counter) {
+  ++*counter;
+  return RsiSession::Verdict::refused;
+}
+
 }  // namespace
 
 RsiSession::Verdict RsiSession::judge(RsiPeer peer, std::uint64_t ipoc, std::uint64_t late,
@@ -81,11 +86,6 @@ RsiSession::Verdict RsiSession::begin(const Telegram& telegram) {
   ++sessions_;
   ++counters.received;
   return Verdict::begun;
-}
-
-RsiSession::Verdict RsiSession::refuse(std::uint32_t* counter) {
-  ++*counter;
-  return Verdict::refused;
 }
 
 }  // namespace flexcomp

@@ -64,7 +64,6 @@ class RsiSession {
   Verdict judge_same_ipoc(const Telegram& telegram);
   bool goes_on(std::uint64_t ipoc, bool paused);
   Verdict begin(const Telegram& telegram);
-  Verdict refuse(std::uint32_t* counter);
 
   std::uint32_t tolerated_;
   bool has_last_ = false;

@@ -4,8 +4,9 @@ import copy
 import csv
 import importlib.util
 import math
-import pathlib
+import os
 import sys
+import tempfile
 import time
 import types
 import unittest
@@ -14,6 +15,7 @@ from bench_on_a_bus import Flexcompd, HilTest, Job, flexcomp
 from rsi_bench import AXES, free_port
 
 SKIPPED = 77  # an exit code, for ctest
+SCRATCH = tempfile.TemporaryDirectory()
 
 
 def echo_server():
@@ -21,6 +23,7 @@ def echo_server():
     found = importlib.util.find_spec("RSIPI")
     if found is None:
         return None
+    os.chdir(SCRATCH.name)  # it leaves a log where it is imported
     package = types.ModuleType("RSIPI")
     package.__path__ = list(found.submodule_search_locations)
     sys.modules["RSIPI"] = package
