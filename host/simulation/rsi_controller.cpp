@@ -59,8 +59,9 @@ bool read_answer(const std::string& text, Answer* answer) {
   }
   answer->type = root->Attribute("Type");
   answer->ipoc = std::strtoull(ipoc->Value(), nullptr, 10);
-  answer->state =
-      state == nullptr ? std::uint8_t{0} : static_cast<std::uint8_t>(std::atoi(state->Value()));
+  answer->state = state == nullptr
+                      ? std::uint8_t{0}
+                      : static_cast<std::uint8_t>(std::strtol(state->Value(), nullptr, 10));
   return true;
 }
 

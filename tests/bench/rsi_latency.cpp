@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
   sleep_until(monotonic_now() + 200'000'000);
   Peer bare{UdpSocket::to(kEcho), {}, 0, {}};
   Peer node{UdpSocket::to(argv[1]), {}, 0, {}};
-  const auto cycles = static_cast<std::uint64_t>(std::atof(argv[2]) * 1e9 / kCycle);
+  const auto cycles = static_cast<std::uint64_t>(std::strtod(argv[2], nullptr) * 1e9 / kCycle);
   std::int64_t next = monotonic_now();
   for (std::uint64_t cycle = 1; cycle <= cycles; ++cycle) {
     const std::string ipoc = "<IPOC>" + std::to_string(4 * cycle) + "</IPOC>";

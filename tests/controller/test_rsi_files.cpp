@@ -66,7 +66,7 @@ Wires wires(const TiXmlDocument& document) {
   for (const TiXmlElement* object = document.RootElement()->FirstChildElement("RSIObject");
        object != nullptr; object = object->NextSiblingElement()) {
     const std::string name = object->Attribute("ObjID");
-    all.objects[name] = std::atoi(object->Attribute("ObjTypeID"));
+    all.objects[name] = static_cast<int>(std::strtol(object->Attribute("ObjTypeID"), nullptr, 10));
     for (const char* group : {"Inputs", "Parameters"}) {
       const TiXmlElement* list = object->FirstChildElement(group);
       for (const TiXmlElement* each = list == nullptr ? nullptr : list->FirstChildElement();

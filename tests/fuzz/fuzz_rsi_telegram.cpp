@@ -20,10 +20,9 @@ void check_numbers(const RsiTelegram& telegram) {
     expect(std::isfinite(telegram.actual[i]) && std::isfinite(telegram.setpoint[i]),
            "angles are numbers");
   }
-  if (telegram.wrench) {
-    for (const double value : *telegram.wrench) {
-      expect(std::isfinite(value), "forces are numbers");
-    }
+  for (std::size_t i = 0; i < 6; ++i) {
+    expect(std::isfinite((*telegram.wrench)[i]) && std::isfinite((*telegram.applied)[i]),
+           "forces and corrections are numbers");
   }
 }
 
@@ -46,11 +45,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   RsiSchema all;
   all.wrench = "FT";
   all.armed = "Arm";
+  all.applied = "AxisCorrMon";
   all.needs_late = true;
   RsiTelegram telegram;
   telegram.ipoc = 77;
   if (read_telegram(text, all, &telegram) == RsiReading::ok) {
-    expect(telegram.wrench && telegram.armed && telegram.late, "all that is asked for is there");
+    expect(telegram.wrench && telegram.armed && telegram.applied && telegram.late,
+           "all that is asked for is there");
     check_numbers(telegram);
     check_answer(telegram);
     RsiTelegram less;

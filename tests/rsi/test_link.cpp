@@ -116,7 +116,9 @@ class Controller {
       TEST_ASSERT_TRUE(std::abs(correction[i] - before[i]) <= config_.largest_step + 1e-9);
     }
     const std::size_t state_at = answer.find("<State>");
-    told = state_at == std::string::npos ? -1 : std::atoi(answer.c_str() + state_at + 7);
+    told = state_at == std::string::npos
+               ? -1
+               : static_cast<int>(std::strtol(answer.c_str() + state_at + 7, nullptr, 10));
   }
 
   void bring_up() {
