@@ -8,7 +8,9 @@
 namespace flexcomp {
 namespace {
 
-constexpr std::int64_t kAskAgain = 50'000'000;  // ns, where the node was not ready to be armed
+// ns, where the node was not ready to be armed
+constexpr std::int64_t kAskAgain = 50'000'000;
+constexpr std::int64_t kGiveUp = 5'000'000'000;
 
 /// FNV-1a: tells contents apart, no more.
 std::uint32_t digest(std::string_view text) {
@@ -85,6 +87,7 @@ void RsiLink::follow_output(bool armed, Node* node, std::int64_t now) {
   if (rises) {
     wants_to_arm_ = true;
     ask_again_at_ = now;
+    give_up_at_ = now + kGiveUp;
     if (node->state() == State::latched) {
       node->receive(CommandMessage{Command::reset}, Source::rsi, now);
     }
@@ -92,7 +95,7 @@ void RsiLink::follow_output(bool armed, Node* node, std::int64_t now) {
   if (wants_to_arm_ && now >= ask_again_at_) {
     ask_again_at_ = now + kAskAgain;
     node->receive(CommandMessage{Command::arm}, Source::rsi, now);
-    wants_to_arm_ = node->state() == State::off;
+    wants_to_arm_ = node->state() == State::off && now < give_up_at_;
   }
 }
 

@@ -37,9 +37,9 @@ struct RsiConfig {
 ///   to be zero, as it is after RSI was started.
 /// - The answers have limits of their own, in size and from one to the next.
 /// - The output for arming, where the schema names one, arms as it rises and disarms as it falls.
-///   It must have been seen low in the session. Until the node is ready it is asked again. A rise
-///   also takes back a latched fault. Where the link of the telegrams armed the node, their end
-///   cannot leave it armed: without setpoints it holds, fades and latches.
+///   It must have been seen low in the session. Until the node is ready it is asked again, for five
+///   seconds. A rise also takes back a latched fault. Where the link of the telegrams armed the
+///   node, their end cannot leave it armed: without setpoints it holds, fades and latches.
 /// - Relative: what an answer adds is taken back from the sum that is kept of them if the
 ///   controller says that the answer was late.
 class RsiLink {
@@ -94,6 +94,7 @@ class RsiLink {
   std::optional<bool> output_;  ///< for arming, as it was last seen in this session
   bool wants_to_arm_ = false;
   std::int64_t ask_again_at_ = 0;
+  std::int64_t give_up_at_ = 0;
 
   std::uint32_t corrupt_ = 0;
   std::uint32_t wrenches_ = 0;

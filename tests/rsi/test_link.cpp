@@ -58,7 +58,7 @@ class Controller {
     text += "<Arm>" + std::string(output ? "1" : "0") + "</Arm>";
     text += six("AxisCorrMon", {"A1", "A2", "A3", "A4", "A5", "A6"}, correction);
     text += six("FT", {"Fx", "Fy", "Fz", "Mx", "My", "Mz"},
-                {440 + noise, 1370 - noise, 635, 0, 3, 10.5});
+                {fx + noise, 1370 - noise, 635, 0, 3, 10.5});
     return text + "<IPOC>" + std::to_string(ipoc) + "</IPOC></Rob>";
   }
 
@@ -143,6 +143,7 @@ class Controller {
   std::uint64_t ipoc = 4'208'163'634;
   std::uint64_t late = 0;
   bool output = false;
+  double fx = 440;  ///< N
   AxisAngles correction{};
   int told = -1;
 
@@ -244,6 +245,18 @@ void an_output_that_rises_before_the_node_is_ready_arms_when_it_is() {
   TEST_ASSERT_EQUAL(State::off, controller.node.state());
   controller.cycles(100);
   TEST_ASSERT_EQUAL(State::active, controller.node.state());
+}
+
+/// Whoever asked no longer waits: it must not begin in the midst of a cut.
+void a_node_that_becomes_ready_long_after_the_output_rose_is_not_armed() {
+  Controller controller;
+  controller.cycles(2);
+  controller.fx = 1e6;  // out of range
+  controller.output = true;
+  controller.cycles(1400);
+  controller.fx = 440;
+  controller.cycles(600);
+  TEST_ASSERT_EQUAL(State::off, controller.node.state());
 }
 
 void lost_telegrams_are_borne_until_they_are_too_many() {
@@ -455,6 +468,7 @@ int main() {
   RUN_TEST(an_output_that_is_high_from_the_start_does_not_arm);
   RUN_TEST(an_output_that_rose_while_the_controller_was_started_again_does_not_arm);
   RUN_TEST(an_output_that_rises_before_the_node_is_ready_arms_when_it_is);
+  RUN_TEST(a_node_that_becomes_ready_long_after_the_output_rose_is_not_armed);
   RUN_TEST(lost_telegrams_are_borne_until_they_are_too_many);
   RUN_TEST(a_latched_fault_is_taken_back_when_the_output_rises_again);
   RUN_TEST(garbage_is_not_answered_and_changes_nothing);

@@ -195,7 +195,8 @@ void nothing_is_allocated() {
   read_telegram(garbage, {}, &telegram);
   const int counted = allocations;
   TEST_ASSERT_EQUAL(0, counted);
-  delete new int;
+  int* volatile seen = new int;  // a compiler may leave out what nobody sees
+  delete seen;
   TEST_ASSERT_TRUE(allocations > 0);  // it would have been seen
 }
 
