@@ -152,6 +152,15 @@ int end(Background* background, int exit_code) {
   return exit_code;
 }
 
+/// Nothing without an address for it.
+std::unique_ptr<RsiTransport> open_rsi(const Options& options) {
+  if (options.rsi.address.empty()) {
+    return nullptr;
+  }
+  return std::make_unique<RsiTransport>(to_config(options.rsi, options.settings.tolerated_losses),
+                                        UdpSocket(options.rsi.address));
+}
+
 /// Prepares and serves. A signal to end does so at once until it is blocked: nothing is corrected
 /// yet. From then on nothing here may wait but for the next thing to do.
 int serve(const Options& options, Service::Reread reread) {
@@ -175,6 +184,7 @@ int serve(const Options& options, Service::Reread reread) {
   const std::optional<InitialTable> table =
       initial_table(options, admission ? &*admission : nullptr);
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
+  std::unique_ptr<RsiTransport> rsi = open_rsi(options);
   if (table) {
     load_table(options, *table, &slots, node.get());
   } else {
@@ -186,7 +196,7 @@ int serve(const Options& options, Service::Reread reread) {
   auto exchange = std::make_unique<Exchange>();
   Service service(options, std::move(reread), admission, table ? table->counter : 0, exchange.get(),
                   &background);
-  RealTimeLoop loop(options, node.get(), &can, authentication.get(), exchange.get());
+  RealTimeLoop loop(options, node.get(), &can, authentication.get(), rsi.get(), exchange.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
   const StopAtEnd stop_at_end(exchange.get());
   int exit_code = kDone;

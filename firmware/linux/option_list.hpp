@@ -60,6 +60,12 @@ class OptionList {
   static std::string text(const Value& value) {
     if constexpr (std::is_convertible_v<Value, std::string>) {
       return value;
+    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+      std::string all;
+      for (const double number : value) {
+        all += text(number) + " ";
+      }
+      return all;
     } else if constexpr (std::is_floating_point_v<Value>) {
       constexpr int kDigits = 17;
       std::array<char, 32> digits{};

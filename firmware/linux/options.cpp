@@ -18,8 +18,9 @@ namespace {
 constexpr int kUnusableInput = 2;
 
 constexpr const char* kDescription =
-    "flexcompd corrects joint setpoints for the deflection of a robot, in real time, on CAN or "
-    "LCM.\n\n"
+    "flexcompd corrects joint setpoints for the deflection of a robot, in real time, on CAN, LCM "
+    "or "
+    "a\nKUKA's RSI.\n\n"
     "It needs the hash of the robot's model and a table (flexcomp table; flexcomp configure writes "
     "a\n"
     "configuration file that has both). It corrects nothing until it is told to arm over the bus,\n"
@@ -69,6 +70,7 @@ void add_links(OptionList* app, Options* options, Typed* typed) {
   app->add_fixed("--can", &options->can, "CAN interface, such as can0");
   app->add_fixed("--fd", &options->fd, "answer with CAN FD frames");
   app->add_fixed("--lcm", &options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
+  add_rsi(app, &options->rsi);
   app->add_fixed(
       "--key", &options->key,
       "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
@@ -170,6 +172,22 @@ void transfer(const Typed& typed, Options* options) {
   options->settings.node.use_timestamps = options->settings.trigger != Trigger::lockstep;
 }
 
+/// Over RSI alone the telegrams must bring all that is needed.
+void check_alone(const Options& options) {
+  if (options.rsi.wrench.empty()) {
+    throw CLI::ValidationError("--rsi-wrench", "expected it, or the wrench over --can or --lcm");
+  }
+  if (options.rsi.armed.empty()) {
+    throw CLI::ValidationError("--rsi-arm", "expected it, or commands over --can or --lcm");
+  }
+  if (options.settings.node.require_identity) {
+    throw CLI::ValidationError(
+        "--without-identity",
+        "expected it with --rsi alone: no telegram says which robot it is of; --rsi-type does, "
+        "which the controller compares");
+  }
+}
+
 /// Do the options make sense together?
 void check_together(const Options& options) {
   if (!is_usable(options.settings.node)) {
@@ -178,11 +196,15 @@ void check_together(const Options& options) {
   if (!options.settings_out.empty()) {
     return;  // the microcontroller has its own bus
   }
-  if (options.can.empty() && options.lcm.empty()) {
-    throw CLI::ValidationError("--can or --lcm", "expected at least one of them");
+  const bool has_bus = !options.can.empty() || !options.lcm.empty();
+  if (!has_bus && options.rsi.address.empty()) {
+    throw CLI::ValidationError("--can, --lcm or --rsi", "expected at least one of them");
   }
-  if (!options.key.empty() && !options.lcm.empty()) {
-    throw CLI::ValidationError("--key", "authenticates CAN only: not together with --lcm");
+  if (!options.key.empty() && (!options.lcm.empty() || !options.rsi.address.empty())) {
+    throw CLI::ValidationError("--key", "authenticates CAN only: not together with --lcm or --rsi");
+  }
+  if (!has_bus) {
+    check_alone(options);
   }
 }
 

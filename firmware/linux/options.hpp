@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "linux/rsi_options.hpp"
 #include "node/node_settings.hpp"
 
 namespace flexcomp {
@@ -18,7 +19,8 @@ struct FixedOption {
 struct Options {
   std::string can;  ///< interface, or empty
   bool fd = false;
-  std::string lcm;              ///< address, or empty
+  std::string lcm;  ///< address, or empty
+  RsiOptions rsi;
   std::string key;              ///< file with the key for messages on CAN, or empty
   std::string table;            ///< file to start with, or empty
   std::string state_directory;  ///< where tables from the bus are kept, or empty

@@ -15,6 +15,7 @@ namespace flexcomp {
 namespace {
 
 constexpr int kFramesAtOnce = 128;
+constexpr int kTelegramsAtOnce = 16;
 constexpr int kMessagesATick = 4;                         // beside the corrected setpoint
 constexpr std::int64_t kLargestShift = 100;               // of the period, its divisor
 constexpr std::int64_t kVerdictPatience = 2'000'000'000;  // ns; a check takes milliseconds
@@ -37,12 +38,14 @@ void watch(int epoll, int number) {
 }  // namespace
 
 RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
-                           MessageAuthentication* authentication, Exchange* exchange)
+                           MessageAuthentication* authentication, RsiTransport* rsi,
+                           Exchange* exchange)
     : trigger_(options.settings.trigger),
       period_(std::llround(1e9 * static_cast<double>(options.settings.node.compensator.period))),
       node_(node),
       can_(can),
       authentication_(authentication),
+      rsi_(rsi),
       link_(options.fd, options.settings.tolerated_losses),
       sender_(can),
       use_lcm_(!options.lcm.empty()),
@@ -56,6 +59,9 @@ RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
   if (can_->is_open()) {
     can_->receive_only(kFilters.data(), kFilters.size());
     watch(epoll_.number(), can_->number());
+  }
+  if (rsi_ != nullptr) {
+    watch(epoll_.number(), rsi_->number());
   }
 }
 
@@ -71,6 +77,9 @@ void RealTimeLoop::run() {
     if (ready.frames) {
       take_frames(now);
     }
+    if (ready.telegrams) {
+      take_telegrams(now);
+    }
     if (ready.timer) {
       on_timer(now);
     }
@@ -85,7 +94,7 @@ void RealTimeLoop::run() {
 }
 
 RealTimeLoop::Ready RealTimeLoop::wait() {
-  std::array<epoll_event, 5> events{};
+  std::array<epoll_event, 6> events{};
   const int count = epoll_wait(epoll_.number(), events.data(), static_cast<int>(events.size()), -1);
   Ready ready;
   for (int i = 0; i < count; ++i) {
@@ -93,6 +102,7 @@ RealTimeLoop::Ready RealTimeLoop::wait() {
     ready.messages |=
         number == exchange_->to_real_time.number() || number == exchange_->lcm_received.number();
     ready.frames |= number == can_->number();
+    ready.telegrams |= rsi_ != nullptr && number == rsi_->number();
     ready.timer |= number == timer_.number();
   }
   return ready;
@@ -205,6 +215,21 @@ void RealTimeLoop::take(const CanFrame& frame, std::int64_t now) {
   }
 }
 
+/// Each is answered at once, with the correction of the tick that it makes, or of the last one.
+void RealTimeLoop::take_telegrams(std::int64_t now) {
+  for (int i = 0; i < kTelegramsAtOnce; ++i) {
+    const RsiTransport::Received received = rsi_->receive(node_, node_time(now));
+    if (received == RsiTransport::Received::nothing) {
+      return;
+    }
+    if (received == RsiTransport::Received::setpoint) {
+      on_setpoint(now);
+      rsi_->answer();
+      note_answer();
+    }
+  }
+}
+
 void RealTimeLoop::on_setpoint(std::int64_t now) {
   setpoint_at_ = now;
   answers_setpoint_ = true;
@@ -251,10 +276,14 @@ void RealTimeLoop::on_period_end(std::int64_t now) {
   set_timer();
 }
 
-void RealTimeLoop::tick(std::int64_t now) {
+/// Tells the node how the links are.
+void RealTimeLoop::note_link_state() {
   if (node_->take_reset()) {
     link_.forget_conflicts();
     lcm_.forget_conflicts();
+    if (rsi_ != nullptr) {
+      rsi_->forget_conflicts();
+    }
   }
   LinkState state = link_.state();
   lcm_.add_to(&state);
@@ -263,24 +292,39 @@ void RealTimeLoop::tick(std::int64_t now) {
   }
   state.bus_fault = sender_.has_fault();
   state.dropped_frames = sender_.dropped() + lcm_dropped_;
+  if (rsi_ != nullptr) {
+    rsi_->add_to(&state);
+  }
   node_->set_link(state);
+}
+
+void RealTimeLoop::tick(std::int64_t now) {
+  note_link_state();
   sender_.tick();
 
   const CorrectedMessage corrected = node_->tick(now);
+  if (rsi_ != nullptr) {
+    rsi_->observe(corrected);
+  }
   send(corrected);
   trial_.observe(corrected);
   if (trial_.has_run() && !trial_told_) {
     trial_told_ = exchange_->from_real_time.send(TableHasRun{in_use_});
   }
-  if (answers_setpoint_) {
-    answers_setpoint_ = false;
-    node_->record_latency(monotonic_now() - setpoint_at_);
-  }
+  note_answer();
   Message message;
   for (int i = 0; i < kMessagesATick && node_->next_message(&message); ++i) {
     send(message);
   }
   hand_over_tables(monotonic_now());
+}
+
+/// The last setpoint has been answered, if it was not before.
+void RealTimeLoop::note_answer() {
+  if (answers_setpoint_) {
+    answers_setpoint_ = false;
+    node_->record_latency(monotonic_now() - setpoint_at_);
+  }
 }
 
 void RealTimeLoop::send(const Message& message) {

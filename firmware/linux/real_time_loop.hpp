@@ -4,6 +4,7 @@
 #include "linux/can_socket.hpp"
 #include "linux/exchange.hpp"
 #include "linux/options.hpp"
+#include "linux/rsi_transport.hpp"
 #include "messages/message_authentication.hpp"
 #include "node/can_link.hpp"
 #include "node/lcm_receiver.hpp"
@@ -11,20 +12,22 @@
 
 namespace flexcomp {
 
-/// The real-time thread: waits for frames, messages and the end of the period, and ticks the node.
-/// Allocates nothing and takes no lock; the CAN socket is read and written here without blocking,
-/// because handing frames to another thread costs more than the calls do.
+/// The real-time thread: waits for frames, telegrams, messages and the end of the period, and ticks
+/// the node. Allocates nothing and takes no lock; the CAN socket is read and written here without
+/// blocking, because handing frames to another thread costs more than the calls do. So is RSI's
+/// socket.
 ///
 /// There is exactly one tick a period, so the correction's limits hold in time as well as from tick
 /// to tick. With Trigger::setpoint a setpoint is answered at once, and the periods are shifted, by
 /// at most one percent each, so that setpoints come in their middle. A second one in the same
-/// period is answered with the next.
+/// period is answered with the next; on RSI, where each telegram must be answered, with the
+/// correction of the last tick.
 class RealTimeLoop {
  public:
-  /// `authentication`: of the messages on CAN, or null for none. Throws std::runtime_error if the
-  /// system refuses what it needs.
+  /// `authentication`: of the messages on CAN, or null for none; `rsi`: a controller on RSI, or
+  /// null for none. Throws std::runtime_error if the system refuses what it needs.
   RealTimeLoop(const Options& options, Node* node, CanSocket* can,
-               MessageAuthentication* authentication, Exchange* exchange);
+               MessageAuthentication* authentication, RsiTransport* rsi, Exchange* exchange);
 
   /// Runs until told to stop and the correction is zero.
   void run();
@@ -34,6 +37,7 @@ class RealTimeLoop {
   struct Ready {
     bool messages = false;
     bool frames = false;
+    bool telegrams = false;
     bool timer = false;
   };
 
@@ -42,6 +46,9 @@ class RealTimeLoop {
   void take(LcmSample* sample, std::int64_t now);
   void take_frames(std::int64_t now);
   void take(const CanFrame& frame, std::int64_t now);
+  void take_telegrams(std::int64_t now);
+  void note_link_state();
+  void note_answer();
   void on_setpoint(std::int64_t now);
   void on_timer(std::int64_t now);
   void on_period_end(std::int64_t now);
@@ -59,6 +66,7 @@ class RealTimeLoop {
   Node* node_;
   CanSocket* can_;
   MessageAuthentication* authentication_;
+  RsiTransport* rsi_;
   CanLink link_;
   CanSender sender_;
   bool use_lcm_;

@@ -33,7 +33,7 @@ std::string statistics_json(const Snapshot& snapshot) {
     latency +=
         fmt::format("{}{}", bin == 0 ? "" : ", ", value(snapshot, StatisticName::latency, bin));
   }
-  constexpr std::array<std::pair<const char*, StatisticName>, 11> kNames = {{
+  constexpr std::array<std::pair<const char*, StatisticName>, 14> kNames = {{
       {"ticks", StatisticName::ticks},
       {"late_ticks", StatisticName::late_ticks},
       {"clock_jumps", StatisticName::clock_jumps},
@@ -45,6 +45,9 @@ std::string statistics_json(const Snapshot& snapshot) {
       {"forged_messages", StatisticName::forged_messages},
       {"not_fresh_messages", StatisticName::not_fresh_messages},
       {"unauthenticated_messages", StatisticName::unauthenticated_messages},
+      {"late_answers", StatisticName::late_answers},
+      {"rsi_sessions", StatisticName::rsi_sessions},
+      {"limited_answers", StatisticName::limited_answers},
   }};
   std::string text = "{\n";
   for (const auto& [name, number] : kNames) {

@@ -63,7 +63,7 @@ class RecentContents {
 };
 
 /// How a message came to the node.
-enum class Source : std::uint8_t { can_classic, can_fd, lcm };
+enum class Source : std::uint8_t { can_classic, can_fd, lcm, rsi };
 
 /// Lets one format and transport at a time have a stream (setpoints or wrenches).
 ///

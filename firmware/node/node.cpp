@@ -483,6 +483,15 @@ std::uint64_t Node::statistic(std::uint8_t name, bool* exists) const {
     case StatisticName::unauthenticated_messages:
       *exists = link_.authentication.has_key;
       return link_.authentication.unauthenticated;
+    case StatisticName::late_answers:
+      *exists = link_.rsi.is_in_use;
+      return link_.rsi.late_answers;
+    case StatisticName::rsi_sessions:
+      *exists = link_.rsi.is_in_use;
+      return link_.rsi.sessions;
+    case StatisticName::limited_answers:
+      *exists = link_.rsi.is_in_use;
+      return link_.rsi.limited_answers;
     default:
       *exists = false;
       return 0;

@@ -32,6 +32,14 @@ struct NodeConfig {
 /// Does a node take these numbers?
 bool is_usable(const NodeConfig& config);
 
+/// Of the exchange with a robot controller over RSI.
+struct RsiCounters {
+  bool is_in_use = false;
+  std::uint64_t late_answers = 0;     ///< as the controller counts them
+  std::uint32_t sessions = 0;         ///< runs of RSI on the controller that were seen
+  std::uint32_t limited_answers = 0;  ///< held back by the limits of the answers
+};
+
 /// State of the bus and the streams, which messages do not show; set by who moves them.
 struct LinkState {
   bool bus_fault = false;          ///< bus off, or frames not taken
@@ -40,6 +48,7 @@ struct LinkState {
   StreamCounters setpoint;
   StreamCounters wrench;
   AuthenticationCounters authentication;
+  RsiCounters rsi;
   std::uint32_t foreign_frames = 0;
   std::uint32_t dropped_frames = 0;  ///< own frames that could not be sent
   std::uint32_t stack_used = 0;      ///< bytes, the most there was; 0: not known

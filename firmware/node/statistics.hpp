@@ -19,6 +19,9 @@ enum class StatisticName : std::uint8_t {
   forged_messages = 9,  ///< this and the next two only where a key is configured
   not_fresh_messages = 10,
   unauthenticated_messages = 11,
+  late_answers = 12,  ///< this and the next two only with RSI; as the controller counts them
+  rsi_sessions = 13,
+  limited_answers = 14,
   setpoint_received = 16,
   setpoint_lost = 17,
   setpoint_repeated = 18,

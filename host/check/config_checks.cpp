@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+
 #include "check/arm.hpp"
+#include "controller/kuka_axes.hpp"
 
 namespace flexcomp::check {
 namespace {
@@ -61,6 +65,40 @@ Checks check_against_table(const std::string& file, const Config& config, const 
   return checks;
 }
 
+/// How the node counts the axes of a KUKA on RSI, and whether the URDF's geometry says the same.
+Checks check_axes(const std::string& file, const RsiOptions& rsi, const model::Robot& robot) {
+  const AxisConvention told = to_config(rsi, 0).axes;
+  const std::string how = fmt::format("signs {}, zeros {} degrees", controller::list_of(told.sign),
+                                      controller::list_of(told.zero));
+  const std::optional<AxisConvention> seen = controller::kuka_axes(model::six_axis_model(robot));
+  if (!seen) {
+    return {
+        {Severity::warning, "config", "config.axes",
+         fmt::format("{}: the axes of RSI are taken with {}; the URDF is not built as a KUKA, so "
+                     "its geometry cannot say whether that is right",
+                     file, how),
+         "compare angles on the controller's panel with the URDF's at two postures"}};
+  }
+  constexpr double kAgree = 1e-3;  // degrees
+  bool agrees = seen->sign == told.sign;
+  for (std::size_t i = 0; i < told.zero.size(); ++i) {
+    agrees = agrees && std::abs(seen->zero[i] - told.zero[i]) < kAgree;
+  }
+  if (agrees) {
+    return {
+        {Severity::note, "config", "config.axes",
+         fmt::format("{}: the axes of RSI are taken with {}, as the URDF's geometry has them; the "
+                     "zeros of A1, A4 and A6 it cannot say",
+                     file, how),
+         "compare angles on the controller's panel with the URDF's once"}};
+  }
+  return {{Severity::error, "config", "config.axes",
+           fmt::format("{}: the axes of RSI are taken with {}; the URDF's geometry says signs {}, "
+                       "zeros {} degrees",
+                       file, how, controller::list_of(seen->sign), controller::list_of(seen->zero)),
+           "set rsi-sign and rsi-zero; flexcomp configure --rsi does"}};
+}
+
 }  // namespace
 
 Checks check_config(const std::string& file, const Options& options, const model::Robot* robot,
@@ -69,6 +107,9 @@ Checks check_config(const std::string& file, const Options& options, const model
   Checks checks;
   if (robot != nullptr && model::six_axis_model(robot->elastic)) {
     add(check_against_robot(file, config, *robot), &checks);
+    if (!options.rsi.address.empty()) {
+      add(check_axes(file, options.rsi, *robot), &checks);
+    }
   }
   if (table != nullptr) {
     if (config.model_hash != table->model_hash()) {

@@ -1,3 +1,4 @@
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,9 +6,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <tuple>
 
 #include "cli/command.hpp"
+#include "cli/output_folder.hpp"
 #include "cli/table_file.hpp"
+#include "controller/kuka_axes.hpp"
+#include "controller/rsi_files.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "flexcomp/loop_gain.hpp"
@@ -21,6 +27,11 @@ struct ConfigureOptions {
   std::string table;
   std::string out;
   double period = 0.004;
+  std::string rsi_folder;
+  std::string rsi_address = "192.168.1.10:49152";
+  bool rsi_relative = false;
+  bool rsi_force = false;
+  double rsi_limit = 1.0;
 };
 
 /// Joint speeds for the plausibility check: a little above what the robot can do.
@@ -68,6 +79,77 @@ std::string configuration(const ConfigureOptions& options, const model::Robot& r
   return text;
 }
 
+/// "ADDRESS:PORT" in numbers, as the controller's files and flexcompd's want it.
+std::pair<std::string, std::uint16_t> address_of(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  const std::string host = text.substr(0, colon);
+  std::uint16_t port = 0;
+  in_addr ignored{};
+  const bool has_port =
+      colon != std::string::npos && CLI::detail::lexical_cast(text.substr(colon + 1), port);
+  if (!has_port || port == 0 || inet_pton(AF_INET, host.c_str(), &ignored) != 1) {
+    throw InputError("--rsi-address " + text + ": expected ADDRESS:PORT in numbers");
+  }
+  return {host, port};
+}
+
+controller::RsiProject rsi_project(const ConfigureOptions& options, const model::Robot& robot) {
+  controller::RsiProject project;
+  project.robot = robot.name;
+  std::tie(project.address, project.port) = address_of(options.rsi_address);
+  const std::uint64_t hash = model_hash(model::six_axis_model(robot));
+  project.type = fmt::format("flexcomp_{:08x}", static_cast<std::uint32_t>(hash ^ hash >> 32U));
+  project.mode = options.rsi_relative ? RsiMode::relative : RsiMode::absolute;
+  project.period = options.period;
+  project.largest = options.rsi_limit;
+  project.has_force = options.rsi_force;
+  return project;
+}
+
+/// The part of flexcompd's configuration that fits the controller's files.
+std::string rsi_configuration(const controller::RsiProject& project, const model::Robot& robot) {
+  const std::optional<AxisConvention> axes = controller::kuka_axes(model::six_axis_model(robot));
+  std::string text = fmt::format(
+      "\n# the controller's RSI, as in flexcomp.xml, flexcomp.rsi.xml and flexcomp.src\n"
+      "rsi = \"udp://{}:{}\"\nrsi-mode = \"{}\"\nrsi-type = \"{}\"\n"
+      "rsi-arm = \"{}\"\nrsi-applied = \"{}\"\nrsi-state = \"{}\"\nrsi-limit = {:g}\n",
+      project.address, project.port, project.mode == RsiMode::absolute ? "absolute" : "relative",
+      project.type, controller::kRsiArmed, controller::kRsiApplied, controller::kRsiState,
+      project.largest);
+  text +=
+      axes ? "\n# KUKA's axes against the joints of the URDF, from its geometry; those of A1, A4 "
+             "and A6 at zero are taken to agree\n"
+           : "\n# the URDF is not built as a KUKA: say how the controller counts its axes\n";
+  text += fmt::format("{0}rsi-sign = [{1}]\n{0}rsi-zero = [{2}]\n", axes ? "" : "# ",
+                      controller::list_of(axes.value_or(AxisConvention()).sign),
+                      controller::list_of(axes.value_or(AxisConvention()).zero));
+  text += project.has_force
+              ? fmt::format(
+                    "\n# all comes over RSI: rsi-type says which robot it is\n"
+                    "rsi-wrench = \"{}\"\nwithout-identity = true\n",
+                    controller::kRsiWrench)
+              : "\n# the wrench comes over CAN or LCM: start flexcompd with --can or --lcm too\n";
+  return text;
+}
+
+/// The files to write: flexcompd's, and those of the controller where they are asked for.
+std::vector<std::pair<std::filesystem::path, std::string>> files_of(const ConfigureOptions& options,
+                                                                    const model::Robot& robot,
+                                                                    double largest_gain) {
+  std::string text = configuration(options, robot, largest_gain);
+  std::vector<std::pair<std::filesystem::path, std::string>> all;
+  if (!options.rsi_folder.empty()) {
+    const controller::RsiProject project = rsi_project(options, robot);
+    text += rsi_configuration(project, robot);
+    const std::filesystem::path folder = output_folder(options.rsi_folder);
+    for (auto& [name, contents] : controller::rsi_files(project)) {
+      all.emplace_back(folder / name, std::move(contents));
+    }
+  }
+  all.emplace_back(options.out, std::move(text));
+  return all;
+}
+
 int run(const ConfigureOptions& options) {
   const model::Robot robot = model::load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
@@ -84,11 +166,14 @@ int run(const ConfigureOptions& options) {
         options.table);
     return kDoesNotHold;
   }
-  files::write_file(options.out, [&](std::ostream& stream) {
-    stream << configuration(options, robot, largest_gain);
-  });
-  fmt::print("{}: robot {:016x}; start with: flexcompd --config {} --can can0\n", options.out,
-             model_hash(elastic), options.out);
+  files::write_texts(files_of(options, robot, largest_gain));
+  const bool needs_bus = options.rsi_folder.empty() || !options.rsi_force;
+  fmt::print("{}: robot {:016x}; start with: flexcompd --config {}{}\n", options.out,
+             model_hash(elastic), options.out, needs_bus ? " --can can0" : "");
+  if (!options.rsi_folder.empty()) {
+    fmt::print("{}: flexcomp.xml, flexcomp.rsi.xml and flexcomp.src for the controller (RSI.md)\n",
+               options.rsi_folder);
+  }
   if (!options.table.empty() && largest_gain <= 0) {
     fmt::print("the largest safe gain is not known: the table was made without a process\n");
   } else if (!options.table.empty()) {
@@ -96,6 +181,28 @@ int run(const ConfigureOptions& options) {
                gain_text(safe_gain(largest_gain)));
   }
   return kDone;
+}
+
+void add_rsi_files(CLI::App* command, ConfigureOptions* options) {
+  CLI::Option* folder = command->add_option(
+      "--rsi", options->rsi_folder,
+      "folder for the files that a KUKA needs for RSI: its Ethernet configuration, its context and "
+      "a\nKRL program that starts it");
+  command
+      ->add_option("--rsi-address", options->rsi_address,
+                   "ADDRESS:PORT of flexcompd's computer on the controller's sensor network")
+      ->needs(folder);
+  command
+      ->add_flag("--rsi-relative", options->rsi_relative,
+                 "corrections are what is added each cycle, not the whole")
+      ->needs(folder);
+  command
+      ->add_flag("--rsi-force", options->rsi_force,
+                 "the wrench is in the telegram, from a sensor wired into the context")
+      ->needs(folder);
+  command->add_option("--rsi-limit", options->rsi_limit, "degrees, largest correction of an axis")
+      ->check(CLI::Range(1e-3, 5.0))
+      ->needs(folder);
 }
 
 }  // namespace
@@ -107,13 +214,14 @@ void add_configure(CLI::App* app, Action* action) {
       "A configuration file for flexcompd: the robot's fingerprint, how fast its joints can be, "
       "and\n"
       "the table to start with, with the largest gain that is safe for it. Refuses a table of "
-      "another robot.\n"
+      "another robot. With --rsi also the files for the controller of a KUKA.\n"
       "Example: flexcomp configure --model robot.yaml --table t.fct --out node.toml");
   command->add_option("--model", options->model, "robot.yaml")->required();
   command->add_option("--table", options->table, "made by flexcomp table");
   command->add_option("--period", options->period, "s, from one setpoint to the next")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", options->out, "file to write")->required();
+  add_rsi_files(command, options.get());
   command->callback([=] { *action = [=] { return run(*options); }; });
 }
 

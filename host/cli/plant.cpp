@@ -20,6 +20,7 @@
 #include "node/default_config.hpp"
 #include "node/reply.hpp"
 #include "recording/plausible_angles.hpp"
+#include "simulation/rsi_controller.hpp"
 
 namespace flexcomp::cli {
 namespace {
@@ -28,6 +29,9 @@ struct PlantOptions {
   std::string model;
   std::string path;
   std::string bus;
+  std::string rsi;
+  std::string rsi_type = "ImFree";
+  bool rsi_relative = false;
   std::string key;
   std::string table;
   std::string out;
@@ -150,9 +154,19 @@ std::unique_ptr<simulation::RobotInCut> robot_in_cut(const PlantOptions& options
       options.process.process);
 }
 
+/// The plant as a KUKA with RSI running.
+std::unique_ptr<simulation::PlantBus> rsi_controller(const PlantOptions& options) {
+  simulation::RsiControllerOptions rsi;
+  rsi.period = options.plant.period;
+  rsi.type = options.rsi_type;
+  rsi.mode = options.rsi_relative ? RsiMode::relative : RsiMode::absolute;
+  return simulation::open_rsi_controller(options.rsi, rsi);
+}
+
 int run(const PlantOptions& options) {
-  if (options.bus.empty() == options.table.empty()) {
-    throw InputError("expected either --bus, or --table for a compensator inside this process");
+  const int peers = !options.bus.empty() + !options.rsi.empty() + !options.table.empty();
+  if (peers != 1) {
+    throw InputError("expected --bus or --rsi, or --table for a compensator inside this process");
   }
   if (!options.key.empty() && options.bus.empty()) {
     throw InputError("--key authenticates messages on a bus: it needs --bus");
@@ -169,7 +183,11 @@ int run(const PlantOptions& options) {
   plant_options.compensate = !options.without_compensation;
   plant_options.model_hash = model_hash(model::six_axis_model(known));
   std::unique_ptr<TableFile> table;
-  if (options.bus.empty()) {
+  if (!options.rsi.empty()) {
+    bus = rsi_controller(options);
+    plant_options.obeys = true;
+    plant_options.hold_time = std::numeric_limits<double>::infinity();
+  } else if (options.bus.empty()) {
     table = std::make_unique<TableFile>(read_table(options.table, known));
     bus = simulation::make_inner_bus(node_config(options, known), table->table, false);
     plant_options.lockstep = true;
@@ -231,6 +249,16 @@ int run(const PlantOptions& options) {
   return refused || ran_away ? kDoesNotHold : kDone;
 }
 
+/// A controller stops the robot in the midst of a cut: then there is no contour to write.
+int run_until_stopped(const PlantOptions& options) {
+  try {
+    return run(options);
+  } catch (const simulation::RsiStopped& stopped) {
+    fmt::print(stderr, "flexcomp: {}: {}\n", options.path, stopped.what());
+    return kDoesNotHold;
+  }
+}
+
 }  // namespace
 
 void add_plant(CLI::App* app, Action* action) {
@@ -250,6 +278,14 @@ void add_plant(CLI::App* app, Action* action) {
   command->add_option("--path", options->path, "recording with t, q_cmd and the nominal wrench")
       ->required();
   command->add_option("--bus", options->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL");
+  command->add_option("--rsi", options->rsi,
+                      "udp://ADDRESS:PORT where flexcompd --rsi listens: the plant is a KUKA whose "
+                      "RSI sends its\ntelegrams there, arms by an output, and stops where too many "
+                      "answers are late (exit code 1)");
+  command->add_option("--rsi-type", options->rsi_type,
+                      "with --rsi: SENTYPE; answers of another are not taken");
+  command->add_flag("--rsi-relative", options->rsi_relative,
+                    "with --rsi: takes corrections as what is added each cycle");
   command->add_option("--key", options->key,
                       "file with a key of 32 hexadecimal digits: take and send only messages that "
                       "are\nauthenticated with it, as flexcompd --key does (CAN only)");
@@ -293,7 +329,7 @@ void add_plant(CLI::App* app, Action* action) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--seed", options->plant.seed, "of the noise");
   command->add_flag("--json", options->json, "print the summary as JSON");
-  command->callback([=] { *action = [=] { return run(*options); }; });
+  command->callback([=] { *action = [=] { return run_until_stopped(*options); }; });
 }
 
 }  // namespace flexcomp::cli

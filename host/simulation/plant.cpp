@@ -12,7 +12,6 @@ constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer in lock-
 constexpr std::uint64_t kIdentityTicks = 50;       // from one announcement to the next
 constexpr double kReadyTime = 0.3;                 // s, of good inputs before arming
 constexpr double kArmingTime = 5;                  // s, to become active
-constexpr double kHoldTime = 0.25;                 // s, without an answer before fading out
 constexpr double kFadeTime = 0.5;                  // s
 
 JointAngles to_angles(const JointVector<double, 6>& q) {
@@ -30,7 +29,7 @@ Plant::Plant(std::unique_ptr<RobotInCut> robot, Contour contour, const PlantOpti
       options_(options),
       bus_(bus),
       random_(options.seed),
-      follower_(options.period, kHoldTime, kFadeTime) {}
+      follower_(options.period, options.hold_time, kFadeTime) {}
 
 PlantRun Plant::run(const std::function<void(double)>& progress) {
   next_ = monotonic_now();
@@ -195,7 +194,7 @@ void Plant::take(const Message& message) {
       using Angles = Eigen::Map<const JointVector<double, 6>>;
       const auto state = static_cast<State>(corrected->state);
       follower_.take(Angles(corrected->corrected.data()) - Angles(corrected->uncorrected.data()),
-                     state == State::off || state == State::latched);
+                     !options_.obeys && (state == State::off || state == State::latched));
     }
   } else if (const auto* reply = std::get_if<CommandReplyMessage>(&message)) {
     if (reply->command == Command::arm) {

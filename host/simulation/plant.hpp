@@ -13,9 +13,12 @@
 namespace flexcomp::simulation {
 
 struct PlantOptions {
-  double period = 0.004;         ///< s, from one setpoint to the next
-  bool lockstep = false;         ///< as fast as answers come, else in real time
-  bool compensate = true;        ///< arm the compensator and move by what it sends back
+  double period = 0.004;    ///< s, from one setpoint to the next
+  bool lockstep = false;    ///< as fast as answers come, else in real time
+  bool compensate = true;   ///< arm the compensator and move by what it sends back
+  double hold_time = 0.25;  ///< s, without an answer before the robot fades the correction out
+  /// Moves by whatever correction comes; else one that ends by itself is not taken.
+  bool obeys = false;
   double load_time = 0.3;        ///< s, in which the tool enters the cut
   double settling_time = 0.5;    ///< s, in the cut before it moves
   double force_noise = 1;        ///< N, standard deviation of the sensor

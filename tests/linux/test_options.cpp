@@ -29,6 +29,18 @@ void what_only_the_start_reads_is_refused_by_name() {
       {"can", {"--can", "can1"}},
       {"fd", {"--can", "can0", "--fd"}},
       {"lcm", {"--can", "can0", "--lcm", "udpm://"}},
+      {"rsi", {"--can", "can0", "--rsi", "udp://127.0.0.1:49152"}},
+      {"rsi-mode", {"--can", "can0", "--rsi-mode", "relative"}},
+      {"rsi-type", {"--can", "can0", "--rsi-type", "a"}},
+      {"rsi-correction", {"--can", "can0", "--rsi-correction", "a"}},
+      {"rsi-wrench", {"--can", "can0", "--rsi-wrench", "a"}},
+      {"rsi-arm", {"--can", "can0", "--rsi-arm", "a"}},
+      {"rsi-applied", {"--can", "can0", "--rsi-applied", "a"}},
+      {"rsi-state", {"--can", "can0", "--rsi-state", "a"}},
+      {"rsi-limit", {"--can", "can0", "--rsi-limit", "0.5"}},
+      {"rsi-step", {"--can", "can0", "--rsi-step", "0.01"}},
+      {"rsi-sign", {"--can", "can0", "--rsi-sign", "-1,1,1,1,1,1"}},
+      {"rsi-zero", {"--can", "can0", "--rsi-zero", "0,-90,90,0,0,0"}},
       {"key", {"--can", "can0", "--key", "a"}},
       {"trigger", {"--can", "can0", "--trigger", "clock"}},
       {"tolerated-losses", {"--can", "can0", "--tolerated-losses", "2"}},
@@ -46,6 +58,44 @@ void what_only_the_start_reads_is_refused_by_name() {
         (option.name + " cannot change while running; restart flexcompd").c_str(),
         refused_changes(running, read(changes.at(option.name))).c_str());
   }
+}
+
+int exit_code_of(std::vector<const char*> more) {
+  std::vector<const char*> all = {"flexcompd", "--model-hash", "0123456789abcdef"};
+  all.insert(all.end(), more.begin(), more.end());
+  int exit_code = 0;
+  return read_options(static_cast<int>(all.size()), all.data(), &exit_code) ? 0 : exit_code;
+}
+
+void over_rsi_alone_the_telegrams_must_bring_all_that_is_needed() {
+  const char* address = "udp://127.0.0.1:49152";
+  TEST_ASSERT_EQUAL(0, exit_code_of({"--rsi", address, "--rsi-wrench", "FT", "--rsi-arm", "Arm",
+                                     "--without-identity"}));
+  TEST_ASSERT_EQUAL(2, exit_code_of({"--rsi", address, "--rsi-arm", "Arm", "--without-identity"}));
+  TEST_ASSERT_EQUAL(2,
+                    exit_code_of({"--rsi", address, "--rsi-wrench", "FT", "--without-identity"}));
+  TEST_ASSERT_EQUAL(2, exit_code_of({"--rsi", address, "--rsi-wrench", "FT", "--rsi-arm", "Arm"}));
+  TEST_ASSERT_EQUAL(0, exit_code_of({"--rsi", address, "--can", "can0"}));
+}
+
+void names_that_xml_would_have_to_quote_are_refused() {
+  for (const char* name :
+       {"a\"b", "<a>", "1a", "a b", "", "a&b", "a23456789012345678901234567890123"}) {
+    TEST_ASSERT_EQUAL(2, exit_code_of({"--can", "can0", "--rsi-type", name}));
+    TEST_ASSERT_EQUAL(2, exit_code_of({"--can", "can0", "--rsi-arm", name}));
+  }
+}
+
+void signs_and_zeros_of_the_axes_are_six_each() {
+  TEST_ASSERT_EQUAL(2, exit_code_of({"--can", "can0", "--rsi-sign", "-1,1,1"}));
+  TEST_ASSERT_EQUAL(2, exit_code_of({"--can", "can0", "--rsi-sign", "-1,1,1,1,1,0.5"}));
+  TEST_ASSERT_EQUAL(2, exit_code_of({"--can", "can0", "--rsi-zero", "0,0,0,0,0,400"}));
+  const Options options = read({"--can", "can0", "--rsi-sign", "-1,1,1,1,1,1", "--rsi-zero",
+                                "0,-90,90,0,0,0", "--rsi-mode", "relative"});
+  const RsiConfig config = to_config(options.rsi, 3);
+  TEST_ASSERT_EQUAL_DOUBLE(-1, config.axes.sign[0]);
+  TEST_ASSERT_EQUAL_DOUBLE(-90, config.axes.zero[1]);
+  TEST_ASSERT_TRUE(config.mode == RsiMode::relative && config.schema.needs_late);
 }
 
 void all_that_are_refused_are_named() {
@@ -75,6 +125,9 @@ void the_rest_may_change() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(what_only_the_start_reads_is_refused_by_name);
+  RUN_TEST(over_rsi_alone_the_telegrams_must_bring_all_that_is_needed);
+  RUN_TEST(names_that_xml_would_have_to_quote_are_refused);
+  RUN_TEST(signs_and_zeros_of_the_axes_are_six_each);
   RUN_TEST(all_that_are_refused_are_named);
   RUN_TEST(the_same_value_in_other_words_is_no_change);
   RUN_TEST(the_rest_may_change);
