@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/robot_choice.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "recording/plausible_angles.hpp"
@@ -20,7 +21,7 @@ struct ForceOptions {
   std::array<double, 3> shear{};
   std::array<double, 3> edge{};
   std::string mode = "slot";
-  std::string model;
+  RobotChoice model;
   std::string path;
   std::string out;
   bool json = false;
@@ -57,7 +58,7 @@ int run(const ForceOptions& options) {
   if (!options.path.empty()) {
     study::Spindle spindle = options.spindle;
     spindle.is_mean = spindle.speed == 0;
-    const model::Robot robot = model::load_robot(options.model);
+    const model::Robot robot = load_robot(options.model);
     const RobotModel<double, 6> elastic = model::six_axis_model(robot);
     recording::Recording path = recording::read_recording_of(robot.elastic, options.path);
     recording::write_recording(
@@ -112,7 +113,7 @@ void add_force(CLI::App* app, Action* action) {
   command->add_option("--edge", options->edge, "edge coefficients Kte, Kre, Kae, N/m")
       ->delimiter(',')
       ->type_name("T,R,A");
-  command->add_option("--model", options->model, "robot.yaml");
+  add_robot(command, &options->model);
   command->add_option("--path", options->path, "recording with t and q_cmd");
   command->add_option("--out", options->out, "recording to write: the path with its wrench");
   command->add_option("--speed", options->spindle.speed, "of the spindle, rad/s");
