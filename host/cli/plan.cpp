@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/plan_program.hpp"
 #include "cli/progress.hpp"
 #include "cli/robot_choice.hpp"
 #include "error.hpp"
@@ -13,10 +14,6 @@
 
 namespace flexcomp::cli {
 namespace {
-
-/// F_C and M of Klimchik et al. (2017), section 4.
-constexpr std::array<double, 3> kStudyForce = {440, 1370, 635};
-constexpr std::array<double, 3> kStudyMoment = {0, 3, 10.5};
 
 struct PlanOptions {
   RobotChoice model;
@@ -94,6 +91,7 @@ void add_plan(CLI::App* app, Action* action) {
     const bool has_tool_axis = tool_axis->count() > 0;
     *action = [=] { return run(*options, has_tool_axis); };
   });
+  add_plan_program(plan, action);
 }
 
 CLI::Option* add_vector(CLI::App* command, const std::string& name, std::array<double, 3>* value,

@@ -16,10 +16,6 @@
 namespace flexcomp::programs {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-constexpr double kInch = 0.0254;
-constexpr double kMillimetre = 1e-3;
-
 /// Values of a line's words by letter.
 class Line {
  public:
@@ -48,9 +44,9 @@ class Line {
   bool is_twice_ = false;
 };
 
-class Reader {
+class GcodeReader {
  public:
-  explicit Reader(Program* program) : program_(*program) {}
+  explicit GcodeReader(Program* program) : program_(*program) {}
 
   void read() {
     const std::string_view text = program_.text;
@@ -381,7 +377,7 @@ Program gcode_program(const std::string& file, std::string text) {
   program.file = file;
   program.text = std::move(text);
   program.has_free_spin = true;
-  Reader(&program).read();
+  GcodeReader(&program).read();
   return program;
 }
 

@@ -10,6 +10,11 @@
 /// Programs of machines and robots: read from a file, and written with what was corrected.
 namespace flexcomp::programs {
 
+/// Units of programs in SI units.
+constexpr double kDegree = 3.14159265358979323846 / 180;  ///< rad
+constexpr double kMillimetre = 1e-3;                      ///< m
+constexpr double kInch = 0.0254;                          ///< m
+
 enum class Format { gcode, krl, rapid, csv };
 
 enum class MotionKind {
