@@ -45,7 +45,7 @@ std::array<double, 6> frame_numbers(const Pose<double>& frame) {
           frame.position.y(),
           frame.position.z(),
           std::atan2(turn(2, 1), turn(2, 2)),
-          std::atan2(-turn(2, 0), std::hypot(turn(0, 0), turn(1, 0))),
+          std::atan2(0.0 - turn(2, 0), std::hypot(turn(0, 0), turn(1, 0))),
           std::atan2(turn(1, 0), turn(0, 0))};
 }
 

@@ -247,7 +247,7 @@ void add_identify(CLI::App* app, Action* action) {
       "none is told.\n"
       "Example: flexcomp identify --model robot.yaml --recording load.csv --out identified.yaml\n"
       "         flexcomp identify plan --model robot.yaml --force 2000 --out plan.csv");
-  add_robot(command, &options->model);
+  add_model(command, &options->model);
   command->add_option("--recording", options->recording, "load tests");
   command->add_option("--out", options->out, "robot.yaml to write, with the springs that are told");
   add_vector(command, "--deviations", &options->deviations,
@@ -264,7 +264,7 @@ void add_identify(CLI::App* app, Action* action) {
       "Example: flexcomp identify plan --model robot.yaml --force 2000 --noise 50e-6 --out "
       "plan.csv");
   study::PlanRequest& request = planned->request;
-  add_robot(plan, &planned->model, "robot.yaml; the tool's tip is where the load acts")->required();
+  add_model(plan, &planned->model, "robot.yaml; the tool's tip is where the load acts")->required();
   plan->add_option("--out", planned->out, "recording to write: t, q_cmd, wrench")->required();
   plan->add_option("--force", request.force, "of each load, N");
   plan->add_option("--noise", request.noise, "of a measured coordinate, m");

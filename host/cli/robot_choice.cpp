@@ -21,8 +21,12 @@ model::Tool load_tool(const std::string& choice) {
 
 }  // namespace
 
-CLI::Option* add_robot(CLI::App* command, RobotChoice* choice, const std::string& help) {
-  CLI::Option* model = command->add_option("--model", choice->file, help);
+CLI::Option* add_model(CLI::App* command, RobotChoice* choice, const std::string& help) {
+  return command->add_option("--model", choice->file, help);
+}
+
+CLI::Option* add_robot(CLI::App* command, RobotChoice* choice) {
+  CLI::Option* model = add_model(command, choice);
   command
       ->add_option("--tool", choice->tool,
                    "FILE:NAME of a file of named tools, in place of the robot's own tool")

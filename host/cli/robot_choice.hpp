@@ -16,9 +16,12 @@ struct RobotChoice {
   bool empty() const { return file.empty(); }
 };
 
-/// Adds --model and --tool to a command; returns --model.
-CLI::Option* add_robot(CLI::App* command, RobotChoice* choice,
+/// Adds --model alone, for commands whose --tool is another matter.
+CLI::Option* add_model(CLI::App* command, RobotChoice* choice,
                        const std::string& help = "robot.yaml");
+
+/// Adds --model and --tool to a command; returns --model.
+CLI::Option* add_robot(CLI::App* command, RobotChoice* choice);
 
 /// Throws InputError as `model::load_robot` and `model::load_tool` do.
 model::Robot load_robot(const RobotChoice& choice);

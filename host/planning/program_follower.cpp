@@ -209,12 +209,12 @@ double reach_of(const RobotModel<double, 6>& model) {
   return reach;
 }
 
-/// Places in front of the robot, from its base: the shoulder's height, and so much lower.
+/// Places in front of the robot, near ones, where it is stiffer, first.
 std::vector<Vector3<double>> places_in_front(const RobotModel<double, 6>& model) {
   const double reach = reach_of(model);
   const double shoulder = model.joints[0].origin.position.z() + model.joints[1].origin.position.z();
   std::vector<Vector3<double>> places;
-  for (const double out : {0.55, 0.45, 0.65}) {
+  for (const double out : {0.4, 0.5, 0.6}) {
     for (const double down : {0.1, 0.25, 0.4, 0.0}) {
       places.emplace_back(out * reach, 0, shoulder - down * reach);
     }
@@ -247,12 +247,16 @@ FollowedPath follow(const RobotModel<double, 6>& model, const programs::Program&
     return follower.first_of(follower.candidates(*frame, kSpins), progress);
   }
   constexpr int kFewSpins = 6;
+  constexpr double kGoodEnough = 0.5;
   std::vector<Candidate> best;
   for (const Vector3<double>& place : places_in_front(model)) {
     const std::vector<Candidate> here =
         follower.candidates(follower.frame_around(place), kFewSpins);
     if (!here.empty() && (best.empty() || here.front().quality > best.front().quality)) {
       best = here;
+    }
+    if (!best.empty() && best.front().quality >= kGoodEnough) {
+      break;
     }
   }
   if (best.empty()) {

@@ -24,8 +24,8 @@ struct FollowedPath {
 /// posture, so that the path stays away from joint limits and singularities: the smaller of the
 /// distance from the limits (rad) and three times the least singular value is made largest, over up
 /// to 200 points. Without a frame, one is looked for that holds the program in front of the robot,
-/// axes along the base's. With `near`, joint angles of the first point, the posture is the one
-/// nearest to them.
+/// axes along the base's: the nearest where that is 0.5 or more, else where it is largest. With
+/// `near`, joint angles of the first point, the posture is the one nearest to them.
 ///
 /// `progress` is told: points done, and of how many. Throws InputError with the program's line that
 /// no posture gets past within the joint limits and without a jump.

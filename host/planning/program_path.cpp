@@ -1,5 +1,7 @@
 #include "planning/program_path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +12,7 @@ using programs::Motion;
 using programs::MotionKind;
 
 constexpr double kStands = 1e-9;  // m
+constexpr std::size_t kMostPoints = 5000000;
 
 /// The rotation between two orientations, rad, to first order where it is small.
 double turn_between(const Matrix3<double>& from, const Matrix3<double>& to) {
@@ -33,7 +36,7 @@ std::size_t steps_of(const Pose<double>& start, const Motion& motion,
   const double turn = turn_between(start.rotation, motion.end.rotation);
   const double steps = std::max({1.0, length / sampling.largest_step, turn / sampling.largest_turn,
                                  arc_steps(start, motion, sampling.chord_error)});
-  constexpr double kMost = 1e7;
+  constexpr auto kMost = static_cast<double>(kMostPoints);
   return static_cast<std::size_t>(std::ceil(std::min(steps, kMost) - 1e-9));
 }
 
@@ -88,6 +91,11 @@ std::vector<PathPoint> sample(const programs::Program& program, const PathSampli
         motion.kind != MotionKind::circular && distance(start, motion.end) <= kStands;
     if (!stands) {
       append(start, motion, i, sampling, &points);
+      if (points.size() > kMostPoints) {
+        programs::refuse(
+            program.file, motion.line,
+            fmt::format("more than {} points up to here; take a larger --step", kMostPoints));
+      }
     }
   }
   return points;

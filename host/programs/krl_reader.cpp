@@ -295,8 +295,9 @@ class KrlReader {
     double angle = 0;
     if (scanner->take(',')) {
       const double given = scanner->name() == "CA" ? scanner->number().value_or(0) : 0;
-      if (given == 0) {
-        fail("expected CA and the circle's angle, degrees");
+      constexpr double kMost = 36000;
+      if (given == 0 || std::abs(given) > kMost) {
+        fail("expected CA and the circle's angle, degrees, of up to a hundred turns");
       }
       angle = given * kDegree;
     }

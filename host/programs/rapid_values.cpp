@@ -68,7 +68,9 @@ std::optional<std::vector<double>> read_rapid_numbers(Scanner* scanner) {
       ++depth;
     } else if (scanner->take(']')) {
       --depth;
-      scanner->take(',');
+      if (depth > 0) {
+        scanner->take(',');
+      }
     } else if (scanner->take('"')) {
       const std::size_t close = scanner->rest().find('"');
       if (close == std::string_view::npos) {
