@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "planning/program_path.hpp"
 
@@ -18,54 +19,53 @@ class Fit {
       : motion_(motion), poses_(poses), tolerance_(tolerance) {}
 
   void pass(std::size_t first, std::size_t last) {
-    Motion one = to(last);
-    std::size_t worst = first;
-    if (motion_.kind == MotionKind::circular && last > first + 1) {
-      const std::optional<programs::Arc> arc = programs::arc_through(
-          poses_[first].position, poses_[(first + last) / 2].position, poses_[last].position);
-      one.kind = arc ? MotionKind::circular : MotionKind::linear;
-      one.arc = arc.value_or(programs::Arc{});
-      // Controllers tell no circle by three points that is nearly a whole one.
-      constexpr double kMostTurn = 6.0;  // rad
-      if (!arc || arc->angle > kMostTurn || off(one, first, last, &worst) > tolerance_) {
-        worst = (first + last) / 2;
-      } else {
-        worst = first;
-      }
-    } else if (last > first + 1) {
-      one.kind = MotionKind::linear;
-      worst = off(one, first, last, &worst) > tolerance_ ? worst : first;
-    } else {
-      one.kind = MotionKind::linear;
-    }
-    if (worst == first) {
-      found_.push_back(one);
+    const bool is_arc = motion_.kind == MotionKind::circular && last > first + 1;
+    const std::optional<Motion> one = is_arc ? arc(first, last) : line(first, last);
+    const std::size_t middle = is_arc ? (first + last) / 2 : worst_;
+    if (one) {
+      found_.push_back(*one);
       return;
     }
-    pass(first, worst);
-    pass(worst, last);
+    pass(first, middle);
+    pass(middle, last);
   }
 
   std::vector<Motion> take() { return std::move(found_); }
 
  private:
-  Motion to(std::size_t last) const {
-    Motion motion = motion_;
-    motion.end = poses_[last];
-    return motion;
+  /// The arc through three of the poses, if it passes all; nothing else.
+  std::optional<Motion> arc(std::size_t first, std::size_t last) {
+    // Controllers tell no circle by three points that is nearly a whole one.
+    constexpr double kMostTurn = 6.0;  // rad
+    const std::optional<programs::Arc> through = programs::arc_through(
+        poses_[first].position, poses_[(first + last) / 2].position, poses_[last].position);
+    if (!through || through->angle > kMostTurn) {
+      return std::nullopt;
+    }
+    Motion one = motion_;
+    one.end = poses_[last];
+    one.arc = *through;
+    return off(one, first, last) <= tolerance_ ? std::optional<Motion>(one) : std::nullopt;
   }
 
-  /// How far the poses between are off a motion, and which is farthest.
-  double off(const Motion& one, std::size_t first, std::size_t last, std::size_t* worst) const {
+  std::optional<Motion> line(std::size_t first, std::size_t last) {
+    Motion one = motion_;
+    one.kind = motion_.kind == MotionKind::rapid ? MotionKind::rapid : MotionKind::linear;
+    one.end = poses_[last];
+    return off(one, first, last) <= tolerance_ ? std::optional<Motion>(one) : std::nullopt;
+  }
+
+  /// How far the poses between are off a motion; notes which is farthest.
+  double off(const Motion& one, std::size_t first, std::size_t last) {
     double largest = 0;
-    *worst = first;
+    worst_ = first;
     for (std::size_t i = first + 1; i < last; ++i) {
       const double share = share_of(one, first, last, i);
       const Pose<double> passed = programs::pose_at(poses_[first], one, share);
       const double distance_here = distance(passed, poses_[i]);
       if (distance_here > largest) {
         largest = distance_here;
-        *worst = i;
+        worst_ = i;
       }
     }
     return largest;
@@ -92,6 +92,7 @@ class Fit {
   const Motion& motion_;
   const std::vector<Pose<double>>& poses_;
   double tolerance_;
+  std::size_t worst_ = 0;
   std::vector<Motion> found_;
 };
 
@@ -99,7 +100,7 @@ class Fit {
 
 std::vector<Motion> fit_motion(const Motion& motion, const std::vector<Pose<double>>& poses,
                                std::size_t first, std::size_t last, double tolerance) {
-  if (motion.kind == MotionKind::rapid || first == last) {
+  if (first == last) {
     Motion one = motion;
     one.kind = motion.kind == MotionKind::rapid ? MotionKind::rapid : MotionKind::linear;
     one.end = poses[last];

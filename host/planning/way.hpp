@@ -12,6 +12,7 @@ struct OnWay {
   std::size_t piece = 0;  ///< the straight piece that it is on
   double share = 0;       ///< of that piece
   double off = 0;         ///< m, from what it is nearest to
+  double passed = 0;      ///< m, of the way from where it was looked for
 };
 
 /// The way of a TCP as straight pieces between points, of which there are two or more.
@@ -19,14 +20,16 @@ class Way {
  public:
   explicit Way(std::vector<Vector3<double>> points) : points_(std::move(points)) {}
 
-  /// The place nearest to a point, from a piece on and over about so much of the way (m): a way may
-  /// cross itself, and what is followed in order is not to jump.
-  OnWay nearest(std::size_t from, double room, const Vector3<double>& point) const;
+  /// The place that a point is at which is `step` (m) farther on than `from`, about, and never
+  /// behind: the nearest, where going a millimetre too far or too little counts as a tenth of one
+  /// beside the way. A way may cross itself or run back on itself, and what follows it is not to
+  /// jump. Looks `room` (m) beyond the step.
+  OnWay next(const OnWay& from, double step, double room, const Vector3<double>& point) const;
 
   std::size_t pieces() const { return points_.size() - 1; }
 
  private:
-  OnWay on_piece(std::size_t piece, const Vector3<double>& point) const;
+  OnWay on_piece(std::size_t piece, double least_share, const Vector3<double>& point) const;
 
   std::vector<Vector3<double>> points_;
 };

@@ -17,16 +17,15 @@ recording::Samples wrench_along(const RobotModel<double, 6>& model, const record
   const Way way(places_of(model, other_q));
   const std::vector<Vector3<double>> places = places_of(model, q);
   recording::Samples found(q.rows(), 6);
-  std::size_t piece = 0;
+  OnWay at;
   for (std::size_t row = 0; row < places.size(); ++row) {
     const double step = row > 0 ? (places[row] - places[row - 1]).norm() : 0;
-    const OnWay at = way.nearest(piece, 2 * step + farthest, places[row]);
+    at = way.next(at, step, farthest, places[row]);
     if (!(at.off <= farthest)) {
       throw InputError(
           fmt::format("{}: goes another way: {:.4g} mm away from point {} of the program",
                       other.file, 1e3 * at.off, row + 1));
     }
-    piece = at.piece;
     const auto before = static_cast<Eigen::Index>(at.piece);
     found.row(static_cast<Eigen::Index>(row)) =
         (1 - at.share) * wrench.row(before) + at.share * wrench.row(before + 1);

@@ -104,9 +104,12 @@ std::string word_for(const std::string& word, MotionKind kind) {
   return spline + (kind == MotionKind::rapid ? "PTP" : kind == MotionKind::linear ? "LIN" : "CIRC");
 }
 
+/// How a point is passed without a stop.
+const char* passing(MotionKind kind) { return kind == MotionKind::rapid ? "C_PTP" : "C_DIS"; }
+
 /// Added points are passed without a stop, at the motion's own speed where it has one.
-std::string tail_of_added(const std::string& tail) {
-  return tail.find("WITH") == std::string::npos ? "C_DIS"
+std::string tail_of_added(const std::string& tail, MotionKind kind) {
+  return tail.find("WITH") == std::string::npos ? passing(kind)
                                                 : tail.substr(0, tail.find(" C_")) + " C_DIS";
 }
 
@@ -129,7 +132,7 @@ std::string statement_in_place(const CorrectedProgram& program, std::size_t moti
                         krl_pose(program.frame), end);
   }
   visit_in_place(program, motion, [&](const Pose<double>& start, const Motion& each, bool is_last) {
-    const std::string tail = is_last ? parts.tail : tail_of_added(parts.tail);
+    const std::string tail = is_last ? parts.tail : tail_of_added(parts.tail, each.kind);
     text += fmt::format("{}{} {}{}{}{}", parts.indent, word_for(parts.word, each.kind),
                         krl_target(start, each, is_last ? parts.others : ""),
                         tail.empty() ? "" : " ", tail, is_last ? "" : end);
@@ -159,8 +162,9 @@ std::string new_program(const CorrectedProgram& program, const std::string& name
     }
     const bool goes_on_after = goes_on(program, i);
     visit_in_place(program, i, [&](const Pose<double>& start, const Motion& each, bool is_last) {
-      text += fmt::format("{} {}{}\n", word_for("LIN", each.kind), krl_target(start, each),
-                          !is_last || goes_on_after ? " C_DIS" : "");
+      const bool stops = is_last && !goes_on_after;
+      text += fmt::format("{} {}{}{}\n", word_for("LIN", each.kind), krl_target(start, each),
+                          stops ? "" : " ", stops ? "" : passing(each.kind));
     });
   }
   add_comments(source.motions.size());

@@ -28,7 +28,7 @@ bool ends_with_line(const std::string& text) {
            rest.find("then") != std::string_view::npos ||
            rest.find("Then") != std::string_view::npos;
   }
-  return kHeaders.count(word) > 0 || text.compare(0, 3, "%%%") == 0;
+  return kHeaders.count(word) > 0;
 }
 
 }  // namespace
@@ -53,8 +53,22 @@ void RapidStatements::skip_blanks() {
   }
 }
 
+void RapidStatements::skip_file_header() {
+  constexpr std::string_view kMark = "%%%";
+  if (text_.substr(at_, kMark.size()) != kMark) {
+    return;
+  }
+  const std::size_t end = text_.find(kMark, at_ + kMark.size());
+  const std::size_t after = end == std::string_view::npos ? text_.size() : end + kMark.size();
+  for (; at_ < after; ++at_) {
+    line_ += text_[at_] == '\n' ? 1 : 0;
+  }
+  skip_blanks();
+}
+
 bool RapidStatements::next(RapidStatement* statement) {
   skip_blanks();
+  skip_file_header();
   statement->text.clear();
   statement->line = line_;
   statement->begin = at_;

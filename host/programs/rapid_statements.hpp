@@ -26,6 +26,7 @@ class RapidStatements {
  private:
   void skip_blanks();
   void skip_comment();
+  void skip_file_header();  ///< version and language between two lines of %%%
 
   std::string_view text_;
   std::size_t at_ = 0;

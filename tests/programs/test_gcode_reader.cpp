@@ -1,8 +1,10 @@
 // Facts of RS274/NGC (NISTIR 6556, section 3) and of what CAM systems and simulators make of it.
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
 #include <string>
 
+#include "cases.hpp"
 #include "error.hpp"
 #include "programs/gcode_reader.hpp"
 #include "unity_main.hpp"
@@ -155,6 +157,18 @@ void every_unknown_word_is_told_with_its_line() {
   }
 }
 
+void a_million_lines_are_read_in_seconds() {
+  constexpr int kLines = flexcomp::test::cases(1000000);
+  std::string text = "G0 X0 Y0\nF1000\n";
+  for (int i = 0; i < kLines; ++i) {
+    text += "N" + std::to_string(i % 10000) + " G1 X" + std::to_string(i % 977) + ".125 Y-" +
+            std::to_string(i % 331) + ".5 Z0.75\n";
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  TEST_ASSERT_EQUAL(kLines + 1, program_of(text).motions.size());
+  TEST_ASSERT_TRUE(std::chrono::steady_clock::now() - begun < std::chrono::seconds(10));
+}
+
 void places_of_the_machine_are_noted_and_left_out() {
   const Program program = program_of("G0 X1\nG91 G28 Z0\nG90 G0 X5\n");
   TEST_ASSERT_EQUAL(2, program.motions.size());
@@ -176,6 +190,7 @@ int main() {
   RUN_TEST(only_what_is_fed_with_a_turning_spindle_cuts);
   RUN_TEST(inverse_time_feeds_take_their_share_of_a_minute);
   RUN_TEST(every_unknown_word_is_told_with_its_line);
+  RUN_TEST(a_million_lines_are_read_in_seconds);
   RUN_TEST(places_of_the_machine_are_noted_and_left_out);
   return UNITY_END();
 }

@@ -1,9 +1,11 @@
 // KRL as KUKA's programming manuals and programs that others published have it: inline forms with
 // their folds, points in a .dat, CIRC with CA, targets that say only what changes.
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
 #include <string>
 
+#include "cases.hpp"
 #include "error.hpp"
 #include "programs/corrected_program.hpp"
 #include "programs/krl_point.hpp"
@@ -132,6 +134,18 @@ void unknown_words_are_noted_with_their_line() {
   TEST_ASSERT_EQUAL(4, program.notes[2].line);
 }
 
+void a_million_lines_are_read_in_seconds() {
+  constexpr int kLines = flexcomp::test::cases(1000000);
+  std::string text = "DEF p()\nPTP {X 0,Y 0,Z 0,A 0,B 90,C 0}\n";
+  for (int i = 0; i < kLines; ++i) {
+    text += "LIN {X " + std::to_string(i % 977) + ".125,Y -" + std::to_string(i % 331) +
+            ".5,Z 0.75,A 0,B 90,C 0} C_DIS\n";
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  TEST_ASSERT_EQUAL(kLines + 1, krl_program("p.src", text, "").motions.size());
+  TEST_ASSERT_TRUE(std::chrono::steady_clock::now() - begun < std::chrono::seconds(10));
+}
+
 /// A program as if every end were corrected by 0.1 mm along z, and the line in two.
 CorrectedProgram corrected(const Program& source) {
   CorrectedProgram program;
@@ -195,6 +209,7 @@ int main() {
   RUN_TEST(ca_goes_round_as_far_as_it_says);
   RUN_TEST(what_cannot_be_told_is_refused_with_its_line);
   RUN_TEST(unknown_words_are_noted_with_their_line);
+  RUN_TEST(a_million_lines_are_read_in_seconds);
   RUN_TEST(a_program_of_its_own_keeps_all_that_does_not_move);
   RUN_TEST(what_is_written_is_read_back);
   return UNITY_END();
