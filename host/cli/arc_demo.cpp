@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/robot_choice.hpp"
 #include "control/arc_circle.hpp"
 #include "control/arc_request.hpp"
 #include "control/arc_trials.hpp"
@@ -16,7 +17,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct ArcDemoOptions {
-  std::string model;
+  RobotChoice model;
   std::string uncertainty;
   std::string out;
   bool json = false;
@@ -124,7 +125,7 @@ nlohmann::ordered_json try_circle(const control::CircleTrial& trial, const std::
 }
 
 int run(const ArcDemoOptions& options) {
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const control::ArcRequest request = control::read_arc_request(options.uncertainty, robot);
   const control::ArcDesign<6> design =
       control::design_arc<6>(request.arm, request.uncertainty, request.motion, request.bandwidth);
@@ -159,7 +160,7 @@ void add_arc_demo(CLI::App* app, Action* action) {
       "Writes summary.json and pictures (.svg, .png) of errors, adaptation and the circle.\n"
       "Example: flexcomp arc-demo --model host/robots/kr360/robot.yaml \\\n"
       "           --uncertainty host/robots/kr360/arc.yaml --out arc-demo");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--uncertainty", options->uncertainty, "design file, as for design-arc")
       ->required();
   command->add_option("--out", options->out, "folder to write to")->required();

@@ -12,6 +12,7 @@
 #include "check/times.hpp"
 #include "cli/command.hpp"
 #include "cli/process_options.hpp"
+#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "error.hpp"
 
@@ -19,7 +20,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct CheckOptions {
-  std::string model;
+  RobotChoice model;
   std::vector<std::string> recordings;
   std::string path;
   std::string table;
@@ -62,7 +63,7 @@ check::Checks check_all(const CheckOptions& options) {
   check::Checks checks;
   std::optional<model::Robot> robot;
   if (!options.model.empty()) {
-    robot = model::load_robot(options.model);
+    robot = load_robot(options.model);
     check::add(check::check_model(*robot), &checks);
   }
   const model::Robot* known = robot ? &*robot : nullptr;
@@ -137,7 +138,7 @@ void add_check(CLI::App* app, Action* action) {
       "a\n"
       "warning; notes do not count); 2: a file cannot be read.\n"
       "Example: flexcomp check --model robot.yaml --recording a.csv");
-  command->add_option("--model", options->model, "robot.yaml");
+  add_robot(command, &options->model);
   command->add_option("--recording", options->recordings, "recording; may be given again")
       ->take_all();
   command->add_option("--path", options->path, "recording with t, q_cmd and the wrench, to be run");

@@ -7,6 +7,7 @@
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "effects/learned_correction.hpp"
 #include "error.hpp"
@@ -23,7 +24,7 @@ namespace {
 using Core = Compensator<double, 6>;
 
 struct CompensateOptions {
-  std::string model;
+  RobotChoice model;
   std::string table;
   std::string path;
   std::string out;
@@ -142,7 +143,7 @@ recording::Samples wanted_positions(const model::Robot& robot, const recording::
 }
 
 int run(const CompensateOptions& options) {
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const TableFile file = read_table(options.table, robot);
   const recording::Recording path = recording::read_program_of(robot.elastic, options.path);
   OfflineCompensator compensator(robot, file.table, path);
@@ -208,7 +209,7 @@ void add_compensate(CLI::App* app, Action* action) {
       "the wrench as the force sensor reads it.\n"
       "Example: flexcomp compensate --model robot.yaml --table t.fct --path path.csv --out "
       "out.csv");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--table", options->table, "made by flexcomp table")->required();
   command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")
       ->required();

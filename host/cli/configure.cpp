@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "controller/kuka_axes.hpp"
 #include "controller/rsi_files.hpp"
@@ -23,7 +24,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct ConfigureOptions {
-  std::string model;
+  RobotChoice model;
   std::string table;
   std::string out;
   double period = 0.004;
@@ -60,7 +61,7 @@ std::string configuration(const ConfigureOptions& options, const model::Robot& r
       "# Every option of flexcompd --help may stand here; those left out have their defaults.\n\n"
       "# fingerprint of {}: geometry, springs, weights\n"
       "model-hash = \"{:016x}\"\n",
-      robot.name, options.model, model_hash(model::six_axis_model(robot)));
+      robot.name, options.model.file, model_hash(model::six_axis_model(robot)));
   if (!options.table.empty()) {
     text += fmt::format("table = \"{}\"\n", std::filesystem::absolute(options.table).string());
   }
@@ -151,7 +152,7 @@ std::vector<std::pair<std::filesystem::path, std::string>> files_of(const Config
 }
 
 int run(const ConfigureOptions& options) {
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   double largest_gain = 0;
   if (!options.table.empty()) {
@@ -216,7 +217,7 @@ void add_configure(CLI::App* app, Action* action) {
       "the table to start with, with the largest gain that is safe for it. Refuses a table of "
       "another robot. With --rsi also the files for the controller of a KUKA.\n"
       "Example: flexcomp configure --model robot.yaml --table t.fct --out node.toml");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--table", options->table, "made by flexcomp table");
   command->add_option("--period", options->period, "s, from one setpoint to the next")
       ->check(CLI::PositiveNumber);

@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/robot_choice.hpp"
 #include "control/arc_parameters.hpp"
 #include "control/arc_picture.hpp"
 #include "control/arc_request.hpp"
@@ -17,7 +18,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct DesignArcOptions {
-  std::string model;
+  RobotChoice model;
   std::string uncertainty;
   std::string out;
   int picture_joint = 2;
@@ -105,7 +106,7 @@ void print_design(const model::Robot& robot, const control::ArcDesign<6>& design
 }
 
 int run(const DesignArcOptions& options) {
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const control::ArcRequest request = control::read_arc_request(options.uncertainty, robot);
   const control::ArcDesign<6> design =
       control::design_arc<6>(request.arm, request.uncertainty, request.motion, request.bandwidth);
@@ -146,7 +147,7 @@ void add_design_arc(CLI::App* app, Action* action) {
       "Writes arc_gains.yaml (gains, for programs), arc_gains.h (the same for a controller in C),\n"
       "summary.json, and the cost over both gains of a joint as cost.svg and cost.png.\n"
       "Example: flexcomp design-arc --model robot.yaml --uncertainty arc.yaml --out arc");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command
       ->add_option("--uncertainty", options->uncertainty, "design file, see host/control/README.md")
       ->required();

@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/output/json.hpp"
 #include "diagnosis/output/report.hpp"
@@ -27,7 +28,7 @@ constexpr Eigen::Index kMostRows = 8000;
 constexpr Eigen::Index kMostSamples = 48000;
 
 struct DiagnoseOptions {
-  std::string model;
+  RobotChoice model;
   std::vector<std::string> recordings;
   std::vector<std::string> holdouts;
   std::string out;
@@ -109,7 +110,7 @@ std::vector<simulation::Scene> scenes_of(const std::vector<recording::Recording>
 
 /// Returns the command that was given, for the page.
 std::string command_line(const DiagnoseOptions& options) {
-  std::string line = fmt::format("flexcomp diagnose --model {}", options.model);
+  std::string line = "flexcomp diagnose " + describe(options.model);
   for (const std::string& file : options.recordings) {
     line += " --recording " + file;
   }
@@ -162,7 +163,7 @@ int run(const DiagnoseOptions& options) {
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
   }
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const std::vector<recording::Recording> recordings = read_recordings(options, robot.joints());
   diagnosis::Origin origin;
   std::vector<simulation::Scene> scenes = scenes_of(recordings, &origin.qualities);
@@ -204,7 +205,7 @@ void add_diagnose(CLI::App* app, Action* action) {
       "Where recordings and the simulation differ, and which physics the model lacks. Writes\n"
       "diagnosis.json, report.html and updated_model.yaml to the folder --out.\n"
       "Example: flexcomp diagnose --model robot.yaml --recording a.csv --out diagnosis");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--recording", options->recordings, "recording; may be given again")
       ->required()
       ->take_all();

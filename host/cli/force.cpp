@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/milling_options.hpp"
+#include "cli/robot_choice.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "recording/plausible_angles.hpp"
@@ -15,27 +17,13 @@ namespace flexcomp::cli {
 namespace {
 
 struct ForceOptions {
-  study::EndMilling milling;
+  MillingOptions milling;
   study::Spindle spindle;
-  std::array<double, 3> shear{};
-  std::array<double, 3> edge{};
-  std::string mode = "slot";
-  std::string model;
+  RobotChoice model;
   std::string path;
   std::string out;
   bool json = false;
 };
-
-study::EndMilling milling_of(const ForceOptions& options) {
-  study::EndMilling milling = options.milling;
-  milling.coefficients = {options.shear[0], options.shear[1], options.shear[2],
-                          options.edge[0],  options.edge[1],  options.edge[2]};
-  milling.mode = options.mode == "slot" ? study::MillingMode::slot
-                 : options.mode == "up" ? study::MillingMode::up
-                                        : study::MillingMode::down;
-  study::check(milling);
-  return milling;
-}
 
 /// The largest force (N) in a revolution.
 double peak_force(const study::EndMilling& milling) {
@@ -49,7 +37,7 @@ double peak_force(const study::EndMilling& milling) {
 }
 
 int run(const ForceOptions& options) {
-  const study::EndMilling milling = milling_of(options);
+  const study::EndMilling milling = milling_of(options.milling);
   if (options.path.empty() != options.out.empty() ||
       options.path.empty() != options.model.empty()) {
     throw InputError("--model, --path and --out go together");
@@ -57,7 +45,7 @@ int run(const ForceOptions& options) {
   if (!options.path.empty()) {
     study::Spindle spindle = options.spindle;
     spindle.is_mean = spindle.speed == 0;
-    const model::Robot robot = model::load_robot(options.model);
+    const model::Robot robot = load_robot(options.model);
     const RobotModel<double, 6> elastic = model::six_axis_model(robot);
     recording::Recording path = recording::read_recording_of(robot.elastic, options.path);
     recording::write_recording(
@@ -94,25 +82,10 @@ void add_force(CLI::App* app, Action* action) {
       "--speed every tooth's pass.\n"
       "Example: flexcomp force --diameter 0.016 --teeth 4 --helix 0.52 --depth 0.003\n"
       "  --feed-per-tooth 8e-5 --shear 700e6,210e6,110e6 --edge 24e3,28e3,3e3");
-  study::EndMilling& milling = options->milling;
-  command->add_option("--diameter", milling.diameter, "of the tool, m")->required();
-  command->add_option("--teeth", milling.teeth, "of the tool")->required();
-  command->add_option("--helix", milling.helix, "rad");
-  command->add_option("--depth", milling.depth, "of the cut, along the tool, m")->required();
-  command->add_option("--mode", options->mode, "slot: the whole width; up: chips begin thin")
-      ->check(CLI::IsMember({"slot", "up", "down"}));
-  command->add_option("--width", milling.width, "of the cut, across the tool, m; not for slots");
-  command->add_option("--feed-per-tooth", milling.feed_per_tooth, "m")->required();
-  command->add_option("--runout", milling.runout, "tool axis off the spindle's, m");
-  command->add_option("--runout-angle", milling.runout_angle, "from the first tooth, rad");
-  command->add_option("--shear", options->shear, "shear coefficients Ktc, Krc, Kac, N/m²")
-      ->delimiter(',')
-      ->type_name("T,R,A")
-      ->required();
-  command->add_option("--edge", options->edge, "edge coefficients Kte, Kre, Kae, N/m")
-      ->delimiter(',')
-      ->type_name("T,R,A");
-  command->add_option("--model", options->model, "robot.yaml");
+  for (CLI::Option* option : add_milling(command, &options->milling)) {
+    option->required();
+  }
+  add_robot(command, &options->model);
   command->add_option("--path", options->path, "recording with t and q_cmd");
   command->add_option("--out", options->out, "recording to write: the path with its wrench");
   command->add_option("--speed", options->spindle.speed, "of the spindle, rad/s");

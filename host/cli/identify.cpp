@@ -7,6 +7,7 @@
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "recording/plausible_angles.hpp"
@@ -21,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kUnlikely = 0.01;
 
 struct IdentifyOptions {
-  std::string model;
+  RobotChoice model;
   std::string recording;
   std::string out;
   std::array<double, 3> deviations = {1, 1, 1};
@@ -30,7 +31,7 @@ struct IdentifyOptions {
 };
 
 struct LoadTestPlanOptions {
-  std::string model;
+  RobotChoice model;
   std::string out;
   study::PlanRequest request;
   bool json = false;
@@ -164,7 +165,7 @@ int run(const IdentifyOptions& options) {
   if (options.model.empty() || options.recording.empty()) {
     throw InputError("identify: --model and --recording are required (see --help)");
   }
-  model::Robot robot = model::load_robot(options.model);
+  model::Robot robot = load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   const recording::Recording recording =
       recording::read_recording_of(robot.elastic, options.recording);
@@ -191,7 +192,7 @@ int run(const IdentifyOptions& options) {
 }
 
 int run_plan(const LoadTestPlanOptions& options) {
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   Progress progress("planning", 1000);
   const study::LoadTestPlan plan = study::plan_load_tests(
@@ -246,7 +247,7 @@ void add_identify(CLI::App* app, Action* action) {
       "none is told.\n"
       "Example: flexcomp identify --model robot.yaml --recording load.csv --out identified.yaml\n"
       "         flexcomp identify plan --model robot.yaml --force 2000 --out plan.csv");
-  command->add_option("--model", options->model, "robot.yaml");
+  add_model(command, &options->model);
   command->add_option("--recording", options->recording, "load tests");
   command->add_option("--out", options->out, "robot.yaml to write, with the springs that are told");
   add_vector(command, "--deviations", &options->deviations,
@@ -263,8 +264,7 @@ void add_identify(CLI::App* app, Action* action) {
       "Example: flexcomp identify plan --model robot.yaml --force 2000 --noise 50e-6 --out "
       "plan.csv");
   study::PlanRequest& request = planned->request;
-  plan->add_option("--model", planned->model, "robot.yaml; the tool's tip is where the load acts")
-      ->required();
+  add_model(plan, &planned->model, "robot.yaml; the tool's tip is where the load acts")->required();
   plan->add_option("--out", planned->out, "recording to write: t, q_cmd, wrench")->required();
   plan->add_option("--force", request.force, "of each load, N");
   plan->add_option("--noise", request.noise, "of a measured coordinate, m");

@@ -54,10 +54,15 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp check …         what is wrong or suspicious in model, path, table or "
       "recording\n\n"
       "From model to corrected path:\n"
-      "  flexcomp plan circle …   a path with its cutting force, or bring your own recording\n"
+      "  flexcomp plan …          a path with its cutting force: a program (G-code, KRL, RAPID, "
+      "CSV), "
+      "circle,\n"
+      "                           line or pocket; or bring your own recording\n"
       "  flexcomp table …         the compliance along that path, with a certified error\n"
       "  flexcomp compensate …    the path, corrected\n"
+      "  flexcomp export …        the corrected program, as KRL, RAPID, G-code or CSV\n"
       "  flexcomp simulate …      where the bending robot really goes\n"
+      "  flexcomp contour …       how far that is from the path's contour\n"
       "  flexcomp circularity …   how round that is\n"
       "  flexcomp form …          how straight, how flat, how round both ways\n"
       "  flexcomp report …        all of it on one page\n\n"
@@ -87,7 +92,9 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_plan(&app, &action);
   flexcomp::cli::add_table(&app, &action);
   flexcomp::cli::add_compensate(&app, &action);
+  flexcomp::cli::add_export(&app, &action);
   flexcomp::cli::add_simulate(&app, &action);
+  flexcomp::cli::add_contour(&app, &action);
   flexcomp::cli::add_circularity(&app, &action);
   flexcomp::cli::add_force(&app, &action);
   flexcomp::cli::add_form(&app, &action);

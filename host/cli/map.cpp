@@ -11,6 +11,7 @@
 #include "cli/map_volume.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "model/robot.hpp"
@@ -26,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MapOptions {
-  std::string model;
+  RobotChoice model;
   std::string out;
   std::string preset = "strict";
   std::string plane = "xz";
@@ -190,7 +191,7 @@ int run(const MapOptions& options) {
       throw InputError("--region: expected sides above zero");
     }
   }
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   if (!options.volume.empty()) {
     return map_volume(robot, volume_request(options), options.out, options.json);
   }
@@ -240,7 +241,7 @@ void add_map(CLI::App* app, Action* action) {
       "Example: flexcomp map --model robot.yaml --preset strict --out map\n"
       "         mpirun flexcomp map --model robot.yaml --volume 1,2.5,-1,1,0.5,2 --step 0.1 --out "
       "map");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--out", options->out, "folder to write to")->required();
   command->add_option("--preset", options->preset, "posture, point, force and its sense")
       ->check(CLI::IsMember({"strict", "flange", "counter"}));

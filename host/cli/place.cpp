@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "model/robot.hpp"
 #include "recording/plausible_angles.hpp"
 #include "study/placement.hpp"
@@ -15,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct PlaceOptions {
-  std::string model;
+  RobotChoice model;
   std::string path;
   std::string out;
   std::array<double, 3> most_shift = {0.5, 0.5, 0.3};
@@ -36,7 +37,7 @@ bool is_on_bound(const study::Placement& place, const study::PlacementRequest& r
 }
 
 int run(const PlaceOptions& options) {
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   const recording::Recording path = recording::read_recording_of(robot.elastic, options.path);
   study::PlacementRequest request = options.request;
@@ -85,7 +86,7 @@ void add_place(CLI::App* app, Action* action) {
       "all bounds, then nearby (NLopt: DIRECT-L, Sbplx).\n"
       "Example: flexcomp place --model robot.yaml --path path.csv --out placed.csv");
   study::PlacementRequest& request = options->request;
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--path", options->path, "recording with t, q_cmd and the wrench")
       ->required();
   command->add_option("--out", options->out, "recording to write: the job in its new place")

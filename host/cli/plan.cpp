@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/plan_program.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "planning/circle.hpp"
@@ -13,12 +15,8 @@
 namespace flexcomp::cli {
 namespace {
 
-/// F_C and M of Klimchik et al. (2017), section 4.
-constexpr std::array<double, 3> kStudyForce = {440, 1370, 635};
-constexpr std::array<double, 3> kStudyMoment = {0, 3, 10.5};
-
 struct PlanOptions {
-  std::string model;
+  RobotChoice model;
   std::string out;
   std::array<double, 3> center{};
   std::string plane = "xz";
@@ -50,7 +48,7 @@ int run(const PlanOptions& options, bool has_tool_axis) {
   if (!(plan.radius > 0) || !(plan.feed > 0) || plan.points < 8 || plan.points > 1000000) {
     throw InputError("--radius and --feed must be above zero, --points from 8 to 1000000");
   }
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   Progress progress("planning", static_cast<std::size_t>(plan.points));
   const recording::Recording recording =
       planning::plan_circle(model::six_axis_model(robot), plan,
@@ -74,7 +72,7 @@ void add_plan(CLI::App* app, Action* action) {
       "along the plane's normal}; the defaults are those of the study by Klimchik et al. (2017).\n"
       "Example: flexcomp plan circle --model robot.yaml --center 1.6,0,1.2 --plane xz --out "
       "path.csv");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--out", options->out, "recording to write: t, q_cmd, wrench")->required();
   add_vector(command, "--center", &options->center, "centre, m, base frame")->required();
   command->add_option("--plane", options->plane, "plane of the circle: first and second axis")
@@ -93,6 +91,7 @@ void add_plan(CLI::App* app, Action* action) {
     const bool has_tool_axis = tool_axis->count() > 0;
     *action = [=] { return run(*options, has_tool_axis); };
   });
+  add_plan_program(plan, action);
 }
 
 CLI::Option* add_vector(CLI::App* command, const std::string& name, std::array<double, 3>* value,

@@ -10,6 +10,7 @@
 #include "cli/command.hpp"
 #include "cli/process_options.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "control/arc_parameters.hpp"
 #include "control/arc_request.hpp"
@@ -26,7 +27,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct PlantOptions {
-  std::string model;
+  RobotChoice model;
   std::string path;
   std::string bus;
   std::string rsi;
@@ -174,7 +175,7 @@ int run(const PlantOptions& options) {
   if (options.arc && options.dynamic.empty()) {
     throw InputError("--arc needs --dynamic: a robot that stands still needs no control");
   }
-  model::Robot known = model::load_robot(options.model);
+  model::Robot known = load_robot(options.model);
   const model::Robot robot = known;
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   known.elastic = compensated_model(options, robot);
@@ -274,7 +275,7 @@ void add_plant(CLI::App* app, Action* action) {
       "with\n"
       "its gain and this process the loop is unstable.\n"
       "Example: flexcomp plant --model robot.yaml --path path.csv --bus can:vcan0 --out run.csv");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--path", options->path, "recording with t, q_cmd and the nominal wrench")
       ->required();
   command->add_option("--bus", options->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL");

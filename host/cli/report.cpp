@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/position_columns.hpp"
+#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
@@ -15,7 +16,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct ReportOptions {
-  std::string model;
+  RobotChoice model;
   std::string table;
   std::string out;
   std::vector<std::string> recordings;
@@ -36,7 +37,7 @@ report::NamedCircle read_circle(const std::string& argument,
 }
 
 int run(const ReportOptions& options) {
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   report::CircleReport page;
   page.robot = robot.name;
   for (const std::string& argument : options.recordings) {
@@ -64,7 +65,7 @@ void add_report(CLI::App* app, Action* action) {
       "Example: flexcomp report --model robot.yaml --recording before=a.csv --recording "
       "after=b.csv \\\n"
       "           --columns x,z --table t.fct --out report.html");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command
       ->add_option("--recording", options->recordings,
                    "a circle to show; again for more, compared with the first")

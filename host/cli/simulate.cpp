@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "effects/learned.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
@@ -16,7 +17,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct SimulateOptions {
-  std::string model;
+  RobotChoice model;
   std::string path;
   std::string recording;
   std::string out;
@@ -67,7 +68,7 @@ int run_recording(const SimulateOptions& options) {
   if (options.compliance_scale != 1) {
     throw InputError("--compliance-scale goes with --path, not with --recording");
   }
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   recording::write_recording(
       options.out, expected(robot, recording::read_recording(options.recording, robot.joints())));
   return kDone;
@@ -77,7 +78,7 @@ int run_path(const SimulateOptions& options) {
   if (!(options.compliance_scale > 0)) {
     throw InputError("--compliance-scale: expected a number above zero");
   }
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const model::Chain plant =
       simulation::with_scaled_compliance(robot.elastic, options.compliance_scale);
   recording::Recording recording = recording::read_recording_of(robot.elastic, options.path);
@@ -122,7 +123,7 @@ void add_simulate(CLI::App* app, Action* action) {
       "row\n"
       "lacks joint angles or part of the wrench.\n"
       "Example: flexcomp simulate --model robot.yaml --path path.csv --out recording.csv");
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--path", options->path, "recording with t, q_cmd and the wrench");
   command->add_option("--recording", options->recording, "recording to simulate once more");
   command->add_option("--out", options->out, "recording to write")->required();

@@ -6,6 +6,7 @@
 
 #include "cli/command.hpp"
 #include "cli/process_options.hpp"
+#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "cli/table_signing.hpp"
 #include "cli/table_verify.hpp"
@@ -21,7 +22,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct BuildOptions {
-  std::string model;
+  RobotChoice model;
   std::string path;
   std::string out;
   double tolerance = 1e-6;
@@ -87,7 +88,7 @@ int run_build(const BuildOptions& options) {
   if (!(options.tolerance > 0)) {
     throw InputError("--tolerance: expected a length above zero");
   }
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   const recording::Recording path = recording::read_program_of(robot.elastic, options.path);
   const recording::Samples& q_cmd = recording::require(path, path.q_cmd, "q_cmd_1..q_cmd_6");
@@ -149,7 +150,7 @@ void add_table(CLI::App* app, Action* action) {
       "         flexcomp table sign t.fct --key key --counter 7");
   auto build = std::make_shared<BuildOptions>();
   command->require_subcommand(0, 1);
-  CLI::Option* model = command->add_option("--model", build->model, "robot.yaml");
+  CLI::Option* model = add_robot(command, &build->model);
   CLI::Option* path =
       command->add_option("--path", build->path, "recording with t, q_cmd and the wrench");
   CLI::Option* out = command->add_option("--out", build->out, "table to write");

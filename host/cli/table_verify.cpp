@@ -11,6 +11,7 @@
 
 #include "cli/process_options.hpp"
 #include "cli/progress.hpp"
+#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "cli/table_signing.hpp"
 #include "control/path_gain.hpp"
@@ -25,7 +26,7 @@ namespace flexcomp::cli {
 namespace {
 
 struct VerifyOptions {
-  std::string model;
+  RobotChoice model;
   std::string key;
   std::string table;
   std::string path;
@@ -182,7 +183,7 @@ Part check_inside(const VerifyOptions& options, const Table& table,
 int run_verify(const VerifyOptions& options) {
   const bool is_signed = !options.key.empty();
   const std::uint32_t version = is_signed ? signed_version(options.table, options.key) : 0;
-  const model::Robot robot = model::load_robot(options.model);
+  const model::Robot robot = load_robot(options.model);
   const TableFile file = read_unproven_table(options.table, robot);
   const Certificate certificate = derive_certificate(options.table, robot, file.table);
   const TableError<double> worst = largest_error(options, robot, file.table);
@@ -242,7 +243,7 @@ CLI::App* add_table_verify(CLI::App* table, Action* action) {
       "robot.");
   auto options = std::make_shared<VerifyOptions>();
   command->add_option("table", options->table, "table to check")->required();
-  command->add_option("--model", options->model, "robot.yaml")->required();
+  add_robot(command, &options->model)->required();
   command->add_option("--key", options->key, "the table must be signed with the key in this file");
   command->add_option("--path", options->path,
                       "look along this program too, besides the chords between the table's nodes");

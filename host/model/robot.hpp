@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/chain.hpp"
+#include "model/tool.hpp"
 
 namespace flexcomp::model {
 
@@ -35,6 +37,7 @@ struct Robot {
   std::filesystem::path urdf;
   std::string base_link;
   std::string tool_link;
+  std::optional<Tool> tool;           ///< on the flange, beside what the URDF holds; in `elastic`
   Chain elastic;                      ///< geometry, springs and weights
   PerJoint<std::string> joint_names;  ///< base to tip
   PerJoint<JointDynamics> dynamics;
@@ -67,7 +70,10 @@ bool is_transmission(const JointMatrix& transmission);
 /// the robot `transmission`, a list of as many rows as joints of as many numbers, and `effects`, a
 /// list of maps: `effect`, `joint` (from 1 on) and `form` where it has them, and the effect's
 /// parameters by name.
-Robot load_robot(const std::filesystem::path& file);
+///
+/// With `tool` (tool.hpp) the TCP is the tool's, and `tool_compliance` and `payload` are in its
+/// frame. A tool that is given here takes the place of the file's.
+Robot load_robot(const std::filesystem::path& file, const std::optional<Tool>& tool = {});
 
 /// The core's model of a robot. Throws InputError naming the URDF and the first joint that is no
 /// revolute one with limits, or how many there are, unless it has six such joints.

@@ -102,6 +102,20 @@ LearnedEffect read_effect(const YamlMap& yaml, int joints) {
   return learned;
 }
 
+/// The tool that was asked for, else the file's. The file's is read in any case, as all of it is.
+void attach_tool(const YamlMap& yaml, const std::optional<Tool>& asked_for, Robot* robot) {
+  std::optional<Tool> tool;
+  if (yaml.has("tool")) {
+    tool = read_tool(yaml.map("tool"));
+  }
+  if (asked_for) {
+    tool = asked_for;
+  }
+  if (tool) {
+    attach(*tool, robot);
+  }
+}
+
 std::filesystem::path urdf_beside(const std::filesystem::path& file, const YamlMap& yaml) {
   std::filesystem::path urdf = file.parent_path() / yaml.text("urdf");
   std::error_code error;
@@ -147,7 +161,7 @@ RobotModel<double, 6> six_axis_model(const Robot& robot) {
   return *model;
 }
 
-Robot load_robot(const std::filesystem::path& file) {
+Robot load_robot(const std::filesystem::path& file, const std::optional<Tool>& tool) {
   const YamlMap yaml = load_yaml(file);
   const std::string schema = yaml.text("schema");
   if (schema != kRobotSchema) {
@@ -155,7 +169,8 @@ Robot load_robot(const std::filesystem::path& file) {
                 fmt::format("expected {}, found {}", kRobotSchema, files::one_line(schema)));
   }
   yaml.allow_only({"schema", "name", "urdf", "base_link", "tool_link", "gravity", "joints",
-                   "base_compliance", "tool_compliance", "payload", "transmission", "effects"});
+                   "base_compliance", "tool_compliance", "payload", "tool", "transmission",
+                   "effects"});
   Robot robot;
   robot.yaml = file;
   robot.name = yaml.text("name");
@@ -166,6 +181,7 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.base_link = yaml.text("base_link");
   robot.tool_link = yaml.text("tool_link");
   read_urdf_chain(robot.urdf, &robot);
+  attach_tool(yaml, tool, &robot);
 
   robot.elastic.gravity = vector<Vector3<double>>(yaml.numbers<3>("gravity"));
   read_joints(yaml.map("joints"), &robot);

@@ -74,6 +74,23 @@ void write_payload(YAML::Emitter* out, const Chain& elastic) {
   *out << YAML::EndMap;
 }
 
+template <std::size_t Count>
+void write_numbers(YAML::Emitter* out, const std::string& key,
+                   const std::array<double, Count>& values) {
+  write_list_unless_zero(out, key,
+                         Eigen::Map<const Eigen::Matrix<double, Count, 1>>(values.data()));
+}
+
+void write_tool(YAML::Emitter* out, const Tool& tool) {
+  *out << YAML::Key << "tool" << YAML::Value << YAML::BeginMap;
+  write_list(out, "xyz", Vector3<double>(tool.xyz.data()));
+  write_numbers(out, "rpy", tool.rpy);
+  write_number_unless_zero(out, "mass", tool.mass);
+  write_numbers(out, "com", tool.com);
+  write_numbers(out, "inertia", tool.inertia);
+  *out << YAML::EndMap;
+}
+
 void write_text(YAML::Emitter* out, const std::string& key, const std::string& text) {
   *out << YAML::Key << key << YAML::Value << text;
 }
@@ -132,6 +149,9 @@ std::string document(const Robot& robot, const std::string& urdf) {
   write_list_unless_zero(&out, "base_compliance", robot.elastic.base_compliance);
   write_list_unless_zero(&out, "tool_compliance", robot.elastic.tool_compliance);
   write_payload(&out, robot.elastic);
+  if (robot.tool) {
+    write_tool(&out, *robot.tool);
+  }
   write_transmission(&out, robot.transmission);
   write_effects(&out, robot.effects);
   out << YAML::EndMap << YAML::Newline;

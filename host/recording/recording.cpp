@@ -40,6 +40,7 @@ std::vector<Columns> layout(int joints) {
       {&Recording::wrench, {"fx", "fy", "fz", "mx", "my", "mz"}},
       {&Recording::position, {"x", "y", "z"}},
       {&Recording::temperature, {"temp_c"}},
+      {&Recording::program_line, {"line"}},
   };
 }
 
@@ -74,7 +75,7 @@ void refuse_unknown_columns(const NumberTable& table, const std::vector<Columns>
       const std::string all = joints == 1 ? "1" : fmt::format("1..{}", joints);
       throw InputError(
           fmt::format("{0}:1: column '{1}' is unknown; expected t, q_cmd_{2}, q_meas_{2}, "
-                      "q_link_{2}, tau_{2}, fx..mz, x,y,z or temp_c",
+                      "q_link_{2}, tau_{2}, fx..mz, x,y,z, temp_c or line",
                       table.file, files::one_line(column), all));
     }
   }

@@ -17,16 +17,17 @@ using Samples = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Row
 /// in those about joints. SI units, angles in rad, vectors in the robot base frame; m and N in
 /// place of rad and N·m for joints that slide.
 struct Recording {
-  std::string file;                    ///< where it came from, for messages
-  std::vector<std::size_t> lines;      ///< line of the file that each row stood in; empty if made
-  Eigen::VectorXd time;                ///< s, strictly increasing
-  std::optional<Samples> q_cmd;        ///< commanded joint angles
-  std::optional<Samples> q_meas;       ///< motor-side encoders reflected to the joint
-  std::optional<Samples> q_link;       ///< link-side encoders
-  std::optional<Samples> tau;          ///< motor torques on the joint side
-  std::optional<Samples> wrench;       ///< n×6, force and moment on the tool at the TCP
-  std::optional<Samples> position;     ///< n×3, measured TCP position
-  std::optional<Samples> temperature;  ///< n×1, °C
+  std::string file;                     ///< where it came from, for messages
+  std::vector<std::size_t> lines;       ///< line of the file that each row stood in; empty if made
+  Eigen::VectorXd time;                 ///< s, strictly increasing
+  std::optional<Samples> q_cmd;         ///< commanded joint angles
+  std::optional<Samples> q_meas;        ///< motor-side encoders reflected to the joint
+  std::optional<Samples> q_link;        ///< link-side encoders
+  std::optional<Samples> tau;           ///< motor torques on the joint side
+  std::optional<Samples> wrench;        ///< n×6, force and moment on the tool at the TCP
+  std::optional<Samples> position;      ///< n×3, measured TCP position
+  std::optional<Samples> temperature;   ///< n×1, °C
+  std::optional<Samples> program_line;  ///< n×1, line of the program that a row belongs to
 
   Eigen::Index size() const { return time.size(); }
 

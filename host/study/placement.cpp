@@ -255,6 +255,7 @@ recording::Recording moved_job(const Job& job, const Placement& placement,
   path.file = job.recording.file;
   path.lines = job.recording.lines;
   path.time = job.recording.time;
+  path.program_line = job.recording.program_line;
   path.q_cmd = q;
   path.wrench = recording::Samples(path.size(), 6);
   for (Eigen::Index i = 0; i < path.size(); ++i) {

@@ -166,7 +166,7 @@ void rows_with_too_few_cells_are_refused() {
 void unknown_columns_are_refused() {
   expect_refusal(
       ":1: column 'speed' is unknown; expected t, q_cmd_1..6, q_meas_1..6, q_link_1..6, tau_1..6, "
-      "fx..mz, x,y,z or temp_c",
+      "fx..mz, x,y,z, temp_c or line",
       "t,speed\n0,1\n");
 }
 

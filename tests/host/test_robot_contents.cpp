@@ -147,6 +147,58 @@ void what_hangs_on_a_link_is_part_of_its_body() {
   assert_same_body(segment("l6").getInertia() + hung("finger"), robot, 5);
 }
 
+constexpr const char* kTool =
+    "tool: {xyz: [0.02, -0.05, 0.12], rpy: [0.3, -0.2, 1.1], mass: 9, com: [0.01, 0.02, 0.05],\n"
+    "  inertia: [0.3, 0.01, -0.02, 0.2, 0.03, 0.25]}\n";
+
+/// The same tool as links of the URDF.
+constexpr const char* kToolLinks =
+    "<joint name='screwed' type='fixed'><parent link='tool'/><child link='spindle'/></joint>\n"
+    "<link name='spindle'><inertial><origin xyz='0.01 0.02 0.05'/><mass value='9'/>\n"
+    "<inertia ixx='0.3' ixy='0.01' ixz='-0.02' iyy='0.2' iyz='0.03' "
+    "izz='0.25'/></inertial></link>\n"
+    "<joint name='clamped' type='fixed'><parent link='spindle'/><child link='tip'/>\n"
+    "<origin xyz='0.02 -0.05 0.12' rpy='0.3 -0.2 1.1'/></joint>\n<link name='tip'/>\n</robot>";
+
+void a_tool_in_the_yaml_is_one_in_the_urdf() {
+  const ScratchFolder folder;
+  put_arm(folder, {"tool_link: tool", "tool_link: tip"}, {"</robot>", kToolLinks});
+  const Robot expected = load_robot(folder / "robot.yaml");
+  put_arm(folder, {"payload:", std::string(kTool) + "payload:"});
+  const Robot robot = load_robot(folder / "robot.yaml");
+  TEST_ASSERT_TRUE(robot.elastic.tool.position.isApprox(expected.elastic.tool.position, 1e-14));
+  TEST_ASSERT_TRUE(robot.elastic.tool.rotation.isApprox(expected.elastic.tool.rotation, 1e-14));
+  const auto& last = robot.elastic.joints.back();
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected.elastic.joints.back().mass, last.mass);
+  TEST_ASSERT_TRUE(
+      last.center_of_mass.isApprox(expected.elastic.joints.back().center_of_mass, 1e-12));
+  TEST_ASSERT_TRUE(robot.link_inertia.back().isApprox(expected.link_inertia.back(), 1e-12));
+}
+
+void a_tool_is_written_as_it_was_read_and_gives_way_to_another() {
+  const ScratchFolder folder;
+  put_arm(folder, {"payload:", std::string(kTool) + "payload:"});
+  const Robot robot = load_robot(folder / "robot.yaml");
+  write_robot(folder / "again.yaml", robot);
+  const Robot again = load_robot(folder / "again.yaml");
+  TEST_ASSERT_TRUE(again.elastic.tool.rotation == robot.elastic.tool.rotation);
+  TEST_ASSERT_TRUE(again.elastic.tool.position == robot.elastic.tool.position);
+  TEST_ASSERT_TRUE(again.link_inertia.back() == robot.link_inertia.back());
+
+  flexcomp::test::put(folder / "tools.yaml",
+                      "schema: flexcomp/tools/1\ntools:\n  short: {xyz: [0, 0, 0.1]}\n"
+                      "  long: {xyz: [0, 0, 0.3]}\n");
+  const flexcomp::model::Tool longer = flexcomp::model::load_tool(folder / "tools.yaml", "long");
+  put_arm(folder);
+  const Robot bare = load_robot(folder / "robot.yaml");
+  const Robot swapped = load_robot(folder / "again.yaml", longer);
+  const Vector3<double> along = bare.elastic.tool.rotation.transpose() *
+                                (swapped.elastic.tool.position - bare.elastic.tool.position);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.3, along.z());
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.elastic.joints.back().mass,
+                            swapped.elastic.joints.back().mass);
+}
+
 void a_written_robot_is_read_back_as_it_was() {
   const ScratchFolder folder;
   const Robot robot = full_robot(folder);
@@ -236,6 +288,8 @@ int main() {
   RUN_TEST(limits_and_axes_come_from_the_urdf);
   RUN_TEST(odd_axes_and_fixed_joints_move_the_tool_as_in_kdl);
   RUN_TEST(what_hangs_on_a_link_is_part_of_its_body);
+  RUN_TEST(a_tool_in_the_yaml_is_one_in_the_urdf);
+  RUN_TEST(a_tool_is_written_as_it_was_read_and_gives_way_to_another);
   RUN_TEST(a_written_robot_is_read_back_as_it_was);
   RUN_TEST(what_is_zero_is_not_written);
   RUN_TEST(a_robot_written_elsewhere_still_finds_its_urdf);

@@ -56,7 +56,7 @@ Term bending_beam(const model::Chain& robot, int joint, double compliance) {
 }
 
 /// The two axes of the link's frame across its joint's axis.
-std::array<Eigen::Index, 2> axes_across(const model::Robot& robot, int joint) {
+std::array<Eigen::Index, 2> bending_axes(const model::Robot& robot, int joint) {
   Eigen::Index along = 0;
   robot.elastic.joints[index_of(joint)].axis.cwiseAbs().maxCoeff(&along);
   return {(along + 1) % 3, (along + 2) % 3};
@@ -69,14 +69,14 @@ Law springs() {
   law.traits.linear_in = 2;
   law.parameters = [](const model::Robot& robot, int joint) {
     std::vector<Parameter> parameters;
-    for (const Eigen::Index axis : axes_across(robot, joint)) {
+    for (const Eigen::Index axis : bending_axes(robot, joint)) {
       parameters.push_back({fmt::format("bending_{}", "xyz"[axis]), "rad/(N·m)"});
     }
     return parameters;
   };
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {
-        const std::array<Eigen::Index, 2> axes = axes_across(*robot, joint);
+        const std::array<Eigen::Index, 2> axes = bending_axes(*robot, joint);
         DiagonalCompliance<double>& link = robot->elastic.joints[index_of(joint)].link_compliance;
         link[3 + axes[0]] += values[0];
         link[3 + axes[1]] += values[1];

@@ -1,0 +1,184 @@
+#include "programs/krl_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "files/one_line.hpp"
+#include "programs/krl_point.hpp"
+#include "programs/rewriting.hpp"
+#include "programs/scanner.hpp"
+
+namespace flexcomp::programs {
+namespace {
+
+std::string krl_place(const Vector3<double>& place) {
+  return fmt::format("X {},Y {},Z {}", fixed(place.x() / kMillimetre, 4),
+                     fixed(place.y() / kMillimetre, 4), fixed(place.z() / kMillimetre, 4));
+}
+
+/// A point; `others` are components such as S 2,T 35.
+std::string krl_pose(const Pose<double>& pose, const std::string& others = {}) {
+  const std::array<double, 3> angles = krl_angles(pose.rotation);
+  return fmt::format("{{{},A {},B {},C {}{}{}}}", krl_place(pose.position), fixed(angles[0], 6),
+                     fixed(angles[1], 6), fixed(angles[2], 6), others.empty() ? "" : ",", others);
+}
+
+/// The motion's target, for an arc the point halfway before it.
+std::string krl_target(const Pose<double>& start, const Motion& motion,
+                       const std::string& others = {}) {
+  const std::string end = krl_pose(motion.end, others);
+  return motion.kind == MotionKind::circular
+             ? fmt::format("{{{}}},{}", krl_place(pose_at(start, motion, 0.5).position), end)
+             : end;
+}
+
+/// A motion's statement in the source, taken to pieces.
+struct KrlStatement {
+  std::string indent;
+  std::string word;    ///< as LIN_REL, in capitals
+  std::string others;  ///< components of the target beside X to C
+  std::string tail;    ///< behind the target
+};
+
+/// The components of an aggregate that are none of X to C, as they stand.
+std::string other_components(std::string_view aggregate) {
+  std::string others;
+  const std::size_t open = aggregate.find('{');
+  if (open == std::string_view::npos) {
+    return others;
+  }
+  std::string_view inside = aggregate.substr(open + 1, aggregate.size() - open - 2);
+  const std::size_t type = inside.find(':');
+  inside.remove_prefix(type == std::string_view::npos ? 0 : type + 1);
+  for (std::size_t begin = 0; begin < inside.size();) {
+    const std::size_t end = std::min(inside.find(',', begin), inside.size());
+    const std::string_view component = inside.substr(begin, end - begin);
+    begin = end + 1;
+    Scanner scanner(component);
+    const std::string name = scanner.name();
+    if (name.size() == 1 && std::string_view("XYZABC").find(name[0]) != std::string_view::npos) {
+      continue;
+    }
+    others += (others.empty() ? "" : ",") + files::one_line(component);
+  }
+  return others;
+}
+
+/// Passes over a point, and hands it out as it stands.
+std::string_view pass_target(std::string_view statement, Scanner* scanner) {
+  scanner->peek();
+  const std::size_t begin = scanner->place();
+  if (scanner->peek() == '{') {
+    scanner->go_to(std::min(statement.find('}', begin), statement.size() - 1) + 1);
+  } else {
+    scanner->name();
+  }
+  return statement.substr(begin, scanner->place() - begin);
+}
+
+KrlStatement taken_apart(std::string_view statement) {
+  KrlStatement parts;
+  Scanner scanner(statement);
+  scanner.peek();
+  parts.indent = statement.substr(0, scanner.place());
+  parts.word = scanner.name();
+  parts.others = other_components(pass_target(statement, &scanner));
+  while (scanner.take(',')) {  // the end of a circle, and its angle
+    if (scanner.peek() != '{' && Scanner(scanner.rest()).name() == "CA") {
+      scanner.name();
+      scanner.number();
+    } else {
+      parts.others = other_components(pass_target(statement, &scanner));
+    }
+  }
+  parts.tail = files::one_line(scanner.rest(), 1000);
+  parts.tail.erase(parts.tail.find_last_not_of(' ') + 1);
+  return parts;
+}
+
+/// The word for a motion in place of one in the source: spline forms stay spline forms.
+std::string word_for(const std::string& word, MotionKind kind) {
+  const std::string spline = word.front() == 'S' ? "S" : "";
+  return spline + (kind == MotionKind::rapid ? "PTP" : kind == MotionKind::linear ? "LIN" : "CIRC");
+}
+
+/// How a point is passed without a stop.
+const char* passing(MotionKind kind) { return kind == MotionKind::rapid ? "C_PTP" : "C_DIS"; }
+
+/// Added points are passed without a stop, at the motion's own speed where it has one.
+std::string tail_of_added(const std::string& tail, MotionKind kind) {
+  return tail.find("WITH") == std::string::npos ? passing(kind)
+                                                : tail.substr(0, tail.find(" C_")) + " C_DIS";
+}
+
+bool is_frame_of_source(const CorrectedProgram& program) {
+  constexpr double kSame = 1e-8;  // m, rad
+  const std::optional<Pose<double>>& own = program.source.frame;
+  return own && (own->position - program.frame.position).norm() < kSame &&
+         (own->rotation - program.frame.rotation).norm() < kSame;
+}
+
+std::string statement_in_place(const CorrectedProgram& program, std::size_t motion) {
+  const Program& source = program.source;
+  const Motion& own = source.motions[motion];
+  const std::string_view end = line_end(source);
+  const KrlStatement parts =
+      taken_apart(std::string_view(source.text).substr(own.begin, own.finish - own.begin));
+  std::string text;
+  if (motion == 0 && !is_frame_of_source(program)) {
+    text += fmt::format("{}$BASE={} ; work frame of the points below{}", parts.indent,
+                        krl_pose(program.frame), end);
+  }
+  visit_in_place(program, motion, [&](const Pose<double>& start, const Motion& each, bool is_last) {
+    const std::string tail = is_last ? parts.tail : tail_of_added(parts.tail, each.kind);
+    text += fmt::format("{}{} {}{}{}{}", parts.indent, word_for(parts.word, each.kind),
+                        krl_target(start, each, is_last ? parts.others : ""),
+                        tail.empty() ? "" : " ", tail, is_last ? "" : end);
+  });
+  return text;
+}
+
+std::string new_program(const CorrectedProgram& program, const std::string& name) {
+  const Program& source = program.source;
+  std::string text = fmt::format(
+      "&ACCESS RVP\nDEF {} ( )\n; From {}, corrected for the robot's deflection by flexcomp.\n"
+      "; The points are of the TCP of the robot's model; $TOOL and load data must be the same.\n"
+      "$BASE={}\n",
+      name, files::one_line(source.file, 200), krl_pose(program.frame));
+  const auto add_comments = [&](std::size_t motion) {
+    for (const std::string& line : lines_before(source, motion)) {
+      text += "; " + files::one_line(line, 200) + "\n";
+    }
+  };
+  double feed = 0;
+  for (std::size_t i = 0; i < source.motions.size(); ++i) {
+    add_comments(i);
+    const Motion& own = source.motions[i];
+    if (own.feed > 0 && own.feed != feed) {
+      feed = own.feed;
+      text += fmt::format("$VEL.CP={:.6g}\n", feed);
+    }
+    const bool goes_on_after = goes_on(program, i);
+    visit_in_place(program, i, [&](const Pose<double>& start, const Motion& each, bool is_last) {
+      const bool stops = is_last && !goes_on_after;
+      text += fmt::format("{} {}{}{}\n", word_for("LIN", each.kind), krl_target(start, each),
+                          stops ? "" : " ", stops ? "" : passing(each.kind));
+    });
+  }
+  add_comments(source.motions.size());
+  return text + "END\n";
+}
+
+}  // namespace
+
+std::string krl_text(const CorrectedProgram& program, const std::string& name) {
+  if (program.source.format != Format::krl || program.source.text.empty()) {
+    return new_program(program, name);
+  }
+  return rewritten(program.source,
+                   [&](std::size_t motion) { return statement_in_place(program, motion); });
+}
+
+}  // namespace flexcomp::programs

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flexcomp/types.hpp"
+
+/// Programs of machines and robots: read from a file, and written with what was corrected.
+namespace flexcomp::programs {
+
+/// Units of programs in SI units.
+constexpr double kDegree = 3.14159265358979323846 / 180;  ///< rad
+constexpr double kMillimetre = 1e-3;                      ///< m
+constexpr double kInch = 0.0254;                          ///< m
+
+enum class Format { gcode, krl, rapid, csv };
+
+enum class MotionKind {
+  rapid,     ///< to the end as fast as may be; no cut
+  linear,    ///< straight, the orientation by one rotation
+  circular,  ///< round an axis; a helix where the end is higher than the start
+};
+
+/// The circle of a circular motion.
+struct Arc {
+  Vector3<double> center = Vector3<double>::Zero();   ///< m, work frame
+  Vector3<double> normal = Vector3<double>::UnitZ();  ///< unit
+  double angle = 0;                                   ///< rad, above zero: anticlockwise about it
+};
+
+/// One motion, from the end of the motion before it.
+struct Motion {
+  MotionKind kind = MotionKind::rapid;
+  /// TCP in the work frame, m; its z axis is where the tool points: into the work.
+  Pose<double> end;
+  Arc arc;
+  double feed = 0;          ///< m/s; zero where the program does not say
+  bool is_cutting = false;  ///< spindle on, and no rapid
+  std::size_t line = 0;     ///< of the file, from 1
+  /// Bytes of the file's text that the motion's statement is: [begin, finish).
+  std::size_t begin = 0;
+  std::size_t finish = 0;
+};
+
+/// Something in a program that flexcomp leaves as it is, and a person should know of.
+struct Note {
+  std::size_t line = 0;
+  std::string text;
+};
+
+struct Program {
+  Format format = Format::gcode;
+  std::string file;
+  std::string text;  ///< the whole file, for writing it again
+  std::vector<Motion> motions;
+  /// Does it say where the tool points but not how it is turned about its own axis?
+  bool has_free_spin = false;
+  std::optional<Pose<double>> frame;  ///< the work frame in the robot base frame, if it says
+  std::vector<Note> notes;
+};
+
+/// Where the TCP is at a share (0 to 1) of a motion that begins at `start`.
+Pose<double> pose_at(const Pose<double>& start, const Motion& motion, double share);
+
+/// Length of the TCP's way along a motion, m.
+double length_of(const Pose<double>& start, const Motion& motion);
+
+/// The arc from one point to another by a third between; nothing if they lie on a line, or are the
+/// same.
+std::optional<Arc> arc_through(const Vector3<double>& start, const Vector3<double>& between,
+                               const Vector3<double>& end);
+
+/// Where the smallest rotation turns a tool that points down (against z) to where `axis` (unit,
+/// from the tip towards the spindle, as CAM systems give it) asks for. The TCP's x axis is the work
+/// frame's where the axis is z.
+Matrix3<double> orientation_by_axis(const Vector3<double>& axis);
+
+/// Throws InputError: "file:line: why".
+[[noreturn]] void refuse(const std::string& file, std::size_t line, const std::string& why);
+
+}  // namespace flexcomp::programs

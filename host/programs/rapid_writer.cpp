@@ -1,0 +1,199 @@
+#include "programs/rapid_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "files/one_line.hpp"
+#include "programs/rapid_statements.hpp"
+#include "programs/rapid_values.hpp"
+#include "programs/rewriting.hpp"
+
+namespace flexcomp::programs {
+namespace {
+
+constexpr const char* kNoConfiguration = ",[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]";
+
+std::string rapid_pose(const Pose<double>& pose) {
+  Eigen::Quaterniond q(pose.rotation);
+  if (q.w() < 0) {
+    q.coeffs() = -q.coeffs();
+  }
+  const Vector3<double> place = pose.position / kMillimetre;
+  return fmt::format("[{},{},{}],[{},{},{},{}]", fixed(place.x(), 4), fixed(place.y(), 4),
+                     fixed(place.z(), 4), fixed(q.w(), 9), fixed(q.x(), 9), fixed(q.y(), 9),
+                     fixed(q.z(), 9));
+}
+
+std::string target(const Pose<double>& pose, const std::string& configuration) {
+  return fmt::format("[{}{}]", rapid_pose(pose), configuration);
+}
+
+/// The targets of a motion: for an arc the pose halfway before its end.
+std::string targets(const Pose<double>& shift, const Pose<double>& start, const Motion& motion,
+                    const std::string& configuration) {
+  std::string text;
+  if (motion.kind == MotionKind::circular) {
+    text = target(shift * pose_at(start, motion, 0.5), configuration) + ",";
+  }
+  return text + target(shift * motion.end, configuration);
+}
+
+const char* word_for(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::rapid:
+      return "MoveJ";
+    case MotionKind::circular:
+      return "MoveC";
+    case MotionKind::linear:
+      break;
+  }
+  return "MoveL";
+}
+
+/// Where the next comma stands that is in no bracket; the end if there is none.
+std::size_t next_comma(std::string_view text, std::size_t from) {
+  int depth = 0;
+  for (std::size_t i = from; i < text.size(); ++i) {
+    depth += text[i] == '[' || text[i] == '(' ? 1 : 0;
+    depth -= text[i] == ']' || text[i] == ')' ? 1 : 0;
+    if (text[i] == ',' && depth == 0) {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+/// A motion's statement in the source, taken to pieces.
+struct RapidMove {
+  std::string configuration;  ///< of its end
+  std::string speed;          ///< ",v100"
+  std::string zone;           ///< ",z1"
+  std::string tail;           ///< ",tool0\WObj:=wobj0"
+};
+
+class Rewriter {
+ public:
+  explicit Rewriter(const CorrectedProgram& program) : program_(program) {
+    const std::optional<Pose<double>>& own = program.source.frame;
+    if (own) {  // the module's work object stays: the points are moved in it
+      const Matrix3<double> back = own->rotation.transpose();
+      shift_ = Pose<double>{back, -(back * own->position)} * program.frame;
+    }
+    RapidStatements statements(program.source.text);
+    RapidStatement statement;
+    while (statements.next(&statement)) {
+      Scanner scanner(statement.text);
+      data_.read_declaration(scanner.name(), &scanner);
+    }
+  }
+
+  std::string statement(std::size_t motion) const {
+    const Motion& own = program_.source.motions[motion];
+    RapidStatement source;
+    RapidStatements(
+        std::string_view(program_.source.text).substr(own.begin, own.finish - own.begin))
+        .next(&source);
+    const RapidMove move = taken_apart(source.text);
+    const std::string indent = indent_before(own.begin);
+    std::string text;
+    visit_in_place(program_, motion,
+                   [&](const Pose<double>& start, const Motion& each, bool is_last) {
+                     text += fmt::format("{} {}{}{}{};{}", word_for(each.kind),
+                                         targets(shift_, start, each, move.configuration),
+                                         move.speed, is_last ? move.zone : ",z0", move.tail,
+                                         is_last ? "" : line_end(program_.source));
+                     text += is_last ? "" : indent;
+                   });
+    return text;
+  }
+
+ private:
+  RapidMove taken_apart(std::string_view text) const {
+    RapidMove move;
+    Scanner scanner(text);
+    const bool is_circle = scanner.name() == "MOVEC";
+    std::size_t begin = scanner.place();
+    if (scanner.peek() == '\\') {
+      begin = next_comma(text, begin) + 1;
+    }
+    std::size_t end = next_comma(text, begin);
+    if (is_circle) {
+      begin = end + 1;
+      end = next_comma(text, begin);
+    }
+    move.configuration = configuration_of(text.substr(begin, end - begin));
+    const std::size_t zone = next_comma(text, end + 1);
+    const std::size_t tool = next_comma(text, zone + 1);
+    move.speed = files::one_line(text.substr(end, zone - end), 200);
+    move.zone = files::one_line(text.substr(zone, tool - zone), 200);
+    move.tail = files::one_line(text.substr(tool), 200);
+    return move;
+  }
+
+  std::string configuration_of(std::string_view target_text) const {
+    Scanner scanner(target_text);
+    if (scanner.peek() == '[') {
+      return rapid_configuration(target_text);
+    }
+    std::string name = scanner.name();
+    while ((name == "OFFS" || name == "RELTOOL") && scanner.take('(')) {
+      name = scanner.name();
+    }
+    const auto found = data_.configurations.find(name);
+    return found == data_.configurations.end() ? kNoConfiguration : found->second;
+  }
+
+  std::string indent_before(std::size_t begin) const {
+    const std::string& text = program_.source.text;
+    const std::size_t line = begin == 0 ? 0 : text.rfind('\n', begin - 1) + 1;
+    const std::string before = text.substr(line, begin - line);
+    return before.find_first_not_of(" \t") == std::string::npos ? before : "";
+  }
+
+  const CorrectedProgram& program_;
+  Pose<double> shift_;
+  RapidData data_;
+};
+
+std::string new_module(const CorrectedProgram& program, const std::string& name) {
+  const Program& source = program.source;
+  std::string text = fmt::format(
+      "MODULE {0}\n! From {1}, corrected for the robot's deflection by flexcomp.\n"
+      "! The points are of the TCP of the robot's model: tool0 stands for a tooldata with that "
+      "TCP.\n"
+      "PERS wobjdata {0}_work:=[FALSE,TRUE,\"\",[{2}],[[0,0,0],[1,0,0,0]]];\nPROC {0}_run()\n",
+      name, files::one_line(source.file, 200), rapid_pose(program.frame));
+  const auto add_comments = [&](std::size_t motion) {
+    for (const std::string& line : lines_before(source, motion)) {
+      text += "  ! " + files::one_line(line, 200) + "\n";
+    }
+  };
+  for (std::size_t i = 0; i < source.motions.size(); ++i) {
+    add_comments(i);
+    const double feed = source.motions[i].feed;
+    const std::string speed = feed > 0 ? fmt::format("[{:.6g},500,5000,1000]", feed / kMillimetre)
+                              : source.motions[i].kind == MotionKind::rapid ? "v500"
+                                                                            : "v50";
+    const bool goes_on_after = goes_on(program, i);
+    visit_in_place(program, i, [&](const Pose<double>& start, const Motion& each, bool is_last) {
+      text += fmt::format("  {} {},{},{},tool0\\WObj:={}_work;\n", word_for(each.kind),
+                          targets({}, start, each, kNoConfiguration), speed,
+                          !is_last || goes_on_after ? "z0" : "fine", name);
+    });
+  }
+  add_comments(source.motions.size());
+  return text + "ENDPROC\nENDMODULE\n";
+}
+
+}  // namespace
+
+std::string rapid_text(const CorrectedProgram& program, const std::string& name) {
+  if (program.source.format != Format::rapid || program.source.text.empty()) {
+    return new_module(program, name);
+  }
+  const Rewriter rewriter(program);
+  return rewritten(program.source, [&](std::size_t motion) { return rewriter.statement(motion); });
+}
+
+}  // namespace flexcomp::programs

@@ -1,0 +1,114 @@
+#include "programs/rewriting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "programs/scanner.hpp"
+
+namespace flexcomp::programs {
+namespace {
+
+std::string_view trimmed_line(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t begin = line.find_first_not_of(kBlanks);
+  return begin == std::string_view::npos
+             ? std::string_view{}
+             : line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
+}
+
+Vector3<double> direction_at(const Pose<double>& start, const Motion& motion, double from,
+                             double to) {
+  return pose_at(start, motion, to).position - pose_at(start, motion, from).position;
+}
+
+}  // namespace
+
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.front() == '-' && text.find_first_of("123456789") == std::string::npos) {
+    text.erase(0, 1);
+  }
+  return text;
+}
+
+std::string rewritten(const Program& source,
+                      const std::function<std::string(std::size_t)>& statement) {
+  std::string text;
+  text.reserve(source.text.size() * 2);
+  std::size_t copied = 0;
+  for (std::size_t i = 0; i < source.motions.size(); ++i) {
+    const Motion& motion = source.motions[i];
+    text.append(source.text, copied, motion.begin - copied);
+    text += statement(i);
+    copied = motion.finish;
+  }
+  text.append(source.text, copied, std::string::npos);
+  return text;
+}
+
+std::string_view line_end(const Program& source) {
+  return source.text.find("\r\n") == std::string::npos ? "\n" : "\r\n";
+}
+
+std::vector<std::string> lines_before(const Program& source, std::size_t motion) {
+  const std::size_t count = source.motions.size();
+  const std::size_t first = motion == 0 ? 0 : source.motions[motion - 1].finish;
+  const std::size_t last = motion < count ? source.motions[motion].begin : source.text.size();
+  std::vector<std::string> lines;
+  const std::string_view between =
+      std::string_view(source.text).substr(std::min(first, last), last - std::min(first, last));
+  for (std::size_t begin = 0; begin < between.size();) {
+    const std::string_view line = trimmed_line(next_line(between, &begin));
+    if (!line.empty()) {
+      lines.emplace_back(line);
+    }
+  }
+  return lines;
+}
+
+const Pose<double>& start_of(const CorrectedProgram& program, std::size_t motion) {
+  return program.in_place[motion == 0 ? 0 : motion - 1].back().end;
+}
+
+void visit_in_place(const CorrectedProgram& program, std::size_t motion,
+                    const std::function<void(const Pose<double>&, const Motion&, bool)>& visit) {
+  const std::vector<Motion>& motions = program.in_place[motion];
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    visit(i == 0 ? start_of(program, motion) : motions[i - 1].end, motions[i],
+          i + 1 == motions.size());
+  }
+}
+
+bool goes_on(const CorrectedProgram& program, std::size_t motion) {
+  if (motion == 0 || motion + 1 >= program.in_place.size()) {
+    return false;
+  }
+  const std::vector<Motion>& here = program.in_place[motion];
+  const Motion& last = here.back();
+  const Motion& next = program.in_place[motion + 1].front();
+  if (last.kind == MotionKind::rapid || next.kind == MotionKind::rapid) {
+    return false;
+  }
+  constexpr double kSmall = 1e-3;  // of a motion
+  const Pose<double>& start =
+      here.size() > 1 ? here[here.size() - 2].end : start_of(program, motion);
+  const Vector3<double> in = direction_at(start, last, 1 - kSmall, 1);
+  const Vector3<double> out = direction_at(last.end, next, 0, kSmall);
+  constexpr double kCosine = 0.985;  // of 10°
+  return in.dot(out) >= kCosine * in.norm() * out.norm();
+}
+
+int chords_of(const Pose<double>& start, const Motion& motion) {
+  if (motion.kind != MotionKind::circular) {
+    return 1;
+  }
+  constexpr double kError = 5e-6;  // m
+  constexpr double kMost = 1e6;
+  const double radius = (start.position - motion.arc.center).norm();
+  const double step = 2 * std::acos(std::max(1 - kError / std::max(radius, kError), 0.0));
+  return static_cast<int>(std::ceil(std::min(motion.arc.angle / step, kMost)));
+}
+
+}  // namespace flexcomp::programs

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "programs/corrected_program.hpp"
+
+namespace flexcomp::programs {
+
+/// A number with so many decimals, and no minus before a zero.
+std::string fixed(double value, int decimals);
+
+/// The source's text with each motion's statement replaced, everything else byte for byte.
+/// `statement` is told a motion's number.
+std::string rewritten(const Program& source,
+                      const std::function<std::string(std::size_t)>& statement);
+
+/// How the source's lines end.
+std::string_view line_end(const Program& source);
+
+/// Lines of the source that stand before a motion and after the one before it, or behind all where
+/// there is no such motion, for comments: without blanks around, and without those that are empty.
+std::vector<std::string> lines_before(const Program& source, std::size_t motion);
+
+/// Does the way go on after a motion without a corner (10°) and without a rapid, so that there need
+/// be no stop?
+bool goes_on(const CorrectedProgram& program, std::size_t motion);
+
+/// The pose before a motion; its own end for the first.
+const Pose<double>& start_of(const CorrectedProgram& program, std::size_t motion);
+
+/// Calls `visit` with the start of every motion that takes the place of one of the source's, the
+/// motion, and whether it is the last of them.
+void visit_in_place(const CorrectedProgram& program, std::size_t motion,
+                    const std::function<void(const Pose<double>&, const Motion&, bool)>& visit);
+
+/// So many straight lines are within 5 µm of a motion.
+int chords_of(const Pose<double>& start, const Motion& motion);
+
+}  // namespace flexcomp::programs

@@ -1,0 +1,196 @@
+// Facts of RS274/NGC (NISTIR 6556, section 3) and of what CAM systems and simulators make of it.
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "cases.hpp"
+#include "error.hpp"
+#include "programs/gcode_reader.hpp"
+#include "unity_main.hpp"
+
+using flexcomp::InputError;
+using flexcomp::Pose;
+using flexcomp::Vector3;
+using flexcomp::programs::gcode_program;
+using flexcomp::programs::Motion;
+using flexcomp::programs::MotionKind;
+using flexcomp::programs::pose_at;
+using flexcomp::programs::Program;
+
+namespace {
+
+Program program_of(const std::string& text) { return gcode_program("p.nc", text); }
+
+std::string refusal(const std::string& text) {
+  try {
+    program_of(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// Millimetres.
+void assert_at(double x, double y, double z, const Vector3<double>& position) {
+  const Vector3<double> off = 1e3 * position - Vector3<double>(x, y, z);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0, off.norm());
+}
+
+Vector3<double> middle_of(const Program& program, std::size_t motion, double share = 0.5) {
+  return pose_at(program.motions[motion - 1].end, program.motions[motion], share).position;
+}
+
+void modal_words_last_and_axes_that_are_left_out_stay() {
+  const Program program = program_of(
+      "%\nN10 G21 G90 G17 (millimetres)\ng0 x10 y-5 z 20\nG1 Z-1.5 F600 ; down\nX+30\nG91 X5 Y.5\n"
+      "G20 X1.\nM30\nG1 X99\n");
+  TEST_ASSERT_EQUAL(5, program.motions.size());
+  assert_at(10, -5, 20, program.motions[0].end.position);
+  TEST_ASSERT_TRUE(program.motions[0].kind == MotionKind::rapid);
+  assert_at(10, -5, -1.5, program.motions[1].end.position);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.010, program.motions[1].feed);
+  TEST_ASSERT_EQUAL(4, program.motions[1].line);
+  assert_at(30, -5, -1.5, program.motions[2].end.position);
+  assert_at(35, -4.5, -1.5, program.motions[3].end.position);
+  assert_at(60.4, -4.5, -1.5, program.motions[4].end.position);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 600 * 0.0254 / 60, program.motions[4].feed);
+}
+
+void arcs_by_their_middle_go_the_way_they_are_told() {
+  const Program ccw = program_of("G0 X10 Y0\nG3 X0 Y10 I-10 J0 F60\n");
+  assert_at(10 * std::sqrt(0.5), 10 * std::sqrt(0.5), 0, middle_of(ccw, 1));
+  const Program cw = program_of("G0 X10 Y0\nG2 X0 Y10 I-10 J0 F60\n");  // three quarters round
+  assert_at(-10 * std::sqrt(0.5), -10 * std::sqrt(0.5), 0, middle_of(cw, 1));
+  const Program full = program_of("G0 X10 Y0\nG3 I-10 F60\n");
+  assert_at(-10, 0, 0, middle_of(full, 1));
+  const Program absolute = program_of("G90.1\nG0 X10 Y5\nG3 X5 Y10 I5 J5 F60\n");
+  assert_at(5 + 5 * std::sqrt(0.5), 5 + 5 * std::sqrt(0.5), 0, middle_of(absolute, 1));
+}
+
+/// In G18 an arc runs from z to x: clockwise seen from +y.
+void planes_turn_by_their_own_right_hand() {
+  const Program xz = program_of("G18\nG0 X0 Z10\nG3 X10 Z0 I0 K-10 F60\n");
+  assert_at(10 * std::sqrt(0.5), 0, 10 * std::sqrt(0.5), middle_of(xz, 1));
+  const Program yz = program_of("G19\nG0 Y10 Z0\nG3 Y0 Z10 J-10 K0 F60\n");
+  assert_at(0, 10 * std::sqrt(0.5), 10 * std::sqrt(0.5), middle_of(yz, 1));
+}
+
+void the_sign_of_r_chooses_the_shorter_or_the_longer_arc() {
+  const Program shorter = program_of("G0 X0 Y0\nG2 X10 Y10 R10 F60\n");  // about (10, 0)
+  assert_at(10 - 10 * std::sqrt(0.5), 10 * std::sqrt(0.5), 0, middle_of(shorter, 1));
+  const Program longer = program_of("G0 X0 Y0\nG2 X10 Y10 R-10 F60\n");  // about (0, 10)
+  assert_at(-10 * std::sqrt(0.5), 10 + 10 * std::sqrt(0.5), 0, middle_of(longer, 1));
+  const Program half = program_of("G0 X0 Y0\nG3 X20 Y0 R10 F60\n");
+  assert_at(10, -10, 0, middle_of(half, 1));
+}
+
+void a_helix_rises_evenly_and_p_adds_turns() {
+  const Program program = program_of("G0 X10 Y0 Z0\nG3 X10 Y0 Z-8 I-10 P2 F60\n");
+  assert_at(10, 0, -4, middle_of(program, 1));
+  assert_at(-10, 0, -2, middle_of(program, 1, 0.25));
+  const double length = flexcomp::programs::length_of(program.motions[0].end, program.motions[1]);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, std::hypot(0.04 * M_PI, 0.008), length);
+}
+
+/// An end that is written to three digits is met, and no point is off the circle by more than that.
+void arcs_are_exact_within_what_their_end_is_rounded_to() {
+  const Program program = program_of("G0 X60 Y0\nG3 X-51.962 Y30 I-60 J0 F60\n");  // 150°
+  assert_at(-51.962, 30, 0, program.motions[1].end.position);
+  for (double share = 0; share < 1; share += 0.01) {
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.060, middle_of(program, 1, share).norm());
+  }
+}
+
+void angles_turn_the_tool_about_the_frames_axes() {
+  const Program down = program_of("G0 X0\n");
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, -1, down.motions[0].end.rotation(2, 2));
+  const Program tilted = program_of("G1 X0 B30 C90 F1\n");
+  // Leaning by 30° towards x, then turned by 90° about z: towards y.
+  const Vector3<double> spindle = -tilted.motions[0].end.rotation.col(2);
+  TEST_ASSERT_DOUBLE_WITHIN(
+      1e-12, 0, (spindle - Vector3<double>(0, std::sin(M_PI / 6), std::cos(M_PI / 6))).norm());
+}
+
+void only_what_is_fed_with_a_turning_spindle_cuts() {
+  const Program program = program_of("G0 X0\nG1 X1 F60\nM3 S8000\nG1 X2\nG0 X3\nM5\nG1 X4\n");
+  const bool expected[] = {false, false, true, false, false};
+  for (std::size_t i = 0; i < 5; ++i) {
+    TEST_ASSERT_EQUAL(expected[i], program.motions[i].is_cutting);
+  }
+  TEST_ASSERT_TRUE(program_of("G0 X0\nG1 X1 F60\n").motions[1].is_cutting);
+}
+
+void inverse_time_feeds_take_their_share_of_a_minute() {
+  const Program program = program_of("G0 X0\nG93 G1 X60 F4\n");  // a quarter of a minute
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.060 / 15, program.motions[1].feed);
+}
+
+void every_unknown_word_is_told_with_its_line() {
+  const std::string refusals[][2] = {
+      {"G0 X1\nG5.1 Q1\n", "p.nc:2: 'G5.1': unknown word"},
+      {"G0 X1\nM98 P100\n", "p.nc:2: 'M98': unknown word"},
+      {"U3\n", "p.nc:1: 'U3': unknown word"},
+      {"\n\nG81 X1 Z-3 R2 F60\n", "p.nc:3: 'G81': unknown word"},
+      {"G41 D1\n", "p.nc:1: 'G41': cutter compensation"},
+      {"G54\nG0 X1\nG55\n", "p.nc:3: 'G55': a second work offset"},
+      {"#1=5\n", "p.nc:1: '#1=5' begins no word"},
+      {"G0 X[1+2]\n", "p.nc:1: 'X[1+2]': expected a number after X"},
+      {"G0 X1 (open\n", "p.nc:1: a comment without its closing bracket"},
+      {"G1 X1\n", "p.nc:1: the feed is missing"},
+      {"X1\n", "p.nc:1: axes without a motion"},
+      {"G80 X1\n", "p.nc:1: axes without a motion"},
+      {"G0 G1 X1 F1\n", "p.nc:1: 'G1': a second motion"},
+      {"G0 X1 X2\n", "p.nc:1: a letter stands twice"},
+      {"G0 X1 R2\n", "p.nc:1: I, J, K and R go with G2 and G3"},
+      {"G2 X1 F1\n", "p.nc:1: an arc without its middle"},
+      {"G2 X10 I4 F1\n", "p.nc:1: start and end of the arc are not equally far from its middle"},
+      {"G2 X10 R4 F1\n", "p.nc:1: R is too small"},
+      {"G2 X0 R4 F1\n", "p.nc:1: an arc by R needs an end other than its start"},
+      {"G2 X10 K4 F1\n", "p.nc:1: the middle of an arc lies in its plane"},
+      {"G1 X1 F0\n", "p.nc:1: 'F0': a feed must be above zero"},
+      {"G0 X1e400\n", "p.nc:1: 'E400': unknown word"},
+      {"G0 Xnan\n", "p.nc:1: 'Xnan'"}};
+  for (const auto& [text, expected] : refusals) {
+    const std::string told = refusal(text);
+    TEST_ASSERT_EQUAL_STRING(expected.c_str(), told.substr(0, expected.size()).c_str());
+  }
+}
+
+void a_million_lines_are_read_in_seconds() {
+  constexpr int kLines = flexcomp::test::cases(1000000);
+  std::string text = "G0 X0 Y0\nF1000\n";
+  for (int i = 0; i < kLines; ++i) {
+    text += "N" + std::to_string(i % 10000) + " G1 X" + std::to_string(i % 977) + ".125 Y-" +
+            std::to_string(i % 331) + ".5 Z0.75\n";
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  TEST_ASSERT_EQUAL(kLines + 1, program_of(text).motions.size());
+  TEST_ASSERT_TRUE(std::chrono::steady_clock::now() - begun < std::chrono::seconds(10));
+}
+
+void places_of_the_machine_are_noted_and_left_out() {
+  const Program program = program_of("G0 X1\nG91 G28 Z0\nG90 G0 X5\n");
+  TEST_ASSERT_EQUAL(2, program.motions.size());
+  TEST_ASSERT_EQUAL(1, program.notes.size());
+  TEST_ASSERT_EQUAL(2, program.notes[0].line);
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(modal_words_last_and_axes_that_are_left_out_stay);
+  RUN_TEST(arcs_by_their_middle_go_the_way_they_are_told);
+  RUN_TEST(planes_turn_by_their_own_right_hand);
+  RUN_TEST(the_sign_of_r_chooses_the_shorter_or_the_longer_arc);
+  RUN_TEST(a_helix_rises_evenly_and_p_adds_turns);
+  RUN_TEST(arcs_are_exact_within_what_their_end_is_rounded_to);
+  RUN_TEST(angles_turn_the_tool_about_the_frames_axes);
+  RUN_TEST(only_what_is_fed_with_a_turning_spindle_cuts);
+  RUN_TEST(inverse_time_feeds_take_their_share_of_a_minute);
+  RUN_TEST(every_unknown_word_is_told_with_its_line);
+  RUN_TEST(a_million_lines_are_read_in_seconds);
+  RUN_TEST(places_of_the_machine_are_noted_and_left_out);
+  return UNITY_END();
+}
