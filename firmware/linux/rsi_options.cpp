@@ -1,7 +1,6 @@
 #include "linux/rsi_options.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "linux/option_list.hpp"

@@ -30,10 +30,8 @@ bool is_finite(const AxisAngles& angles) {
 RsiLink::Due RsiLink::receive(std::string_view datagram, RsiPeer peer, Node* node,
                               std::int64_t now) {
   RsiTelegram telegram;
-  const RsiReading reading = read_telegram(datagram, config_.schema, &telegram);
-  if (reading != RsiReading::ok) {
+  if (read_telegram(datagram, config_.schema, &telegram) != RsiReading::ok) {
     ++corrupt_;
-    last_refusal_ = reading;
     return Due::nothing;
   }
   switch (session_.judge(peer, telegram.ipoc, telegram.late.value_or(0), digest(datagram), now)) {

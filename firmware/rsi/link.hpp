@@ -31,15 +31,14 @@ struct RsiConfig {
 /// Rules, beside the node's own:
 /// - Every telegram that is used gets one answer, at once, with its IPOC; one that is repeated gets
 ///   the same again. What cannot be read, comes out of order or from a second controller gets none.
-/// - A new session (RsiSession) disarms. Until the node's correction is zero the answers go to
-/// zero,
-///   from the correction that the controller says it moves by; where it does not say, it is taken
+/// - A new session (RsiSession) disarms. Until the node's correction is zero the answers go to zero
+///   from the correction that the controller says it moves by. Where it does not say, that is taken
 ///   to be zero, as it is after RSI was started.
 /// - The answers have limits of their own, in size and from one to the next.
 /// - The output for arming, where the schema names one, arms as it rises and disarms as it falls.
 ///   It must have been seen low in the session. Until the node is ready it is asked again, for five
-///   seconds. A rise also takes back a latched fault. Where the link of the telegrams armed the
-///   node, their end cannot leave it armed: without setpoints it holds, fades and latches.
+///   seconds. A rise also takes back a latched fault. Telegrams that cease cannot leave the
+///   node armed: without setpoints it holds, fades and latches.
 /// - Relative: what an answer adds is taken back from the sum that is kept of them if the
 ///   controller says that the answer was late.
 class RsiLink {
@@ -70,8 +69,6 @@ class RsiLink {
   void add_to(LinkState* state) const;
   void forget_conflicts() { session_.clear_conflict(); }
 
-  RsiReading last_refusal() const { return last_refusal_; }
-
  private:
   void begin_session(const RsiTelegram& telegram, Node* node);
   void hand_over(const RsiTelegram& telegram, Node* node, std::int64_t now);
@@ -100,7 +97,6 @@ class RsiLink {
   std::uint32_t wrenches_ = 0;
   std::uint64_t late_answers_ = 0;
   std::uint32_t limited_answers_ = 0;
-  RsiReading last_refusal_ = RsiReading::ok;
 };
 
 }  // namespace flexcomp
