@@ -19,7 +19,12 @@ const std::string kIpoc = "<IPOC>4208163634</IPOC>";
 
 std::string rob(const std::string& contents) { return "<Rob Type=\"KUKA\">" + contents + "</Rob>"; }
 
-const std::string kPlain = rob(kActual + kSetpoint + kIpoc);
+/// A whole telegram with more in it.
+std::string rob_with(const std::string& more) { return rob(kActual + kSetpoint + kIpoc + more); }
+
+std::string rob_with_arm(const std::string& text) { return rob_with("<Arm>" + text + "</Arm>"); }
+
+const std::string kPlain = rob_with("");
 
 RsiReading read(const std::string& text, const RsiSchema& schema = {}) {
   RsiTelegram telegram;
@@ -98,18 +103,13 @@ void the_output_for_arming_is_a_number_or_a_word() {
   RsiSchema schema;
   schema.armed = "Arm";
   for (const char* on : {"1", "TRUE", "true", " 1 "}) {
-    TEST_ASSERT_TRUE(
-        accepted(rob(kActual + kSetpoint + "<Arm>" + on + "</Arm>" + kIpoc), schema).armed == true);
+    TEST_ASSERT_TRUE(accepted(rob_with_arm(on), schema).armed == true);
   }
   for (const char* off : {"0", "FALSE", "false"}) {
-    TEST_ASSERT_TRUE(
-        accepted(rob(kActual + kSetpoint + "<Arm>" + off + "</Arm>" + kIpoc), schema).armed ==
-        false);
+    TEST_ASSERT_TRUE(accepted(rob_with_arm(off), schema).armed == false);
   }
   for (const char* neither : {"", "2", "yes", "11", "1<x/>1"}) {
-    TEST_ASSERT_EQUAL(
-        RsiReading::no_number,
-        read(rob(kActual + kSetpoint + "<Arm>" + neither + "</Arm>" + kIpoc), schema));
+    TEST_ASSERT_EQUAL(RsiReading::no_number, read(rob_with_arm(neither), schema));
   }
 }
 
@@ -134,7 +134,7 @@ void what_is_missing_is_told() {
 
 void what_is_there_twice_is_refused() {
   for (const std::string& again : {kActual, kSetpoint, kIpoc, std::string("<AIPos/>")}) {
-    TEST_ASSERT_EQUAL(RsiReading::repeated, read(rob(kActual + kSetpoint + kIpoc + again)));
+    TEST_ASSERT_EQUAL(RsiReading::repeated, read(rob_with(again)));
   }
   TEST_ASSERT_EQUAL(RsiReading::repeated, read(rob("<AIPos A1=\"1\" A1=\"2\"/>")));
   TEST_ASSERT_EQUAL(RsiReading::repeated, read(rob("<Delay D=\"1\" D=\"1\"/>")));
@@ -160,10 +160,10 @@ void a_telegram_that_ends_early_anywhere_is_refused() {
 void what_is_not_well_formed_is_refused() {
   for (const std::string& text :
        {std::string("telegram"), kPlain + "x", kPlain + kPlain, "x" + kPlain, std::string("<"),
-        rob(kActual + kSetpoint + kIpoc + "</X>"), rob("<AIPos A1=\"1\"A2=\"2\"/>"),
-        rob("<AIPos A1=1/>"), rob("<AIPos A1/>"), rob("<AIPos A1=\"<\"/>"), rob("<AIPos></ASPos>"),
-        rob("<!-- -->"), rob("<![CDATA[]]>"), "<!DOCTYPE Rob>" + kPlain, rob("< AIPos/>"),
-        rob("<AIPos /"), std::string("<?xml"), std::string("<Rob></Rob"), std::string("</Rob>")}) {
+        rob_with("</X>"), rob("<AIPos A1=\"1\"A2=\"2\"/>"), rob("<AIPos A1=1/>"),
+        rob("<AIPos A1/>"), rob("<AIPos A1=\"<\"/>"), rob("<AIPos></ASPos>"), rob("<!-- -->"),
+        rob("<![CDATA[]]>"), "<!DOCTYPE Rob>" + kPlain, rob("< AIPos/>"), rob("<AIPos /"),
+        std::string("<?xml"), std::string("<Rob></Rob"), std::string("</Rob>")}) {
     TEST_ASSERT_EQUAL_MESSAGE(RsiReading::no_xml, read(text), text.c_str());
   }
   TEST_ASSERT_EQUAL(RsiReading::no_rob, read("<Sen Type=\"ImFree\"></Sen>"));
@@ -211,7 +211,7 @@ void* operator new(std::size_t size) {
   return memory;
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 int main() {
   UNITY_BEGIN();
