@@ -2,7 +2,6 @@
 
 import os
 import subprocess
-import time
 import unittest
 
 from command import FLEXCOMP, ROBOTS, SOURCE, Command
@@ -12,13 +11,11 @@ FOREIGN = SOURCE / "build/tour/robots/rtbdata/xacro/kuka_description/kuka_kr210/
 
 class Tour(Command):
     def take(self, urdf):
-        begun = time.monotonic()
         done = subprocess.run([str(SOURCE / "tools/tour"), str(urdf)], capture_output=True, text=True,
                               env={**os.environ, "FLEXCOMP_BIN": str(FLEXCOMP.parent),
                                    "FLEXCOMP_TOUR": str(self.folder)})
         self.assertEqual(0, done.returncode, done.stdout + done.stderr)
         self.assertIn("% of the uncorrected", done.stdout)
-        self.assertLess(time.monotonic() - begun, 60)
 
     def test_a_robot_of_the_study(self):
         self.take(ROBOTS / "kr360" / "kr360.urdf")
