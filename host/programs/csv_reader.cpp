@@ -104,10 +104,6 @@ class CsvReader {
     for (std::size_t i = 0; i < 3; ++i) {
       motion.end.position[static_cast<Eigen::Index>(i)] = cell(row, (*position_)[i]);
     }
-    if (motion.end.position.cwiseAbs().maxCoeff() > 1e6) {
-      refuse(table_.file, table_.line(row),
-             "column 'x': a place so far away is in other units than m");
-    }
     motion.end.rotation = orientation(row);
     if (feed_ && !std::isnan(table_.rows[row][*feed_])) {
       last_feed_ = table_.rows[row][*feed_];
@@ -118,7 +114,7 @@ class CsvReader {
     motion.feed = motion.kind == MotionKind::rapid ? 0 : last_feed_;
     motion.is_cutting = motion.kind != MotionKind::rapid;
     motion.line = table_.line(row);
-    program_.motions.push_back(motion);
+    append(motion, &program_);
   }
 
   Matrix3<double> orientation(std::size_t row) const {

@@ -280,7 +280,7 @@ class GcodeReader {
     if (motion.kind != MotionKind::rapid) {
       motion.feed = feed_of(motion, start, line);
     }
-    program_.motions.push_back(motion);
+    append(motion, &program_);
   }
 
   void set_axis(const Line& line, char letter, double unit, double* value) const {

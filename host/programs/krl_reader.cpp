@@ -327,7 +327,7 @@ class KrlReader {
     motion.line = line_;
     motion.begin = begin_;
     motion.finish = finish_;
-    program_.motions.push_back(motion);
+    append(motion, &program_);
     at_ = point;
     if (angle != 0) {
       for (std::size_t i = 0; i < 3; ++i) {

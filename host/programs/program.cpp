@@ -95,6 +95,18 @@ Matrix3<double> orientation_by_axis(const Vector& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), axis).toRotationMatrix() * down;
 }
 
+void append(const Motion& motion, Program* program) {
+  constexpr double kFarthest = 1e5;  // m
+  constexpr double kFastest = 1e4;   // m/s
+  if (!(motion.end.position.cwiseAbs().maxCoeff() <= kFarthest)) {
+    refuse(program->file, motion.line, "no machine reaches so far");
+  }
+  if (!(motion.feed <= kFastest)) {
+    refuse(program->file, motion.line, "no machine feeds so fast");
+  }
+  program->motions.push_back(motion);
+}
+
 void refuse(const std::string& file, std::size_t line, const std::string& why) {
   throw InputError(fmt::format("{}:{}: {}", file, line, why));
 }

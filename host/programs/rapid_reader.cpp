@@ -252,7 +252,7 @@ class RapidReader {
     motion.line = statement_.line;
     motion.begin = statement_.begin;
     motion.finish = statement_.finish;
-    program_.motions.push_back(motion);
+    append(motion, &program_);
     is_lost_ = false;
   }
 

@@ -150,6 +150,7 @@ void every_unknown_word_is_told_with_its_line() {
       {"G2 X10 K4 F1\n", "p.nc:1: the middle of an arc lies in its plane"},
       {"G1 X1 F0\n", "p.nc:1: 'F0': a feed must be above zero"},
       {"G0 X1e400\n", "p.nc:1: 'E400': unknown word"},
+      {"G0 X999999999\n", "p.nc:1: no machine reaches so far"},
       {"G0 Xnan\n", "p.nc:1: 'Xnan'"}};
   for (const auto& [text, expected] : refusals) {
     const std::string told = refusal(text);
