@@ -131,12 +131,15 @@ class KrlReader {
     }
   }
 
-  void set_feed(const std::optional<double>& feed) {
-    if (!feed || !(*feed > 0)) {
-      note("the feed is not a number here; that before it is used");
-      return;
+  void set_feed(const std::optional<double>& feed) { feed_ = known_feed(feed).value_or(feed_); }
+
+  /// A feed, m/s, where it is one.
+  std::optional<double> known_feed(const std::optional<double>& feed) {
+    if (feed && *feed > 0) {
+      return feed;
     }
-    feed_ = *feed;
+    note("the feed is not a number above zero here; that before it is used");
+    return std::nullopt;
   }
 
   void set_frame(Scanner* scanner) {
@@ -277,7 +280,7 @@ class KrlReader {
     }
     scanner->go_to(scanner->place() + at + 7);
     if (scanner->take('=')) {
-      own_feed_ = scanner->number();
+      own_feed_ = known_feed(scanner->number());
     }
   }
 
