@@ -22,7 +22,10 @@ FIXED = {
     "can": '"vcan7"', "fd": "true", "lcm": '"udpm://239.255.76.67:7667?ttl=0"', "key": '"key"',
     "trigger": '"clock"', "tolerated-losses": "2", "table": '"other.fct"', "state-directory": '"."',
     "period": "0.0156", "priority": "0", "user": '"nobody"', "statistics": '"other.json"',
-    "settings-out": '"settings.bin"',
+    "settings-out": '"settings.bin"', "rsi": '"udp://127.0.0.1:49152"', "rsi-mode": '"relative"',
+    "rsi-type": '"other"', "rsi-correction": '"Corr"', "rsi-wrench": '"Wrench"', "rsi-arm": '"Arm"',
+    "rsi-applied": '"Applied"', "rsi-state": '"State"', "rsi-limit": "0.5", "rsi-step": "0.01",
+    "rsi-sign": "[1,1,1,1,1,-1]", "rsi-zero": "[0,0,0,0,0,90]",
 }
 CHANGEABLE = {
     "heartbeat": 0.05, "model-hash": '"0000000000000000"', "without-identity": "true", "gain": 0.5,
