@@ -123,6 +123,20 @@ void a_module_keeps_all_that_does_not_move() {
                    std::string::npos);
 }
 
+void a_target_in_brackets_keeps_its_configuration_and_axes() {
+  const Program source =
+      rapid_program("m.mod",
+                    "MODULE m\nPROC main()\nMoveL "
+                    "[[1,2,3],[1,0,0,0],[1,-1,2,0],[7,9E9,9E9,9E9,9E9,9E9]],v100,fine,"
+                    "tool0;\nENDPROC\nENDMODULE\n");
+  CorrectedProgram program;
+  program.source = source;
+  program.in_place.push_back({source.motions[0]});
+  TEST_ASSERT_TRUE(text_of(program, Format::rapid, "m")
+                       .find(",[1,-1,2,0],[7,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;") !=
+                   std::string::npos);
+}
+
 void what_is_written_is_read_back() {
   const CorrectedProgram program = corrected(rapid_program("sign.mod", kModule));
   CorrectedProgram anew = program;
@@ -149,6 +163,7 @@ int main() {
   RUN_TEST(the_work_object_is_user_frame_times_object_frame);
   RUN_TEST(what_cannot_be_told_is_refused_with_its_line);
   RUN_TEST(a_module_keeps_all_that_does_not_move);
+  RUN_TEST(a_target_in_brackets_keeps_its_configuration_and_axes);
   RUN_TEST(what_is_written_is_read_back);
   return UNITY_END();
 }
