@@ -10,6 +10,7 @@
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
 #include "programs/krl_point.hpp"
+#include "programs/nesting.hpp"
 #include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
@@ -60,11 +61,11 @@ class KrlReader {
   void read_statement(Scanner* scanner) {
     const std::string word = scanner->name();
     if (word == "DEF" || word == "DEFFCT") {
-      ++routine_;
+      nesting_.begin_routine();
     } else if (kKrlOpening.count(word) > 0) {
-      ++depth_;
+      nesting_.open();
     } else if (kKrlClosing.count(word) > 0) {
-      --depth_;
+      nesting_.close();
     } else if (kKrlUnreadable.count(word) > 0) {
       fail(fmt::format("'{}': this motion is not read", word));
     } else if (word == "LIN" || word == "SLIN" || word == "LIN_REL" || word == "SLIN_REL") {
@@ -208,13 +209,9 @@ class KrlReader {
   }
 
   void refuse_hidden() {
-    if (depth_ > 0) {
-      fail("a motion in a branch or a loop: whether it is run cannot be told");
+    if (const char* why = nesting_.why_no_motion()) {
+      fail(why);
     }
-    if (moving_routine_ != 0 && moving_routine_ != routine_) {
-      fail("a motion in a second routine: when it is called cannot be told");
-    }
-    moving_routine_ = routine_;
   }
 
   /// A place that is not Cartesian, or not known: nothing is planned, and what is not said of the
@@ -357,9 +354,7 @@ class KrlReader {
   double feed_ = 0;
   std::optional<double> own_feed_;
   bool is_lost_ = true;
-  int depth_ = 0;
-  int routine_ = 0;
-  int moving_routine_ = 0;
+  Nesting nesting_;
   std::size_t line_ = 0;
   std::size_t begin_ = 0;
   std::size_t finish_ = 0;

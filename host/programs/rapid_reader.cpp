@@ -8,6 +8,7 @@
 
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
+#include "programs/nesting.hpp"
 #include "programs/rapid_statements.hpp"
 #include "programs/rapid_values.hpp"
 
@@ -77,14 +78,14 @@ class RapidReader {
       scanner->go_to(after);
     }
     if (kRapidRoutines.count(word) > 0) {
-      ++routine_;
-      depth_ = 0;
+      nesting_.begin_routine();
+      nesting_.close_all();
     } else if (word == "IF") {
       read_condition(scanner);
     } else if (kRapidOpening.count(word) > 0) {
-      ++depth_;
+      nesting_.open();
     } else if (kRapidClosing.count(word) > 0) {
-      --depth_;
+      nesting_.close();
     } else if (word == "MOVEJ" || word == "MOVEL" || word == "MOVEC") {
       read_motion(word, scanner);
     } else if (word == "MOVEABSJ") {
@@ -101,11 +102,11 @@ class RapidReader {
     while (!scanner->at_end()) {
       const std::string word = scanner->name();
       if (word == "THEN") {
-        ++depth_;
+        nesting_.open();
         return;
       }
       if (is_unreadable_motion(word)) {
-        fail("a motion in a branch or a loop: whether it is run cannot be told");
+        fail(kInBranch);
       }
       if (word.empty()) {
         scanner->go_to(scanner->place() + 1);
@@ -133,13 +134,9 @@ class RapidReader {
   }
 
   void refuse_hidden() {
-    if (depth_ > 0) {
-      fail("a motion in a branch or a loop: whether it is run cannot be told");
+    if (const char* why = nesting_.why_no_motion()) {
+      fail(why);
     }
-    if (moving_routine_ != 0 && moving_routine_ != routine_) {
-      fail("a motion in a second routine: when it is called cannot be told");
-    }
-    moving_routine_ = routine_;
   }
 
   void read_motion(const std::string& word, Scanner* scanner) {
@@ -261,9 +258,7 @@ class RapidReader {
   RapidStatement statement_;
   std::string work_object_;
   bool is_lost_ = true;
-  int depth_ = 0;
-  int routine_ = 0;
-  int moving_routine_ = 0;
+  Nesting nesting_;
 };
 
 }  // namespace

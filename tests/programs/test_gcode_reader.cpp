@@ -7,6 +7,7 @@
 #include "cases.hpp"
 #include "error.hpp"
 #include "programs/gcode_reader.hpp"
+#include "programs/positions.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::InputError;
@@ -17,6 +18,7 @@ using flexcomp::programs::Motion;
 using flexcomp::programs::MotionKind;
 using flexcomp::programs::pose_at;
 using flexcomp::programs::Program;
+using flexcomp::test::assert_at;
 
 namespace {
 
@@ -29,12 +31,6 @@ std::string refusal(const std::string& text) {
     return error.what();
   }
   return "accepted";
-}
-
-/// Millimetres.
-void assert_at(double x, double y, double z, const Vector3<double>& position) {
-  const Vector3<double> off = 1e3 * position - Vector3<double>(x, y, z);
-  TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0, off.norm());
 }
 
 Vector3<double> middle_of(const Program& program, std::size_t motion, double share = 0.5) {

@@ -10,20 +10,17 @@
 #include "programs/corrected_program.hpp"
 #include "programs/krl_point.hpp"
 #include "programs/krl_reader.hpp"
+#include "programs/positions.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::InputError;
 using flexcomp::Matrix3;
 using flexcomp::Pose;
 using flexcomp::Vector3;
+using flexcomp::test::assert_at;
 using namespace flexcomp::programs;
 
 namespace {
-
-/// Millimetres.
-void assert_at(double x, double y, double z, const Vector3<double>& position) {
-  TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0, (1e3 * position - Vector3<double>(x, y, z)).norm());
-}
 
 std::string refusal(const std::string& src) {
   try {

@@ -6,20 +6,17 @@
 
 #include "error.hpp"
 #include "programs/corrected_program.hpp"
+#include "programs/positions.hpp"
 #include "programs/rapid_reader.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::InputError;
 using flexcomp::Pose;
 using flexcomp::Vector3;
+using flexcomp::test::assert_at;
 using namespace flexcomp::programs;
 
 namespace {
-
-/// Millimetres.
-void assert_at(double x, double y, double z, const Vector3<double>& position) {
-  TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0, (1e3 * position - Vector3<double>(x, y, z)).norm());
-}
 
 std::string refusal(const std::string& text) {
   try {
