@@ -314,7 +314,7 @@ class Arguments(HilTest):
         config = self.folder / "bad.toml"
         config.write_text("no-such-option = 1\n")
         self.refuse(saying="--model-hash")
-        self.refuse(*good, saying="--can or --lcm")
+        self.refuse(*good, saying="--can, --lcm or --rsi")
         self.refuse("--model-hash", "xyz", "--can", BUS, saying="16 hexadecimal digits")
         self.refuse(*good, "--can", "nocan7", saying="nocan7")
         self.refuse(*good, "--can", "lo", "--fd", saying="lo")
