@@ -1,6 +1,6 @@
-/// Four sources of the core are compiled for wider vector registers (AVX) than the library that they
-/// are linked with, as where a customer builds one part with -march=native. Both must agree where in
-/// their matrices a number lies. This file is compiled like those four.
+/// Four sources of the core are compiled for wider vector registers (AVX) than the library that
+/// they are linked with, as where a customer builds one part with -march=native. Both must agree
+/// where in their matrices a number lies. This file is compiled like those four.
 #include <vector>
 
 #include "core/test_robots.hpp"
