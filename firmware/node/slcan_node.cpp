@@ -151,6 +151,7 @@ void SlcanNode::exchange_tables() {
     check_.store(Check::none, std::memory_order_relaxed);
   } else if (check == Check::none) {
     unchecked_ = node_.received_table(&unchecked_size_);
+    unchecked_index_ = node_.index_of_received();
     if (unchecked_ != nullptr) {
       check_.store(Check::wanted, std::memory_order_release);
     }
@@ -159,12 +160,12 @@ void SlcanNode::exchange_tables() {
 
 void SlcanNode::check_table() {
   if (check_.load(std::memory_order_acquire) == Check::wanted) {
-    checked_ = checked(unchecked_, unchecked_size_);
+    checked_ = checked(unchecked_, unchecked_size_, unchecked_index_);
     check_.store(Check::done, std::memory_order_release);
   }
 }
 
-SlcanNode::Checked SlcanNode::checked(const void* data, std::size_t size) const {
+SlcanNode::Checked SlcanNode::checked(const void* data, std::size_t size, IndexMemory index) const {
   Checked result;
   if (table_key_) {
     const TableAdmission admission(*table_key_, counter_run_.load(std::memory_order_relaxed));
@@ -172,6 +173,9 @@ SlcanNode::Checked SlcanNode::checked(const void* data, std::size_t size) const 
   }
   if (result.refused == Reply::ok) {
     result.opened = Table::open(data, bytes_of_table(data, size), &result.table);
+  }
+  if (result.opened == Result::ok && result.refused == Reply::ok) {
+    index.index(&result.table);
   }
   return result;
 }
@@ -181,7 +185,7 @@ void SlcanNode::has_in_use(std::uint32_t counter) {
   trial_.begin();
 }
 
-void SlcanNode::start_with(const void* memory, std::size_t size) {
+void SlcanNode::start_with(const void* memory, std::size_t size, IndexMemory index) {
   TableHeader header;
   if (size < sizeof header) {
     return;
@@ -195,7 +199,7 @@ void SlcanNode::start_with(const void* memory, std::size_t size) {
   // The bytes behind the table are its signature, or none of its own.
   const std::size_t whole = has_room ? header.size + sizeof(TableTrailer) : size;
   const bool is_signed = bytes_of_table(memory, whole) < whole;
-  const Checked table = checked(memory, is_signed || !has_room ? whole : header.size);
+  const Checked table = checked(memory, is_signed || !has_room ? whole : header.size, index);
   if (table.refused != Reply::ok) {
     node_.refuse_start(table.refused);
   } else if (node_.start_with(TableStore::kFixed, table.table, table.opened) == Result::ok) {
