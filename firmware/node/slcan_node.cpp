@@ -1,5 +1,6 @@
 #include "node/slcan_node.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -9,7 +10,7 @@
 namespace flexcomp {
 namespace {
 
-constexpr int kBytesAStep = 1024;
+constexpr std::size_t kBytesAStep = 1024;
 constexpr int kMessagesATick = 4;  // beside the corrected setpoint
 constexpr std::uint32_t kLinesToRecover = 64;
 constexpr std::uint8_t kDone = '\r';
@@ -53,9 +54,21 @@ void SlcanNode::step(std::int64_t now) {
 }
 
 void SlcanNode::take_bytes(std::int64_t now) {
-  std::uint8_t byte = 0;
-  for (int i = 0; i < kBytesAStep && received_->pop(&byte); ++i) {
-    switch (reader_.take(byte)) {
+  std::size_t count = 0;
+  for (std::size_t left = kBytesAStep; left > 0; left -= count) {
+    const std::uint8_t* const bytes = received_->front(&count);
+    count = std::min(count, left);
+    if (count == 0) {
+      break;
+    }
+    take_bytes(bytes, count, now);
+    received_->drop(count);
+  }
+}
+
+void SlcanNode::take_bytes(const std::uint8_t* bytes, std::size_t count, std::int64_t now) {
+  for (std::size_t i = 0; i < count; ++i) {
+    switch (reader_.take(bytes[i])) {
       case SlcanReader::Event::frame:
         if (link_.receive(reader_.frame(), &node_,
                           trigger_ == Trigger::lockstep ? steps_ * period_ : now)) {
@@ -129,15 +142,12 @@ void SlcanNode::send(const Message& message) {
 
 /// A whole line or none of it: half a line would spoil the next.
 void SlcanNode::send(const SlcanLine& line) {
-  if (to_send_->room() < line.size) {
+  if (!to_send_->push_all(reinterpret_cast<const std::uint8_t*>(line.text.data()), line.size)) {
     ++dropped_frames_;
     lines_to_recover_ = kLinesToRecover;
     return;
   }
   lines_to_recover_ -= lines_to_recover_ > 0 ? 1U : 0U;
-  for (std::size_t i = 0; i < line.size; ++i) {
-    to_send_->push(static_cast<std::uint8_t>(line.text[i]));
-  }
 }
 
 void SlcanNode::exchange_tables() {

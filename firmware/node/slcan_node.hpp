@@ -55,6 +55,7 @@ class SlcanNode {
   Checked checked(const void* data, std::size_t size, IndexMemory index) const;
   void has_in_use(std::uint32_t counter);
   void take_bytes(std::int64_t now);
+  void take_bytes(const std::uint8_t* bytes, std::size_t count, std::int64_t now);
   void on_setpoint(std::int64_t now);
   void tick(std::int64_t now);
   void exchange_tables();
