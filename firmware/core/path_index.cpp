@@ -33,7 +33,7 @@ Direction principal_direction(const Square& squares) {
   return sum > 0 ? Direction(direction / sum) : Direction(Direction::Unit(0));
 }
 
-/// Part of a sequence of segments.
+/// Part of the sequence of segments, to be split in two halves.
 struct Range {
   std::uint32_t* begin;
   std::uint32_t* middle;
@@ -52,9 +52,8 @@ class PathIndexBuilder {
     std::iota(order_, order_ + tree_.segments(), 0U);
     nodes_[0] = IndexNode{};
     for (std::uint32_t node = 1; node < tree_.nodes(); ++node) {
-      const Range half = {order_ + tree_.begin(2 * node), order_ + tree_.begin(2 * node + 1),
-                          order_ + tree_.end(2 * node + 1)};
-      nodes_[node] = split(half);
+      nodes_[node] = split({order_ + tree_.begin(node), order_ + tree_.begin(2 * node + 1),
+                            order_ + tree_.end(node)});
     }
   }
 
@@ -103,7 +102,6 @@ class PathIndexBuilder {
 
   /// Where the segments lie, without what is along `axis`: squares about their mean.
   Square places(const Range& range, const Direction& axis) const {
-    const auto aside = [&](const Direction& place) { return place - axis * axis.dot(place); };
     const Direction origin = middle(*range.begin);
     Direction mean = Direction::Zero();
     for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
@@ -112,8 +110,9 @@ class PathIndexBuilder {
     mean /= static_cast<float>(range.end - range.begin);
     Square squares = Square::Zero();
     for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
-      const Direction place = aside(middle(*at) - origin - mean);
-      squares += place.lazyProduct(place.transpose());
+      const Direction place = middle(*at) - origin - mean;
+      const Direction aside = place - axis * axis.dot(place);
+      squares += aside.lazyProduct(aside.transpose());
     }
     return squares;
   }
