@@ -19,7 +19,7 @@ using Direction = Eigen::Matrix<float, kTableJoints, 1>;
 using Square = Eigen::Matrix<float, kTableJoints, kTableJoints>;
 
 /// The direction in which a sum of squares is largest, by power iteration: near enough, as any
-/// direction serves. Magnitudes add up to one.
+/// direction serves.
 Direction principal_direction(const Square& squares) {
   constexpr int kIterations = 8;
   Eigen::Index largest = 0;
@@ -29,8 +29,7 @@ Direction principal_direction(const Square& squares) {
     direction /= direction.cwiseAbs().maxCoeff();
     direction = squares.lazyProduct(direction).eval();
   }
-  const float sum = direction.cwiseAbs().sum();
-  return sum > 0 ? Direction(direction / sum) : Direction(Direction::Unit(0));
+  return direction.cwiseAbs().maxCoeff() > 0 ? direction : Direction(Direction::Unit(0));
 }
 
 /// Part of the sequence of segments, to be split in two halves.
@@ -64,7 +63,6 @@ class PathIndexBuilder {
   Direction middle(std::uint32_t segment) const {
     return 0.5F * (angles(segment) + angles(segment + 1));
   }
-  Direction chord(std::uint32_t segment) const { return angles(segment + 1) - angles(segment); }
 
   /// How far a segment reaches along a direction, its width and rounding included.
   struct Interval {
@@ -81,40 +79,46 @@ class PathIndexBuilder {
     return {std::min(from, to) - aside, std::max(from, to) + aside};
   }
 
-  /// The better of two splits: across the segments or along them.
-  IndexNode split(const Range& range) {
-    const Direction along = chords(range);
-    const Direction across = principal_direction(places(range, along.normalized()));
-    const IndexNode first = split_along(across, range);
-    const std::uint32_t shared = shared_by_halves(first, range);
-    const IndexNode second = split_along(along, range);
-    return shared_by_halves(second, range) < shared ? second : split_along(across, range);
-  }
-
-  Direction chords(const Range& range) const {
-    Square squares = Square::Zero();
-    for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
-      const Direction motion = chord(*at);
-      squares += motion.lazyProduct(motion.transpose());
-    }
-    return principal_direction(squares);
-  }
-
-  /// Where the segments lie, without what is along `axis`: squares about their mean.
-  Square places(const Range& range, const Direction& axis) const {
+  /// What the segments of a range are like: sums over all of them.
+  struct Sums {
+    Square places = Square::Zero();  ///< squares of where they lie about their mean
+    Square chords = Square::Zero();  ///< of how they run from node to node
+    float widths = 0;                ///< of how wide they are
+  };
+  Sums sums(const Range& range) const {
+    Sums sums;
     const Direction origin = middle(*range.begin);
-    Direction mean = Direction::Zero();
+    Direction places = Direction::Zero();
     for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
-      mean += middle(*at) - origin;
+      const Direction place = middle(*at) - origin;
+      const Direction chord = angles(*at + 1) - angles(*at);
+      const float width = table_.record(*at)[kPath.width];
+      places += place;
+      sums.places += place.lazyProduct(place.transpose());
+      sums.chords += chord.lazyProduct(chord.transpose());
+      sums.widths += width * width;
     }
-    mean /= static_cast<float>(range.end - range.begin);
-    Square squares = Square::Zero();
-    for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
-      const Direction place = middle(*at) - origin - mean;
-      const Direction aside = place - axis * axis.dot(place);
-      squares += aside.lazyProduct(aside.transpose());
-    }
-    return squares;
+    sums.places -=
+        places.lazyProduct(places.transpose()) / static_cast<float>(range.end - range.begin);
+    return sums;
+  }
+
+  /// Across the segments or along them: where they lie further apart, beside what each reaches.
+  IndexNode split(const Range& range) {
+    const Sums found = sums(range);
+    const Direction along = principal_direction(found.chords).normalized();
+    const Square aside = Square::Identity() - along.lazyProduct(along.transpose());
+    const Square places_aside = aside.lazyProduct(found.places).eval().lazyProduct(aside);
+    const Direction across = principal_direction(places_aside).normalized();
+    const auto apart = [&](const Direction& axis) {
+      return axis.dot(found.places.lazyProduct(axis));
+    };
+    const auto reach = [&](const Direction& axis) {
+      return axis.dot(found.chords.lazyProduct(axis)) + found.widths;
+    };
+    const bool is_across = apart(across) * reach(along) > apart(along) * reach(across);
+    const Direction axis = is_across ? across : along;
+    return split_along(axis / axis.cwiseAbs().sum(), range);
   }
 
   /// Puts the segments in two halves along a direction.
@@ -134,16 +138,6 @@ class PathIndexBuilder {
       node.begin = std::min(node.begin, interval(*at, direction).low);
     }
     return node;
-  }
-
-  /// Segments in the place that belongs to both halves.
-  std::uint32_t shared_by_halves(const IndexNode& node, const Range& range) const {
-    const Direction direction = Eigen::Map<const Direction>(node.direction);
-    return static_cast<std::uint32_t>(
-        std::count_if(range.begin, range.end, [&](std::uint32_t segment) {
-          const Interval there = interval(segment, direction);
-          return there.high >= node.begin && there.low <= node.reach;
-        }));
   }
 
   const Table& table_;
