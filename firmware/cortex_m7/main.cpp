@@ -18,8 +18,8 @@ namespace board = flexcomp::cortex_m7::board;
 
 constexpr std::uint32_t kStepsASecond = 1000;
 constexpr std::uint32_t kWatchdogTime = 500;  // ms
-// The main program may be busy with a table for so many steps: 512 KiB with a signature are some
-// forty million instructions, 1.6 s at 25 MHz.
+// The main program may be busy with a table for so many steps: 512 KiB with a signature and an
+// index are some seventy million instructions, 2.8 s at 25 MHz.
 constexpr std::uint32_t kLongestCheck = 4000;
 
 SlcanNode::Bytes received;
