@@ -4,6 +4,7 @@
 #include "c_conversion.hpp"
 #include "flexcomp/compensator.hpp"
 #include "flexcomp/flexcomp.h"
+#include "flexcomp/path_index.hpp"
 #include "flexcomp/table_builder.hpp"
 
 namespace {
@@ -57,7 +58,12 @@ flexcomp::Result view(const flexcomp_table_t& from, flexcomp::Table* table) {
   }
   const auto* begin = static_cast<const unsigned char*>(from.header);
   const auto* end = static_cast<const unsigned char*>(from.end);
-  return flexcomp::Table::reopen(begin, static_cast<std::size_t>(end - begin), table);
+  const flexcomp::Result result =
+      flexcomp::Table::reopen(begin, static_cast<std::size_t>(end - begin), table);
+  if (result == flexcomp::Result::ok) {
+    table->use_index(static_cast<const flexcomp::IndexNode*>(from.index));
+  }
+  return result;
 }
 
 Compensator* object(flexcomp_compensator_t* from) {
@@ -155,7 +161,28 @@ flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_ta
   const flexcomp::Result result = table == nullptr ? flexcomp::Result::bad_argument
                                                    : flexcomp::Table::open(data, size, &opened);
   if (result == flexcomp::Result::ok) {
-    *table = {data, static_cast<const unsigned char*>(data) + size};
+    *table = {data, static_cast<const unsigned char*>(data) + size, nullptr};
+  }
+  return to_c(result);
+}
+
+size_t flexcomp_table_index_size(const flexcomp_table_t* table) {
+  flexcomp::Table opened;
+  const bool is_open = table != nullptr && view(*table, &opened) == flexcomp::Result::ok;
+  return is_open ? flexcomp::path_index_size(opened) : 0;
+}
+
+flexcomp_result_t flexcomp_table_index(flexcomp_table_t* table, void* memory, size_t capacity) {
+  if (table == nullptr) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  flexcomp::Table opened;
+  flexcomp::Result result = view(*table, &opened);
+  if (result == flexcomp::Result::ok) {
+    result = flexcomp::index_path(memory, capacity, &opened);
+  }
+  if (result == flexcomp::Result::ok) {
+    table->index = opened.index();
   }
   return to_c(result);
 }

@@ -58,6 +58,16 @@ template <typename Scalar, typename L, typename Lane = typename L::Lane>
   const auto clamp = [&](Lane a, Lane low, Lane high) {
     return smaller(high, L::choose(low > a, low, a));
   };
+  // Ordinary machining: no limit is near, and all that follows would come to this.
+  const Lane way = target - value;
+  const Lane length = L::magnitude(way);
+  if (L::all(length <= largest_change * kPlanned<Scalar>) &&
+      L::all(
+          L::both(L::both(length <= largest_step, L::magnitude(target) <= largest_value),
+                  L::both(way >= last_step - largest_change, way <= last_step + largest_change)))) {
+    constexpr typename L::Truth kNone{};
+    return {target, way, kNone, kNone};
+  }
   const Lane wanted = L::choose(L::magnitude(target) <= kLargest, target, value);
   const Lane goal = clamp(wanted, -largest_value, largest_value);
   const Lane distance = goal - value;

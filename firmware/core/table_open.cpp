@@ -120,6 +120,7 @@ Result Table::reopen(const void* data, std::size_t size, Table* table) {
   }
   table->header_ = memory;
   table->records_ = reinterpret_cast<const float*>(memory + 1);
+  table->index_ = nullptr;
   table->shape_ = shape_of(header);
   return Result::ok;
 }

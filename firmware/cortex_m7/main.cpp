@@ -9,6 +9,7 @@
 
 namespace {
 
+using flexcomp::IndexMemory;
 using flexcomp::NodeSettings;
 using flexcomp::SlcanNode;
 using flexcomp::TableSlot;
@@ -17,8 +18,8 @@ namespace board = flexcomp::cortex_m7::board;
 
 constexpr std::uint32_t kStepsASecond = 1000;
 constexpr std::uint32_t kWatchdogTime = 500;  // ms
-// The main program may be busy with a table for so many steps: 512 KiB with a signature are some
-// forty million instructions, 1.6 s at 25 MHz.
+// The main program may be busy with a table for so many steps: 512 KiB with a signature and an
+// index are some seventy million instructions, 2.8 s at 25 MHz.
 constexpr std::uint32_t kLongestCheck = 4000;
 
 SlcanNode::Bytes received;
@@ -50,6 +51,10 @@ extern const std::uint32_t __table_end[];
 extern std::uint32_t __first_slot[];
 extern std::uint32_t __second_slot[];
 extern std::uint32_t __slots_end[];
+extern std::uint32_t __first_index[];
+extern std::uint32_t __second_index[];
+extern std::uint32_t __fixed_index[];
+extern std::uint32_t __indices_end[];
 
 void tick() {
   static std::int64_t now = 0;
@@ -82,8 +87,12 @@ void fault_reported(const FaultReport& report) {
 
 namespace {
 
-TableSlot slot(std::uint32_t* begin, const std::uint32_t* end) {
+IndexMemory index(std::uint32_t* begin, const std::uint32_t* end) {
   return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+TableSlot slot(std::uint32_t* begin, const std::uint32_t* end, IndexMemory index) {
+  return {begin, static_cast<std::size_t>(end - begin), index};
 }
 
 std::size_t bytes_between(const std::uint32_t* begin, const std::uint32_t* end) {
@@ -114,10 +123,12 @@ int main() {
   NodeSettings settings;
   read_record(__settings_start, bytes_between(__settings_start, __settings_end),
               &settings);  // else they stay such that no node takes them
-  static SlcanNode the_node(settings, &received, &to_send, slot(__first_slot, __second_slot),
-                            slot(__second_slot, __slots_end));
+  static SlcanNode the_node(settings, &received, &to_send,
+                            slot(__first_slot, __second_slot, index(__first_index, __second_index)),
+                            slot(__second_slot, __slots_end, index(__second_index, __fixed_index)));
   node = &the_node;
-  node->start_with(__table_start, bytes_between(__table_start, __table_end));
+  node->start_with(__table_start, bytes_between(__table_start, __table_end),
+                   index(__fixed_index, __indices_end));
   report_last_words();
   board::start(&received, &to_send);
   start_steps();

@@ -39,6 +39,7 @@ struct TableReceived {
   std::uint32_t transfer = 0;  ///< counts them
   const void* data = nullptr;
   std::size_t size = 0;
+  IndexMemory index;  ///< the real-time thread does not touch it before the verdict
 };
 
 /// The table of this transfer has been put to use.

@@ -26,11 +26,23 @@ constexpr int kDone = 0;
 constexpr int kUnusableInput = 2;
 constexpr int kInternalFault = 3;
 
-/// Memory for the tables, allocated once.
+/// Memory for a table and its index, allocated once.
+class Slot {
+ public:
+  explicit Slot(std::size_t bytes) : table_(bytes / 4), index_(bytes / kShare / 4) {}
+  TableSlot memory() { return {table_.data(), table_.size(), {index_.data(), index_.size()}}; }
+
+ private:
+  static constexpr std::size_t kShare = 12;  // of the smallest record an index takes a fifteenth
+
+  std::vector<std::uint32_t> table_;
+  std::vector<std::uint32_t> index_;
+};
+
 struct Slots {
-  explicit Slots(std::size_t bytes) : first(bytes / 4), second(bytes / 4) {}
-  std::vector<std::uint32_t> first;
-  std::vector<std::uint32_t> second;
+  explicit Slots(std::size_t bytes) : first(bytes), second(bytes) {}
+  Slot first;
+  Slot second;
 };
 
 struct InitialTable {
@@ -96,14 +108,15 @@ std::optional<TableAdmission> admission_of_tables(const Options& options) {
 
 /// Puts the first table into slot 0. A damaged one ends the program; one that is refused for
 /// another reason is reported over the bus when somebody wants to arm.
-void load_table(const Options& options, const InitialTable& initial, Slots* slots, Node* node) {
-  std::memcpy(slots->first.data(), initial.bytes.data(), initial.bytes.size());
+void load_table(const Options& options, const InitialTable& initial, TableSlot slot, Node* node) {
+  std::memcpy(slot.words, initial.bytes.data(), initial.bytes.size());
   Table table;
-  const Result opened = Table::open(
-      slots->first.data(), bytes_of_table(slots->first.data(), initial.bytes.size()), &table);
+  const Result opened =
+      Table::open(slot.words, bytes_of_table(slot.words, initial.bytes.size()), &table);
   if (opened != Result::ok) {
     throw std::runtime_error(initial.file + ": " + describe(opened));
   }
+  slot.index.index(&table);
   if (!options.key.empty()) {
     complain(fmt::format("starts with table version {} of {}", initial.counter, initial.file));
   }
@@ -171,8 +184,7 @@ int serve(const Options& options, Service::Reread reread) {
   }
   auto node = std::make_unique<Node>();
   Slots slots(options.table_capacity);
-  node->use_memory({slots.first.data(), slots.first.size()},
-                   {slots.second.data(), slots.second.size()});
+  node->use_memory(slots.first.memory(), slots.second.memory());
   if (node->configure(options.settings.node) != Result::ok) {
     throw std::runtime_error(describe(Result::bad_config));
   }
@@ -186,7 +198,7 @@ int serve(const Options& options, Service::Reread reread) {
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
   std::unique_ptr<RsiTransport> rsi = open_rsi(options);
   if (table) {
-    load_table(options, *table, &slots, node.get());
+    load_table(options, *table, slots.first.memory(), node.get());
   } else {
     complain("no table yet; waiting for one over the bus");
   }

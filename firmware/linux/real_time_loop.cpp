@@ -172,7 +172,8 @@ void RealTimeLoop::hand_over_tables(std::int64_t now) {
     return;
   }
   if (!awaits_verdict_) {
-    awaits_verdict_ = exchange_->from_real_time.send(TableReceived{transfer_ + 1, received, size});
+    awaits_verdict_ = exchange_->from_real_time.send(
+        TableReceived{transfer_ + 1, received, size, node_->index_of_received()});
     transfer_ += awaits_verdict_ ? 1U : 0U;
     verdict_due_ = now + kVerdictPatience;
   } else if (now > verdict_due_) {

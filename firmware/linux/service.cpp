@@ -213,6 +213,9 @@ Verdict Service::judge(const TableReceived& received) {
     verdict.opened =
         Table::open(received.data, bytes_of_table(received.data, received.size), &verdict.table);
   }
+  if (verdict.opened == Result::ok) {
+    received.index.index(&verdict.table);
+  }
   return verdict;
 }
 

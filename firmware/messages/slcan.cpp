@@ -5,27 +5,33 @@ namespace {
 
 constexpr std::size_t kIdDigits = 3;
 constexpr std::size_t kHeadSize = 1 + kIdDigits + 1;
-constexpr int kNoDigit = -1;
+constexpr std::int8_t kNoDigit = -1;
 
-char digit(unsigned value) {
-  return static_cast<char>(value < 10 ? '0' + value : 'A' + (value - 10));
+constexpr char kDigits[] = "0123456789ABCDEF";
+
+/// The value of each character as a hexadecimal digit, or kNoDigit.
+constexpr std::array<std::int8_t, 256> make_values() {
+  std::array<std::int8_t, 256> values{};
+  for (std::int8_t& value : values) {
+    value = kNoDigit;
+  }
+  for (std::int8_t i = 0; i < 16; ++i) {
+    const char c = kDigits[i];
+    values[static_cast<std::uint8_t>(c)] = i;
+    if (c >= 'A') {
+      values[static_cast<std::uint8_t>(c - 'A' + 'a')] = i;
+    }
+  }
+  return values;
 }
 
-int value_of(char c) {
-  if (c >= '0' && c <= '9') {
-    return c - '0';
-  }
-  if (c >= 'A' && c <= 'F') {
-    return c - 'A' + 10;
-  }
-  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : kNoDigit;
-}
+constexpr std::array<std::int8_t, 256> kValues = make_values();
 
 /// Reads `count` hexadecimal digits; false if one is none.
 bool read_hexadecimal(const char* text, std::size_t count, std::uint32_t* value) {
   *value = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const int next = value_of(text[i]);
+    const int next = kValues[static_cast<std::uint8_t>(text[i])];
     if (next == kNoDigit) {
       return false;
     }
@@ -43,13 +49,13 @@ SlcanLine to_slcan(const CanFrame& frame) {
   }
   char* end = line.text.data();
   *end++ = 't';
-  *end++ = digit(frame.id >> 8 & 0x7U);
-  *end++ = digit(frame.id >> 4 & 0xFU);
-  *end++ = digit(frame.id & 0xFU);
-  *end++ = digit(frame.size);
+  *end++ = kDigits[frame.id >> 8 & 0x7U];
+  *end++ = kDigits[frame.id >> 4 & 0xFU];
+  *end++ = kDigits[frame.id & 0xFU];
+  *end++ = kDigits[frame.size];
   for (std::size_t i = 0; i < frame.size; ++i) {
-    *end++ = digit(frame.data[i] >> 4);
-    *end++ = digit(frame.data[i] & 0xFU);
+    *end++ = kDigits[frame.data[i] >> 4];
+    *end++ = kDigits[frame.data[i] & 0xFU];
   }
   *end++ = '\r';
   line.size = static_cast<std::size_t>(end - line.text.data());

@@ -78,6 +78,7 @@ class Node {
   void refuse_start(Reply reason);
   void refuse_transfer(Reply reason);
   const void* received_table(std::size_t* size) const { return store_.received(size); }
+  IndexMemory index_of_received() const { return store_.index_of_received(); }
 
   /// False if it is not used: a setpoint or wrench of another source than the one that sends them.
   bool receive(const Message& message, Source source, std::int64_t now);

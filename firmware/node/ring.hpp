@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -24,9 +25,35 @@ class Ring {
     return true;
   }
 
+  /// All of these items or, where there is no room for them, none.
+  bool push_all(const Item* items, std::size_t count) {
+    const std::size_t end = end_.load(std::memory_order_relaxed);
+    if (Size - (end - begin_.load(std::memory_order_acquire)) < count) {
+      return false;
+    }
+    const std::size_t before_wrap = std::min(count, Size - end % Size);
+    std::copy_n(items, before_wrap, items_.begin() + end % Size);
+    std::copy_n(items + before_wrap, count - before_wrap, items_.begin());
+    end_.store(end + count, std::memory_order_release);
+    return true;
+  }
+
   /// How many more items fit, as the one that pushes sees it.
   std::size_t room() const {
     return Size - (end_.load(std::memory_order_relaxed) - begin_.load(std::memory_order_acquire));
+  }
+
+  /// The oldest items that lie in a row, `count` of them, for the one that pops; they stay until
+  /// `drop`. None only if it is empty.
+  const Item* front(std::size_t* count) const {
+    const std::size_t begin = begin_.load(std::memory_order_relaxed);
+    const std::size_t there = end_.load(std::memory_order_acquire) - begin;
+    *count = std::min(there, Size - begin % Size);
+    return &items_[begin % Size];
+  }
+  /// Forgets the oldest items, at most as many as `front` has shown.
+  void drop(std::size_t count) {
+    begin_.store(begin_.load(std::memory_order_relaxed) + count, std::memory_order_release);
   }
 
   /// False if it is empty.

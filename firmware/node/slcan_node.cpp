@@ -1,5 +1,6 @@
 #include "node/slcan_node.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -9,7 +10,7 @@
 namespace flexcomp {
 namespace {
 
-constexpr int kBytesAStep = 1024;
+constexpr std::size_t kBytesAStep = 1024;
 constexpr int kMessagesATick = 4;  // beside the corrected setpoint
 constexpr std::uint32_t kLinesToRecover = 64;
 constexpr std::uint8_t kDone = '\r';
@@ -53,9 +54,21 @@ void SlcanNode::step(std::int64_t now) {
 }
 
 void SlcanNode::take_bytes(std::int64_t now) {
-  std::uint8_t byte = 0;
-  for (int i = 0; i < kBytesAStep && received_->pop(&byte); ++i) {
-    switch (reader_.take(byte)) {
+  std::size_t count = 0;
+  for (std::size_t left = kBytesAStep; left > 0; left -= count) {
+    const std::uint8_t* const bytes = received_->front(&count);
+    count = std::min(count, left);
+    if (count == 0) {
+      break;
+    }
+    take_bytes(bytes, count, now);
+    received_->drop(count);
+  }
+}
+
+void SlcanNode::take_bytes(const std::uint8_t* bytes, std::size_t count, std::int64_t now) {
+  for (std::size_t i = 0; i < count; ++i) {
+    switch (reader_.take(bytes[i])) {
       case SlcanReader::Event::frame:
         if (link_.receive(reader_.frame(), &node_,
                           trigger_ == Trigger::lockstep ? steps_ * period_ : now)) {
@@ -129,15 +142,12 @@ void SlcanNode::send(const Message& message) {
 
 /// A whole line or none of it: half a line would spoil the next.
 void SlcanNode::send(const SlcanLine& line) {
-  if (to_send_->room() < line.size) {
+  if (!to_send_->push_all(reinterpret_cast<const std::uint8_t*>(line.text.data()), line.size)) {
     ++dropped_frames_;
     lines_to_recover_ = kLinesToRecover;
     return;
   }
   lines_to_recover_ -= lines_to_recover_ > 0 ? 1U : 0U;
-  for (std::size_t i = 0; i < line.size; ++i) {
-    to_send_->push(static_cast<std::uint8_t>(line.text[i]));
-  }
 }
 
 void SlcanNode::exchange_tables() {
@@ -151,6 +161,7 @@ void SlcanNode::exchange_tables() {
     check_.store(Check::none, std::memory_order_relaxed);
   } else if (check == Check::none) {
     unchecked_ = node_.received_table(&unchecked_size_);
+    unchecked_index_ = node_.index_of_received();
     if (unchecked_ != nullptr) {
       check_.store(Check::wanted, std::memory_order_release);
     }
@@ -159,12 +170,12 @@ void SlcanNode::exchange_tables() {
 
 void SlcanNode::check_table() {
   if (check_.load(std::memory_order_acquire) == Check::wanted) {
-    checked_ = checked(unchecked_, unchecked_size_);
+    checked_ = checked(unchecked_, unchecked_size_, unchecked_index_);
     check_.store(Check::done, std::memory_order_release);
   }
 }
 
-SlcanNode::Checked SlcanNode::checked(const void* data, std::size_t size) const {
+SlcanNode::Checked SlcanNode::checked(const void* data, std::size_t size, IndexMemory index) const {
   Checked result;
   if (table_key_) {
     const TableAdmission admission(*table_key_, counter_run_.load(std::memory_order_relaxed));
@@ -172,6 +183,9 @@ SlcanNode::Checked SlcanNode::checked(const void* data, std::size_t size) const 
   }
   if (result.refused == Reply::ok) {
     result.opened = Table::open(data, bytes_of_table(data, size), &result.table);
+  }
+  if (result.opened == Result::ok && result.refused == Reply::ok) {
+    index.index(&result.table);
   }
   return result;
 }
@@ -181,7 +195,7 @@ void SlcanNode::has_in_use(std::uint32_t counter) {
   trial_.begin();
 }
 
-void SlcanNode::start_with(const void* memory, std::size_t size) {
+void SlcanNode::start_with(const void* memory, std::size_t size, IndexMemory index) {
   TableHeader header;
   if (size < sizeof header) {
     return;
@@ -195,7 +209,7 @@ void SlcanNode::start_with(const void* memory, std::size_t size) {
   // The bytes behind the table are its signature, or none of its own.
   const std::size_t whole = has_room ? header.size + sizeof(TableTrailer) : size;
   const bool is_signed = bytes_of_table(memory, whole) < whole;
-  const Checked table = checked(memory, is_signed || !has_room ? whole : header.size);
+  const Checked table = checked(memory, is_signed || !has_room ? whole : header.size, index);
   if (table.refused != Reply::ok) {
     node_.refuse_start(table.refused);
   } else if (node_.start_with(TableStore::kFixed, table.table, table.opened) == Result::ok) {

@@ -29,7 +29,7 @@ class SlcanNode {
 
   /// Takes the table at the beginning of fixed memory of `size` bytes (flash), or says on the bus
   /// why not. Once, before the first step.
-  void start_with(const void* memory, std::size_t size);
+  void start_with(const void* memory, std::size_t size, IndexMemory index = {});
 
   /// One look at the line, and a tick if one is due; `now` in ns. Several times a period.
   void step(std::int64_t now);
@@ -52,9 +52,10 @@ class SlcanNode {
     std::uint32_t counter = 0;
   };
 
-  Checked checked(const void* data, std::size_t size) const;
+  Checked checked(const void* data, std::size_t size, IndexMemory index) const;
   void has_in_use(std::uint32_t counter);
   void take_bytes(std::int64_t now);
+  void take_bytes(const std::uint8_t* bytes, std::size_t count, std::int64_t now);
   void on_setpoint(std::int64_t now);
   void tick(std::int64_t now);
   void exchange_tables();
@@ -80,6 +81,7 @@ class SlcanNode {
   std::atomic<Check> check_{Check::none};
   const void* unchecked_ = nullptr;
   std::size_t unchecked_size_ = 0;
+  IndexMemory unchecked_index_;
   Checked checked_;
 
   std::optional<AuthenticationKey> table_key_;

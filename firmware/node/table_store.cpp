@@ -85,15 +85,19 @@ bool TableStore::scrub() {
   if (active_ == kNone) {
     return true;
   }
-  std::array<unsigned char, kScrubBytes> piece{};
   const std::size_t size = std::min(kScrubBytes, scrub_size_ - scrub_place_);
-  std::copy_n(in_use_ + scrub_place_, size, piece.begin());
+  const unsigned char* const piece = in_use_ + scrub_place_;
   if (scrub_place_ <= kCrcPlace && kCrcPlace < scrub_place_ + size) {
     // The CRC was made with its own word zero.
-    std::fill_n(piece.begin() + (kCrcPlace - scrub_place_), sizeof(std::uint32_t),
-                static_cast<unsigned char>(0));
+    constexpr std::uint32_t kZero = 0;
+    const std::size_t before = kCrcPlace - scrub_place_;
+    const std::size_t behind = before + sizeof kZero;
+    scrub_crc_ = crc32(piece, before, scrub_crc_);
+    scrub_crc_ = crc32(&kZero, sizeof kZero, scrub_crc_);
+    scrub_crc_ = crc32(piece + behind, size - behind, scrub_crc_);
+  } else {
+    scrub_crc_ = crc32(piece, size, scrub_crc_);
   }
-  scrub_crc_ = crc32(piece.data(), size, scrub_crc_);
   scrub_place_ += size;
   if (scrub_place_ < scrub_size_) {
     return true;

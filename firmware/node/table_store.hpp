@@ -4,15 +4,26 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "flexcomp/table.hpp"
+#include "flexcomp/path_index.hpp"
 #include "messages/messages.hpp"
 
 namespace flexcomp {
+
+/// Memory for the index of one table (flexcomp/path_index.hpp), 4-byte aligned. A table whose index
+/// does not fit goes without: long programs then take long to be found.
+struct IndexMemory {
+  std::uint32_t* words = nullptr;
+  std::size_t capacity = 0;  ///< words
+
+  /// For who has opened a table: makes its index.
+  void index(Table* table) const { index_path(words, capacity * sizeof(std::uint32_t), table); }
+};
 
 /// Memory for one table, 4-byte aligned.
 struct TableSlot {
   std::uint32_t* words = nullptr;
   std::size_t capacity = 0;  ///< words
+  IndexMemory index{};
 };
 
 /// Two slots for tables: one in use, the other to receive the next, so that a transfer that fails
@@ -32,6 +43,8 @@ class TableStore {
 
   /// The bytes of the slot that receives, once a transfer is complete; null before.
   const void* received(std::size_t* size) const;
+  /// For the index of what was received.
+  IndexMemory index_of_received() const { return slots_[receiving_slot()].index; }
 
   /// Ends the check of what was received. If it is to be used its slot becomes the one in use, with
   /// a table of `size` bytes in it; with 0 it is not.

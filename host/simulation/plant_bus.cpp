@@ -133,6 +133,8 @@ class InnerBus : public PlantBus {
     node_->use_memory({slot_.data(), slot_.size()}, {});
     Table own;
     Table::open(slot_.data(), size, &own);
+    index_.resize(path_index_size(own) / sizeof(std::uint32_t));
+    index_path(index_.data(), path_index_size(own), &own);
     node_->start_with(0, own);
   }
 
@@ -182,6 +184,7 @@ class InnerBus : public PlantBus {
   std::int64_t ticks_ = 0;
   std::unique_ptr<Node> node_ = std::make_unique<Node>();
   std::vector<std::uint32_t> slot_;
+  std::vector<std::uint32_t> index_;
   CanLink link_;
   CanEncoder encoder_;
   CanDecoder decoder_;

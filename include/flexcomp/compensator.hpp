@@ -124,12 +124,12 @@ class Compensator {
   Result configure(const Config& config);
 
   /// Gives it a table, which must outlive its use. Between ticks, in any state: the correction
-  /// moves to the new table's within its limits. Cost: one look at every node. Returns ok, or
-  /// no_table, table_other_model or gain_too_high, with the table in use unchanged.
+  /// moves to the new table's within its limits. Cost: that of `locate`. Returns ok, or no_table,
+  /// table_other_model or gain_too_high, with the table in use unchanged.
   Result set_table(const Table& table);
 
-  /// Starts to correct. Returns ok, or no_table, or not_ready: not off, or fewer than `ready_ticks`
-  /// good inputs in a row.
+  /// Starts to correct. Cost: that of `locate`. Returns ok, or no_table, or not_ready: not off, or
+  /// fewer than `ready_ticks` good inputs in a row.
   Result arm();
 
   /// Fades out, then off. Does nothing when off or latched.

@@ -104,6 +104,8 @@ struct TableShape {
   std::uint16_t grid_nodes[kMaxGridAxes] = {};  ///< along each axis
 };
 
+struct IndexNode;
+
 /// A checked, read-only view of a table. Copying the view does not copy the table, which must
 /// outlive it.
 ///
@@ -142,6 +144,11 @@ class Table {
     return records_ + static_cast<std::size_t>(node) * shape_.record_size;
   }
 
+  /// Root of the index over a path's segments (flexcomp/path_index.hpp); null where it has none.
+  const IndexNode* index() const { return index_; }
+  /// `index` must be of this very table.
+  void use_index(const IndexNode* index) { index_ = index; }
+
   static constexpr std::uint32_t kMagic = 0x31544346;  ///< "FCT1"
   static constexpr std::uint32_t kWeight = 1;          ///< bit of the contents
   static constexpr std::uint32_t kStructure = 2;       ///< bit of the contents
@@ -149,13 +156,19 @@ class Table {
  private:
   const TableHeader* header_ = nullptr;
   const float* records_ = nullptr;
+  const IndexNode* index_ = nullptr;
   TableShape shape_;
 };
 
 /// Where in the chart the last lookup ended; keeps the next one short. Zero to begin with.
 struct TableCursor {
   std::uint32_t segment = 0;   ///< the path's, from 0
-  std::uint32_t searched = 0;  ///< segments looked at since the program was lost
+  std::uint32_t searched = 0;  ///< since the program was lost: segments looked at; with an index
+                               ///< the node where the search goes on, 0: at the root
+  std::uint32_t pending = 0;   ///< with an index: bit i is set if, i levels above that node, the
+                               ///< other half is still to be looked at
+  bool off_program = false;  ///< with an index: no segment holds the angles, so that the search is
+                             ///< for one that is near
 };
 
 /// Content of a table at one set of joint angles; base frame.
@@ -179,16 +192,19 @@ struct TableResponse {
   JointVector<Scalar, Joints> correction;  ///< rad, to add to the joint setpoint
 };
 
-/// Finds the segment of a path table nearest to `q`, by looking at all of them. For arming; not for
-/// the tick. Grid tables need no cursor and leave it as it is.
+/// Finds the segment of a path table that `q` is least outside, by looking at all of them. With an
+/// index (flexcomp/path_index.hpp) it finds one that `q` is on, if there is any, or one that `q` is
+/// at most twice as far outside as the nearest: in at most 20,000 instructions, after which
+/// look-ups go on. For arming; not for the tick. Grid tables need no cursor and leave it as it is.
 template <typename Scalar, int Joints>
 void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
 
 /// Reads the table at joint angles `q` (rad, finite). Constant time: a path table moves its cursor
-/// at most two segments a call, and where `q` has left the segment sideways (a program that runs
-/// back on itself and then turns off) looks at four more, further on each call, for one that it is
-/// on; a grid blends the 2^axes corners of one box. Outside the chart the nearest edge is used and
-/// `outside` says how far off `q` is; nothing is extrapolated.
+/// at most two segments a call, and where `q` has left the segment sideways (a jump; a program that
+/// runs back on itself and then turns off) looks at four more, further on each call, for one that
+/// it is on, or with an index goes on with a search as that of `locate`; a grid blends the 2^axes
+/// corners of one box. Outside the chart the nearest edge is used and `outside` says how far off
+/// `q` is; nothing is extrapolated.
 template <typename Scalar, int Joints>
 TableEntry<Scalar, Joints> look_up(const Table& table, const JointVector<Scalar, Joints>& q,
                                    TableCursor* cursor);

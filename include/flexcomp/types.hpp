@@ -5,6 +5,12 @@
 
 #include <Eigen/Core>
 
+// By itself Eigen aligns to the widest vector registers that a file is compiled for. Where the
+// library was compiled for others, numbers would be read from places where they do not lie.
+#if EIGEN_MAX_STATIC_ALIGN_BYTES != 16
+#error "Link flexcomp::core, or define EIGEN_MAX_STATIC_ALIGN_BYTES=16 in every file with Eigen"
+#endif
+
 /// The real-time core. No heap, exceptions, RTTI, locks or I/O.
 namespace flexcomp {
 

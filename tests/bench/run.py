@@ -9,7 +9,7 @@ import json
 import pathlib
 import sys
 
-from suite import machine, picture, programs, readme, result, topics
+from suite import comparison, machine, picture, programs, readme, result, topics
 
 
 def show(topic):
@@ -35,6 +35,15 @@ def summarise(measured):
         print(f"  not reached: {line}")
 
 
+def compare(measured):
+    written = comparison.figures_of(readme.FIGURES.read_text())
+    sentences = [f"  {name}: {sentence}" for name, topic in measured.items()
+                 for sentence in comparison.worse(written.get(name, {}), topic)]
+    print("\nWorse than written in tests/bench/README.md:" if sentences
+          else "\nNo count and no ratio with a goal is worse than written in tests/bench/README.md.")
+    print("\n".join(sentences), end="\n" if sentences else "")
+
+
 def main():
     arguments = argparse.ArgumentParser(usage=__doc__)
     arguments.add_argument("--only", action="append", choices=topics.NAMES, metavar="TOPIC")
@@ -57,6 +66,7 @@ def main():
         show(measured[name])
         picture.draw(measured[name], options.pictures / f"{name}.png")
     summarise(measured)
+    compare(measured)
     found = {"machine": machine.describe(), "topics": {name: topic.as_json() for name, topic in measured.items()}}
     if options.json:
         options.json.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n")

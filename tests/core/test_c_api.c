@@ -119,6 +119,37 @@ static void a_table_whose_springs_are_not_the_models_is_found_out(void) {
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_check_model(&table, NULL));
 }
 
+static void a_compensator_uses_a_table_with_its_index(void) {
+  static uint32_t index[64];
+  const flexcomp_model_t model = two_arms();
+  const size_t size = build_table(&model);
+  flexcomp_table_t table;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_open(memory, size, &table));
+  const size_t wanted = flexcomp_table_index_size(&table);
+  TEST_ASSERT_TRUE(wanted > 0 && wanted <= sizeof index);
+  TEST_ASSERT_EQUAL(FLEXCOMP_BUFFER_TOO_SMALL, flexcomp_table_index(&table, index, wanted - 1));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_index(&table, NULL, wanted));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_index(NULL, index, wanted));
+  TEST_ASSERT_NULL(table.index);
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_index(&table, index, wanted));
+  TEST_ASSERT_EQUAL_PTR(index, table.index);
+  flexcomp_table_t none = {0};
+  TEST_ASSERT_EQUAL(0, flexcomp_table_index_size(&none));
+  TEST_ASSERT_EQUAL(0, flexcomp_table_index_size(NULL));
+  TEST_ASSERT_EQUAL(FLEXCOMP_NO_TABLE, flexcomp_table_index(&none, index, wanted));
+
+  flexcomp_compensator_t compensator;
+  const flexcomp_config_t config = good_config(&model);
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_init(&compensator, &config));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_set_table(&compensator, &table));
+  const flexcomp_input_t input = {{0, 0, 0.5f, 0.1f, 0.4f, 0}, 0, {0, 0, 500, 0, 0, 0}, 0, false};
+  flexcomp_output_t output;
+  flexcomp_compensator_tick(&compensator, &input, &output);
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_arm(&compensator));
+  flexcomp_compensator_tick(&compensator, &input, &output);
+  TEST_ASSERT_EQUAL_HEX32(0, output.status & FLEXCOMP_FAULT_BITS);
+}
+
 static void a_grid_table_can_be_built_too(void) {
   const flexcomp_model_t model = two_arms();
   const float lower[4] = {0, 0.5f, 0, 0.4f};
@@ -177,7 +208,7 @@ static void null_pointers_are_refused(void) {
   const flexcomp_table_requirements_t wanted = {1000, 10, 1e-5f, 1e-5f, 0};
   const float six[6] = {0};
   flexcomp_compensator_t compensator;
-  flexcomp_table_t table = {NULL, NULL};
+  flexcomp_table_t table = {0};
   flexcomp_table_info_t info;
   flexcomp_input_t input = {{0}, 0, {0}, 0, false};
   flexcomp_output_t output;
@@ -246,6 +277,7 @@ int main(void) {
   RUN_TEST(deflection_follows_from_the_levers);
   RUN_TEST(a_table_says_what_it_is);
   RUN_TEST(a_table_whose_springs_are_not_the_models_is_found_out);
+  RUN_TEST(a_compensator_uses_a_table_with_its_index);
   RUN_TEST(a_grid_table_can_be_built_too);
   RUN_TEST(a_loop_corrects_fades_and_resets);
   RUN_TEST(null_pointers_are_refused);

@@ -1,13 +1,15 @@
 // Any bytes as a table: opened, and if that works looked up at any joint angles, with any wrench.
 //
 // Input: flags (1 byte: 1 the size is set to fit, 2 the CRC too, 4 the table lies at an odd
-// address), then the table; its last 28 bytes serve as joint angles and force too.
+// address, 8 it gets an index, 16 that is damaged), then the table; its last 28 bytes serve as
+// joint angles and force too.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "byte_source.hpp"
 #include "core/crc32.hpp"
-#include "flexcomp/table.hpp"
+#include "flexcomp/path_index.hpp"
 
 using namespace flexcomp;
 using flexcomp::fuzz::ByteSource;
@@ -64,6 +66,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   Table table;
   if (Table::open(place, table_size, &table) == Result::ok) {
+    std::vector<std::uint32_t> index((flags & 8U) != 0 ? path_index_size(table) / 4 : 0);
+    if (index_path(index.data(), 4 * index.size(), &table) == Result::ok && (flags & 16U) != 0) {
+      std::rotate(index.begin(), index.begin() + static_cast<std::ptrdiff_t>(index.size() / 3),
+                  index.end());
+    }
     const std::size_t seen = std::min<std::size_t>(table_size, 196);
     look_around<float>(table, ByteSource(place + table_size - seen, seen));
     look_around<double>(table, ByteSource(place + table_size - seen, seen));

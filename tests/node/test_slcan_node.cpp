@@ -30,8 +30,9 @@ class SerialBench {
  public:
   explicit SerialBench(const NodeSettings& settings)
       : slots(1 << 14),
-        node(settings, &received, &to_send, {slots.data(), slots.size() / 2},
-             {slots.data() + slots.size() / 2, slots.size() / 2}) {
+        indices(1 << 11),
+        node(settings, &received, &to_send, {slots.data(), slots.size() / 2, half_of_indices(0)},
+             {slots.data() + slots.size() / 2, slots.size() / 2, half_of_indices(1)}) {
     Table table;
     TEST_ASSERT_EQUAL(Result::ok,
                       Table::open(usual_table().data(), 4 * usual_table().size(), &table));
@@ -87,8 +88,12 @@ class SerialBench {
   }
 
   Node* inner() { return node.node(); }
+  IndexMemory half_of_indices(std::size_t half) {
+    return {indices.data() + half * indices.size() / 2, indices.size() / 2};
+  }
 
   std::vector<std::uint32_t> slots;
+  std::vector<std::uint32_t> indices;
   SlcanNode::Bytes received;
   SlcanNode::Bytes to_send;
   SlcanNode node;
@@ -265,6 +270,35 @@ void a_table_that_comes_over_the_line_is_checked_by_the_main_program_and_used() 
   TEST_ASSERT_EQUAL(1, bench.heartbeat.slot);
 }
 
+bool is_used(const IndexMemory& memory) {
+  return std::any_of(memory.words, memory.words + memory.capacity,
+                     [](std::uint32_t word) { return word != 0; });
+}
+
+void tables_get_an_index_in_the_memory_of_their_slot() {
+  SerialBench bench(settings(Trigger::setpoint));
+  bench.machine(20);
+  for (const std::size_t slot : {0, 1}) {
+    TEST_ASSERT_FALSE(is_used(bench.half_of_indices(slot)));
+    TEST_ASSERT_EQUAL(0, transfer(&bench, test::loop_table(test::kr270<float>())));
+    TEST_ASSERT_EQUAL(slot + 1, bench.heartbeat.slot);
+    TEST_ASSERT_TRUE(is_used(bench.half_of_indices(slot)));
+  }
+}
+
+void the_table_in_flash_gets_one_too_and_none_does_without() {
+  SlcanNode::Bytes received;
+  SlcanNode::Bytes to_send;
+  Words index(1 << 10);
+  const IndexMemory memory = {index.data(), index.size()};
+  SlcanNode node(settings(Trigger::setpoint), &received, &to_send, {}, {});
+  const Words table = test::loop_table(test::kr270<float>());
+  node.start_with(table.data(), 4 * table.size(), {index.data(), 1});
+  TEST_ASSERT_FALSE(is_used(memory));
+  node.start_with(table.data(), 4 * table.size(), memory);
+  TEST_ASSERT_TRUE(is_used(memory));
+}
+
 constexpr AuthenticationKey kKey = {1, 2, 3};
 
 NodeSettings settings_with_key() {
@@ -400,6 +434,8 @@ int main() {
   RUN_TEST(spoilt_text_counts_and_makes_it_fade_out_and_latch);
   RUN_TEST(a_line_that_takes_nothing_is_a_bus_fault_that_ends);
   RUN_TEST(a_table_that_comes_over_the_line_is_checked_by_the_main_program_and_used);
+  RUN_TEST(tables_get_an_index_in_the_memory_of_their_slot);
+  RUN_TEST(the_table_in_flash_gets_one_too_and_none_does_without);
   RUN_TEST(with_a_key_only_signed_tables_are_taken);
   RUN_TEST(with_a_key_no_table_is_taken_that_is_older_than_one_that_has_run);
   RUN_TEST(the_table_in_flash_is_judged_like_any_other);

@@ -58,6 +58,16 @@ class InstalledPackage(unittest.TestCase):
         run(os.environ["FLEXCOMP_C"], "-std=c11", PROJECT / "controller_loop.c", *flags, "-o", program)
         self.assertRegex(run(program), r"^active: TCP would be off by ")
 
+    def test_pkg_config_serves_a_cpp_compiler_for_whatever_processor(self):
+        (package,) = self.prefix.rglob("flexcomp.pc")
+        environment = {**os.environ, "PKG_CONFIG_PATH": f"{package.parent}:{os.environ.get('PKG_CONFIG_PATH', '')}"}
+        flags = subprocess.run(["pkg-config", "--cflags", "--libs", "flexcomp", "eigen3"], check=True, text=True,
+                               capture_output=True, env=environment).stdout.split()
+        program = self.folder / "deflection_at_a_posture"
+        run(os.environ["FLEXCOMP_CXX"], "-std=c++17", "-march=native", PROJECT / "deflection_at_a_posture.cpp", *flags,
+            "-o", program)
+        self.assertEqual(run(program), "1.000 mm\n")
+
     def test_a_table_made_on_a_pc_lies_in_the_memory_of_a_program_in_c(self):
         part = GUIDE.read_text().split("## Your robot and your table\n")[1].split("\n## ")[0]
         commands = "\n".join(re.findall(r"^    (.*)$", re.sub(r"```c\n.*?```", "", part, flags=re.DOTALL), re.MULTILINE))

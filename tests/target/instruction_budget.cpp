@@ -5,6 +5,8 @@
 #include <random>
 
 #include "core/arc_arms.hpp"
+#include "core/long_program.hpp"
+#include "flexcomp/path_index.hpp"
 #include "node/node_on_a_bus.hpp"
 #include "node/slcan_node.hpp"
 #include "target/instruction_counter.hpp"
@@ -91,6 +93,47 @@ void count_table(const InstructionCounter& counter, const char* name,
     counts.add_hostile(count(q));
   }
   counts.print(name);
+}
+
+/// A program of 20,000 nodes: a look-up on it, one that has lost it by a jump, and arming after
+/// that.
+void count_long_program(const InstructionCounter& counter) {
+  constexpr int kJumps = 1000;
+  const test::Raster raster = {1000, 20};
+  const std::vector<std::uint32_t> words = test::raster_table(raster);
+  Table table;
+  TEST_ASSERT_EQUAL(Result::ok, Table::reopen(words.data(), 4 * words.size(), &table));
+  std::vector<std::uint32_t> index(path_index_size(table) / 4);
+  TEST_ASSERT_EQUAL(Result::ok, index_path(index.data(), 4 * index.size(), &table));
+  const Wrench<float> wrench = ordinary_wrench();
+  std::mt19937 random(5);
+  const auto anywhere = [&] {
+    const auto node = static_cast<int>(random() % static_cast<unsigned>(raster.nodes() - 1));
+    return raster.between(node, static_cast<float>(random() % 100) / 100.0F);
+  };
+  TableCursor cursor;
+  float outside = 0;
+  TableResponse<float, 6> response;
+  const auto look_up = [&](const JointVector<float, 6>& q) {
+    return counter.count(
+        [&] { response = look_up_response<float, 6>(table, q, wrench, &cursor, &outside); });
+  };
+  Counts jumps;
+  Counts arming;
+  for (int i = 0; i < kJumps; ++i) {
+    const JointVector<float, 6> q = anywhere();
+    TableCursor armed = cursor;
+    arming.add_ordinary(counter.count([&] { locate<float, 6>(table, q, &armed); }));
+    jumps.add_ordinary(look_up(q));
+    for (int more = 0; more < 10 && outside > 0; ++more) {
+      jumps.add_hostile(look_up(q));
+    }
+    JointVector<float, 6> off = q;
+    off[static_cast<Eigen::Index>(random() % 6)] += 0.01F;
+    arming.add_hostile(counter.count([&] { locate<float, 6>(table, off, &armed); }));
+  }
+  jumps.print("long_program_jump");
+  arming.print("long_program_arming");
 }
 
 void count_direct_evaluation(const InstructionCounter& counter) {
@@ -367,6 +410,7 @@ int main() {
   const std::vector<std::uint32_t> grid = grid_table();
   count_table(counter, "path_lookup_and_deflection", test::usual_table());
   count_table(counter, "grid_lookup_and_deflection", grid);
+  count_long_program(counter);
   count_direct_evaluation(counter);
   count_limits(counter);
   count_compensator(counter, "compensator_path_table", test::usual_table());

@@ -14,7 +14,7 @@ BIN = pathlib.Path(os.environ["FLEXCOMP_BIN"])
 REPORT = BIN.parent / "instruction_budget.txt"
 GROWTH = 1.05
 LEAST = 0.8  # below it the counter is not to be trusted, or the baseline is old
-LIMITS = {"text": 56 * 1024, "stack_reserved": 8 * 1024}  # bytes
+LIMITS = {"text": 68 * 1024, "stack_reserved": 8 * 1024}  # bytes
 
 
 def instructions():

@@ -5,6 +5,7 @@ from .programs import SOURCE, Failed
 
 BEGIN = "<!-- written by tools/bench --update-readme: {} -->"
 END = "<!-- end of {} -->"
+FIGURES = SOURCE / "tests" / "bench" / "README.md"
 
 
 def _replace(path, name, lines):
@@ -28,7 +29,7 @@ def _speed(measured):
             "([all figures](tests/bench/README.md), `tools/bench --only tick`)."]
 
 
-def _all_figures(machine, measured):
+def lines_of_figures(machine, measured):
     lines = [f"{machine['processor']}, {machine['cores']} cores; {machine['compiler']}; {machine['flexcomp']}."]
     for name, topic in measured.items():
         lines += ["", f"### {topic.title}", "", f"`tools/bench --only {name}`", "", "| | |", "|---|---|"]
@@ -43,4 +44,4 @@ def _all_figures(machine, measured):
 
 def update(machine, measured):
     _replace(SOURCE / "README.md", "speed", _speed(measured))
-    _replace(SOURCE / "tests" / "bench" / "README.md", "figures", _all_figures(machine, measured))
+    _replace(FIGURES, "figures", lines_of_figures(machine, measured))
