@@ -1,5 +1,6 @@
 """Messages by flexcomp.dbc: cantools packs and unpacks the frames, crccheck protects them."""
 
+import math
 import pathlib
 
 import can
@@ -31,7 +32,25 @@ def decode(frame):
         signals = message.decode(bytes(frame.data), decode_choices=False)
     except (KeyError, cantools.database.errors.DecodeError):
         return None
-    return (message.name, signals) if signals["crc"] == checksum(message, frame.data) else None
+    if signals["crc"] != checksum(message, frame.data):
+        return None
+    return message.name, {signal.name: _value(signal, signals[signal.name]) for signal in message.signals}
+
+
+def _is_scaled(signal):
+    """Signed, in steps: its most negative raw value means "not available"."""
+    return signal.is_signed and not signal.is_float and signal.scale != 1
+
+
+def _value(signal, value):
+    return math.nan if _is_scaled(signal) and value < signal.minimum else value
+
+
+def _sent(signal, value):
+    """A value that is not finite or does not fit never wraps around: it becomes "not available"."""
+    if _is_scaled(signal) and not signal.minimum <= value <= signal.maximum:
+        return -signal.scale * 2 ** (signal.length - 1)
+    return value
 
 
 class Sender:
@@ -69,9 +88,9 @@ class Sender:
         return [self._frame(DATABASE.get_message_by_name(name), counter, signals) for name in names]
 
     def _frame(self, message, counter, signals):
-        values = {signal.name: signals.get(signal.name, 0) for signal in message.signals}
+        values = {signal.name: _sent(signal, signals.get(signal.name, 0)) for signal in message.signals}
         values["counter"] = counter % (256 if message.is_fd else 16)
-        payload = message.encode(values | {"crc": 0})
-        payload = message.encode(values | {"crc": checksum(message, payload)})
+        payload = message.encode(values | {"crc": 0}, strict=False)
+        payload = message.encode(values | {"crc": checksum(message, payload)}, strict=False)
         return can.Message(arbitration_id=message.frame_id, data=payload, is_extended_id=False,
                            is_fd=message.is_fd, bitrate_switch=message.is_fd)
