@@ -10,7 +10,7 @@
 ///
 ///     at start
 ///       flexcomp_client_init
-///     every 0.2 s or so, beginning at once
+///     in the first ten periods, then every 0.2 s or so
 ///       flexcomp_client_identity    a compensator that starts anew must hear whose robot this is
 ///     every period
 ///       flexcomp_client_wrench      only where the controller has the sensor; before the setpoint

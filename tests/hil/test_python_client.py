@@ -5,6 +5,7 @@ import csv
 import os
 import pathlib
 import random
+import statistics
 import sys
 import unittest
 
@@ -82,13 +83,17 @@ class PythonClient(HilTest):
 
     def test_its_circle_is_as_round_as_the_built_in_plants(self):
         before, _ = mill(self.job, self.folder / "without.csv", "--table", self.job.table, "--without-compensation")
+        # The same frames as on a wire; each time with other noise of the sensor.
+        built_in = [mill(self.job, self.folder / "plant.csv", "--table", self.job.table, "--seed", seed)[0]
+                    for seed in range(1, 7)]
+        mean, deviation = statistics.mean(built_in), statistics.stdev(built_in)
         with self.node() as node:
-            built_in, _ = mill(self.job, self.folder / "plant.csv", "--bus", f"can:{BUS}", "--lockstep")
             mine = self.mill(self.client())
             self.assertEqual(0, node.stop())
-        print(f"{1e6 * before:.1f} µm without, {1e6 * built_in:.2f} µm by flexcomp plant, {1e6 * mine:.2f} µm in Python")
+        print(f"{1e6 * before:.1f} µm without, {1e6 * mean:.2f} ± {1e6 * deviation:.2f} µm by flexcomp plant, "
+              f"{1e6 * mine:.2f} µm in Python")
         self.assertLessEqual(mine / before, LARGEST_SHARE)
-        self.assertLess(abs(mine - built_in), 0.2 * built_in)
+        self.assertLess(abs(mine - mean), 4 * deviation)
 
     def test_over_fd_it_is_as_round(self):
         before, _ = mill(self.job, self.folder / "without.csv", "--table", self.job.table, "--without-compensation")

@@ -13,7 +13,9 @@ COMMANDS = {"arm": 1, "disarm": 2, "reset": 3, "report": 4}
 NOT_READY = 15  # a reply: too few good cycles yet
 _ANSWER = ("CorrectedA", "CorrectedB", "CorrectedC", "UncorrectedA", "UncorrectedB", "UncorrectedC", "Status")
 _IDENTITY_EVERY = 0.2  # s
-_PATIENCE = 2.0  # s, for an answer in lock-step
+_IDENTITIES_AT_ONCE = 10  # a client that starts anew is not heard at first: its counters do not go on
+_PATIENCE = 2.0  # s, for an answer in lock-step; for the first one less, as first setpoints are not heard
+_PATIENCE_AT_FIRST = 0.05
 _GOOD_CYCLES = 20  # before it is asked to arm
 _REPLY_WITHIN = 100  # cycles
 _ATTEMPTS = 5
@@ -103,7 +105,8 @@ class Client:
         self._set = {}
         self._last_counter = None
         self._latest = {}
-        self._named_at = -_IDENTITY_EVERY
+        self._cycles = 0
+        self._named_at = 0.0
         self._next = time.monotonic()
 
     def __enter__(self):
@@ -125,7 +128,8 @@ class Client:
         """One period: sends the wrench on the tool at the TCP (N, N·m; base frame; nothing where another
         sends it), then the setpoint (rad), and takes what comes."""
         now = time.monotonic()
-        if now - self._named_at >= _IDENTITY_EVERY:
+        self._cycles += 1
+        if self._cycles <= _IDENTITIES_AT_ONCE or now - self._named_at >= _IDENTITY_EVERY:
             self._named_at = now
             self._send(self._sender.identity(self.model_hash))
         microseconds = int(1e6 * now) % 2**32
@@ -133,7 +137,8 @@ class Client:
             self._send(self._sender.wrench(wrench, saturated, microseconds))
         self._send(self._sender.setpoint(setpoint, microseconds))
         self._next = max(self._next + self.period, now)
-        answered = self._exchange(now + _PATIENCE if self.lockstep else self._next)
+        patience = _PATIENCE if self._latest else _PATIENCE_AT_FIRST
+        answered = self._exchange(now + patience if self.lockstep else self._next)
         self.lost_cycles += not answered
         drives = tuple(float(q) + c for q, c in zip(setpoint, self._follower.end_period()))
         return Answer(drives, answered, **self._latest)
