@@ -90,7 +90,7 @@ flexcomp_result_t give(flexcomp_client_t* client, const flexcomp::Message& messa
 
 /// Copies what a client has kept of one kind.
 template <typename Kind>
-flexcomp_result_t give(const flexcomp_client_t* client, Kind Client::* kept, Kind* to) {
+flexcomp_result_t give(const flexcomp_client_t* client, Kind Client::*kept, Kind* to) {
   if (client == nullptr || to == nullptr) {
     return FLEXCOMP_BAD_ARGUMENT;
   }
@@ -104,8 +104,7 @@ flexcomp_client_event_t Client::take(const flexcomp::CorrectedMessage& corrected
   answer.status = corrected.status;
   answer.node_status = corrected.node_status;
   answer.state = static_cast<flexcomp_state_t>(corrected.state);
-  const bool off =
-      answer.state == FLEXCOMP_STATE_OFF || answer.state == FLEXCOMP_STATE_LATCHED;
+  const bool off = answer.state == FLEXCOMP_STATE_OFF || answer.state == FLEXCOMP_STATE_LATCHED;
   follower.take(Angles(answer.corrected) - Angles(answer.uncorrected), off);
   return FLEXCOMP_CLIENT_ANSWER;
 }

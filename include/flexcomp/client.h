@@ -73,7 +73,7 @@ bool flexcomp_follower_is_lost(const flexcomp_follower_t* follower);
 
 /// A CAN frame with an identifier of 11 bits.
 typedef struct flexcomp_can_frame {
-  uint32_t id;
+  uint32_t id;       ///< identifier
   uint8_t size;      ///< bytes of data: 8 or fewer, FD up to 64
   bool fd;           ///< an FD frame; to be sent with the faster bit rate where there is one
   uint8_t data[64];  ///< `size` of them
@@ -81,15 +81,15 @@ typedef struct flexcomp_can_frame {
 
 /// The frames of one message, to be sent in their order.
 typedef struct flexcomp_frames {
-  size_t count;
-  flexcomp_can_frame_t frame[3];
+  size_t count;                   ///< 1 to 3
+  flexcomp_can_frame_t frame[3];  ///< `count` of them
 } flexcomp_frames_t;
 
 /// What a client is made with.
 typedef struct flexcomp_client_config {
   bool fd;              ///< send FD frames where a message has one; both kinds are understood
   uint64_t model_hash;  ///< fingerprint of the robot, as in node.toml (flexcomp configure)
-  flexcomp_follower_config_t follower;
+  flexcomp_follower_config_t follower;  ///< what to do where answers cease
 } flexcomp_client_config_t;
 
 /// Bytes of a client.
@@ -99,7 +99,7 @@ typedef struct flexcomp_client {
 #ifdef __cplusplus
   alignas(64) unsigned char bytes[FLEXCOMP_CLIENT_BYTES];  ///< opaque
 #else
-  _Alignas(64) unsigned char bytes[FLEXCOMP_CLIENT_BYTES];  ///< opaque
+  _Alignas(64) unsigned char bytes[FLEXCOMP_CLIENT_BYTES];    ///< opaque
 #endif
 } flexcomp_client_t;
 
@@ -125,13 +125,14 @@ flexcomp_result_t flexcomp_client_setpoint(flexcomp_client_t* client,
 
 /// What a compensator can be told. Stable numbers.
 typedef enum flexcomp_command {
+  FLEXCOMP_COMMAND_NONE = 0,
   FLEXCOMP_COMMAND_ARM = 1,
   FLEXCOMP_COMMAND_DISARM = 2,
   FLEXCOMP_COMMAND_RESET = 3,
   FLEXCOMP_COMMAND_REPORT = 4  ///< send the statistics
 } flexcomp_command_t;
 
-/// Makes the message of a command. FLEXCOMP_OK, or BAD_ARGUMENT also for another command.
+/// Makes the message of a command. FLEXCOMP_OK, or BAD_ARGUMENT also for none or another.
 flexcomp_result_t flexcomp_client_command(flexcomp_client_t* client, flexcomp_command_t command,
                                           flexcomp_frames_t* frames);
 
@@ -155,7 +156,7 @@ typedef struct flexcomp_answer {
   double uncorrected[FLEXCOMP_JOINTS];  ///< rad, the setpoint that it answers
   uint32_t status;                      ///< bits as in flexcomp.h
   uint16_t node_status;                 ///< bits of the node: firmware/README.md, Faults
-  flexcomp_state_t state;
+  flexcomp_state_t state;               ///< after the tick
 } flexcomp_answer_t;
 
 /// The last answer; zero before the first. FLEXCOMP_OK or BAD_ARGUMENT.
@@ -164,9 +165,9 @@ flexcomp_result_t flexcomp_client_answer(const flexcomp_client_t* client,
 
 /// Reply to a command.
 typedef struct flexcomp_command_reply {
-  flexcomp_command_t command;
-  uint8_t reply;        ///< 0: done; else flexcomp_describe_reply says why not
-  double largest_gain;  ///< of the table in use or refused
+  flexcomp_command_t command;  ///< that it replies to
+  uint8_t reply;               ///< 0: done; else flexcomp_describe_reply says why not
+  double largest_gain;         ///< of the table in use or refused
 } flexcomp_command_reply_t;
 
 /// The last reply; zero before the first. FLEXCOMP_OK or BAD_ARGUMENT.
@@ -175,9 +176,9 @@ flexcomp_result_t flexcomp_client_reply(const flexcomp_client_t* client,
 
 /// A fault that began or ended, or another event.
 typedef struct flexcomp_fault {
-  uint16_t code;  ///< firmware/README.md, Faults
-  bool active;    ///< it began, or it ended
-  uint32_t detail;
+  uint16_t code;    ///< firmware/README.md, Faults
+  bool active;      ///< it began, or it ended
+  uint32_t detail;  ///< depends on the code
 } flexcomp_fault_t;
 
 /// The last fault; zero before the first. FLEXCOMP_OK or BAD_ARGUMENT.
