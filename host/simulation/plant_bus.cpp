@@ -69,6 +69,16 @@ class CanBus : public PlantBus {
     }
   }
 
+  BusCounts counts() const override {
+    BusCounts counts;
+    for (std::size_t group = 0; group < kFrameGroups; ++group) {
+      const StreamCounters& of = decoder_.monitor(static_cast<FrameGroup>(group)).counters;
+      counts.lost += of.lost;
+      counts.damaged += std::uint64_t{of.corrupt} + of.incomplete;
+    }
+    return counts;
+  }
+
  private:
   /// The message that this frame completes, if it may be used.
   Message decode(const CanFrame& frame) {
@@ -92,7 +102,13 @@ class CanBus : public PlantBus {
 class LcmBus : public PlantBus {
  public:
   explicit LcmBus(const std::string& url)
-      : link_(url, [this](const LcmMessage& message) { received_.push_back(message.message); }) {}
+      : link_(url, [this](const LcmMessage& message) {
+          monitors_[message.message.index()].accept(static_cast<std::uint32_t>(message.sequence), 0,
+                                                    monotonic_now());
+          received_.push_back(message.message);
+        }) {
+    monitors_.fill(SequenceMonitor(kLcmCounter));
+  }
 
   void send(const Message& message) override { link_.publish(message); }
 
@@ -111,8 +127,19 @@ class LcmBus : public PlantBus {
     return true;
   }
 
+  BusCounts counts() const override {
+    BusCounts counts;
+    for (const SequenceMonitor& monitor : monitors_) {
+      counts.lost += monitor.counters.lost;
+    }
+    return counts;
+  }
+
  private:
+  static constexpr std::uint32_t kLcmCounter = 256;  // of the 64 bits, so many suffice to see gaps
+
   std::deque<Message> received_;
+  std::array<SequenceMonitor, std::variant_size_v<Message>> monitors_;
   LcmLink link_;
 };
 

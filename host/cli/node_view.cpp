@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/node_bus.hpp"
+#include "cli/robot_choice.hpp"
+#include "error.hpp"
+#include "linux/clock.hpp"
+#include "model/robot.hpp"
+#include "monitor/view.hpp"
+#include "node/statistics.hpp"
+#include "recording/bus_rows.hpp"
+
+namespace flexcomp::cli {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;  // ns
+constexpr std::int64_t kViewEvery = kSecond / 10;
+constexpr std::int64_t kLineEvery = kSecond;       // where standard output is no terminal
+constexpr std::int64_t kStatusTime = kSecond / 2;  // after the first sign of it
+constexpr auto kLastStatistic = static_cast<std::uint8_t>(
+    static_cast<std::size_t>(StatisticName::latency) + LatencyHistogram::kBins - 1);
+
+struct ViewOptions {
+  NodeAddress address;
+  RobotChoice model;
+  std::string record;
+  double seconds = 0;
+  bool json = false;
+};
+
+/// Set by Ctrl-C and SIGTERM: the monitor ends as if its time were over, and a recording is whole.
+std::atomic<bool> is_over{false};
+
+void end_the_view(int /*signal*/) { is_over = true; }
+
+/// Takes what the bus brings: for the view, and for a recording if one is wanted.
+class Listener {
+ public:
+  explicit Listener(const ViewOptions& options)
+      : options_(options),
+        bus_(options.address.open()),
+        node_(monotonic_now(), model_of(options.model)) {}
+
+  /// Listens until `until` (ns) or until the view is over.
+  void listen(std::int64_t until) {
+    Message message;
+    for (std::int64_t left = until - monotonic_now(); left > 0 && !is_over;
+         left = until - monotonic_now()) {
+      if (bus_->receive(&message, left)) {
+        const std::int64_t now = monotonic_now();
+        node_.take(message, now);
+        record(message, now);
+      }
+    }
+  }
+
+  void send(const Message& message) { bus_->send(message); }
+
+  monitor::Snapshot snapshot() const {
+    monitor::Snapshot snapshot = node_.snapshot(monotonic_now());
+    const simulation::BusCounts counts = bus_->counts();
+    snapshot.lost_messages = counts.lost;
+    snapshot.damaged_messages = counts.damaged;
+    return snapshot;
+  }
+
+  /// Writes the recording, if one is wanted.
+  void write() const {
+    if (!options_.record.empty()) {
+      recording::write_recording(options_.record, rows_.finish(options_.record));
+    }
+  }
+
+ private:
+  static std::optional<RobotModel<double, 6>> model_of(const RobotChoice& choice) {
+    return choice.empty() ? std::nullopt : std::optional(model::six_axis_model(load_robot(choice)));
+  }
+
+  void record(const Message& message, std::int64_t now) {
+    if (options_.record.empty()) {
+      return;
+    }
+    rows_.take(message);
+    const auto* setpoint = std::get_if<SetpointMessage>(&message);
+    if (setpoint != nullptr && rows_.is_after_last(now)) {
+      rows_.end_row(now, setpoint->q);
+    }
+  }
+
+  const ViewOptions& options_;
+  std::unique_ptr<simulation::PlantBus> bus_;
+  monitor::LiveNode node_;
+  recording::BusRows rows_;
+};
+
+/// Clears a terminal for the view and gives it back as it was, with the last view in it.
+class Screen {
+ public:
+  explicit Screen(bool json) : is_terminal_(!json && ::isatty(STDOUT_FILENO) == 1), json_(json) {
+    if (is_terminal_) {
+      fmt::print("\033[2J\033[?25l");
+    }
+  }
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+  ~Screen() {
+    if (is_terminal_) {
+      fmt::print("\033[?25h");
+      std::fflush(stdout);
+    }
+  }
+
+  std::int64_t period() const { return json_ || is_terminal_ ? kViewEvery : kLineEvery; }
+
+  void show(const monitor::Snapshot& snapshot) const {
+    if (json_) {
+      fmt::print("{}\n", monitor::to_json(snapshot).dump());
+    } else if (is_terminal_) {
+      show_on_terminal(monitor::view(snapshot));
+    } else {
+      fmt::print("{}\n", monitor::view(snapshot));
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  /// Over the view before, each line cleared to its end: nothing flickers.
+  static void show_on_terminal(const std::string& view) {
+    std::string text = "\033[H";
+    for (const char c : view) {
+      text += c == '\n' ? "\033[K\n" : std::string(1, c);
+    }
+    fmt::print("{}\033[J", text);
+  }
+
+  bool is_terminal_;
+  bool json_;
+};
+
+int status(const ViewOptions& options) {
+  Listener listener(options);
+  const std::int64_t patience = monotonic_now() + kSecond;
+  listener.listen(monotonic_now() + kStatusTime);
+  while (!listener.snapshot().heartbeat && monotonic_now() < patience) {
+    listener.listen(std::min(patience, monotonic_now() + kViewEvery));
+  }
+  if (!listener.snapshot().is_heard) {
+    throw InputError(options.address.bus + ": nobody answers");
+  }
+  listener.send(CommandMessage{Command::report});
+  const std::int64_t until = monotonic_now() + kSecond;
+  while (listener.snapshot().statistics.count(kLastStatistic) == 0 && monotonic_now() < until) {
+    listener.listen(std::min(until, monotonic_now() + kViewEvery));
+  }
+  const monitor::Snapshot snapshot = listener.snapshot();
+  if (options.json) {
+    fmt::print("{}\n", monitor::to_json(snapshot).dump(2));
+  } else {
+    fmt::print("{}", monitor::view(snapshot));
+  }
+  return snapshot.faults.empty() && snapshot.latched.empty() ? kDone : kDoesNotHold;
+}
+
+int watch(const ViewOptions& options) {
+  Listener listener(options);
+  std::signal(SIGINT, end_the_view);
+  std::signal(SIGTERM, end_the_view);
+  const std::int64_t began = monotonic_now();
+  const auto until = options.seconds > 0 ? began + static_cast<std::int64_t>(1e9 * options.seconds)
+                                         : std::numeric_limits<std::int64_t>::max();
+  {
+    const Screen screen(options.json);
+    for (std::int64_t next = began; !is_over && monotonic_now() < until;) {
+      next = std::max(next + screen.period(), monotonic_now());
+      listener.listen(std::min(next, until));
+      screen.show(listener.snapshot());
+    }
+  }
+  listener.write();
+  return kDone;
+}
+
+}  // namespace
+
+void add_node_views(CLI::App* node, Action* action) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* one = node->add_subcommand(
+      "status",
+      "How it is: state, faults in words, corrections, latency, what was lost. Asks it for its\n"
+      "statistics. Exit code 1 while there is a fault or it is latched.");
+  CLI::App* live = node->add_subcommand(
+      "monitor",
+      "The same ten times a second, until Ctrl-C. Only listens: it sends nothing. Where standard\n"
+      "output is no terminal, once a second.\n"
+      "Example: flexcomp node monitor --bus can:can0 --record run.csv");
+  for (CLI::App* command : {one, live}) {
+    add_bus(command, &options->address);
+    add_robot(command, &options->model)
+        ->description("robot.yaml, for the deflection that the wrench on the bus makes");
+    command->add_flag("--json", options->json, "print JSON; the monitor an object a line");
+  }
+  live->add_option("--record", options->record,
+                   "recording to write at the end: a row a setpoint, with what else the bus says");
+  live->add_option("--seconds", options->seconds, "s, after which it ends; 0: at Ctrl-C")
+      ->check(CLI::NonNegativeNumber);
+  one->callback([=] { *action = [=] { return status(*options); }; });
+  live->callback([=] { *action = [=] { return watch(*options); }; });
+}
+
+}  // namespace flexcomp::cli
