@@ -43,9 +43,9 @@ bool is_finite(const std::array<double, 6>& values) {
 
 void LiveNode::take(const Message& message, std::int64_t now) {
   if (const auto* setpoint = std::get_if<SetpointMessage>(&message)) {
-    take(*setpoint, now);
+    take_setpoint(*setpoint, now);
   } else if (const auto* corrected = std::get_if<CorrectedMessage>(&message)) {
-    take(*corrected, now);
+    take_answer(*corrected, now);
   } else if (const auto* wrench = std::get_if<WrenchMessage>(&message)) {
     last_.wrench = wrench->wrench;
   } else if (const auto* statistic = std::get_if<StatisticMessage>(&message)) {
@@ -59,7 +59,7 @@ void LiveNode::take(const Message& message, std::int64_t now) {
   }
 }
 
-void LiveNode::take(const SetpointMessage& message, std::int64_t now) {
+void LiveNode::take_setpoint(const SetpointMessage& message, std::int64_t now) {
   ++last_.setpoints;
   last_.unanswered += open_since_ ? 1U : 0U;
   open_since_ = now;
@@ -70,7 +70,7 @@ void LiveNode::take(const SetpointMessage& message, std::int64_t now) {
   }
 }
 
-void LiveNode::take(const CorrectedMessage& message, std::int64_t now) {
+void LiveNode::take_answer(const CorrectedMessage& message, std::int64_t now) {
   heard_at_ = now;
   last_.state = describe(static_cast<State>(message.state));
   last_.faults = words(message.status, kFaultBits, message.node_status, kNodeFaultBits);

@@ -67,8 +67,8 @@ class LiveNode {
     std::int64_t latency;  ///< ns
   };
 
-  void take(const SetpointMessage& message, std::int64_t now);
-  void take(const CorrectedMessage& message, std::int64_t now);
+  void take_setpoint(const SetpointMessage& message, std::int64_t now);
+  void take_answer(const CorrectedMessage& message, std::int64_t now);
   void add_latency(std::int64_t now, Snapshot* snapshot) const;
   void add_deflection(Snapshot* snapshot) const;
 

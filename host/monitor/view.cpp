@@ -85,11 +85,11 @@ std::string statistics_lines(const Snapshot& snapshot) {
   return line("its ticks",
               fmt::format("{}, {} late", of(StatisticName::ticks), of(StatisticName::late_ticks))) +
          line("it heard",
-              fmt::format(
-                  "setpoints: {} lost, {} damaged of {}; wrenches: {} lost, {} damaged of {}",
-                  of(StatisticName::setpoint_lost), of(StatisticName::setpoint_corrupt),
-                  of(StatisticName::setpoint_received), of(StatisticName::wrench_lost),
-                  of(StatisticName::wrench_corrupt), of(StatisticName::wrench_received)));
+              fmt::format("{} setpoints, {} lost, {} damaged", of(StatisticName::setpoint_received),
+                          of(StatisticName::setpoint_lost), of(StatisticName::setpoint_corrupt))) +
+         line("and",
+              fmt::format("{} wrenches, {} lost, {} damaged", of(StatisticName::wrench_received),
+                          of(StatisticName::wrench_lost), of(StatisticName::wrench_corrupt)));
 }
 
 /// A JSON number, or null.
@@ -121,10 +121,9 @@ std::string view(const Snapshot& snapshot) {
   text += tcp_line(snapshot);
   text += line("setpoints", fmt::format("{:.0f} a second; {} without an answer of {}",
                                         snapshot.rate, snapshot.unanswered, snapshot.setpoints));
-  text += line("latency",
-               fmt::format("{} ms on average, {} ms at most, as heard here in the last second",
-                           number(1e3 * snapshot.mean_latency, "{:.3f}"),
-                           number(1e3 * snapshot.largest_latency, "{:.3f}")));
+  text += line("latency", fmt::format("{} ms on average, {} ms at most, in the last second",
+                                      number(1e3 * snapshot.mean_latency, "{:.3f}"),
+                                      number(1e3 * snapshot.largest_latency, "{:.3f}")));
   text += line("messages", fmt::format("{} lost, {} damaged, as heard here", snapshot.lost_messages,
                                        snapshot.damaged_messages));
   return text + statistics_lines(snapshot);

@@ -7,6 +7,7 @@ import pathlib
 import random
 import statistics
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(os.environ["FLEXCOMP_BUILD"]) / "python"))
@@ -42,9 +43,11 @@ class Path:
 
 
 class PythonClient(HilTest):
-    def setUp(self):
-        super().setUp()
-        self.job = Job(self.folder, "kr270", LOCKSTEP_FEED, radius=0.05, period=LOCKSTEP_PERIOD)
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.job = Job(scratch.name, "kr270", LOCKSTEP_FEED, radius=0.05, period=LOCKSTEP_PERIOD)
 
     def client(self, model_hash=None, **options):
         client = flexcomp.Client(BUS, int(model_hash or self.job.model_hash, 16), **(PATIENT | options))
