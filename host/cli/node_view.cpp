@@ -12,6 +12,7 @@
 #include "error.hpp"
 #include "linux/clock.hpp"
 #include "model/robot.hpp"
+#include "monitor/page_server.hpp"
 #include "monitor/view.hpp"
 #include "node/statistics.hpp"
 #include "recording/bus_rows.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr std::int64_t kViewEvery = kSecond / 10;
-constexpr std::int64_t kLineEvery = kSecond;       // where standard output is no terminal
+constexpr double kLineEvery = 1;                   // s, where standard output is no terminal
 constexpr std::int64_t kStatusTime = kSecond / 2;  // after the first sign of it
 constexpr auto kLastStatistic = static_cast<std::uint8_t>(
     static_cast<std::size_t>(StatisticName::latency) + LatencyHistogram::kBins - 1);
@@ -31,6 +32,7 @@ struct ViewOptions {
   RobotChoice model;
   std::string record;
   double seconds = 0;
+  std::optional<std::uint16_t> web;  ///< port of the page; 0 for any
   bool json = false;
 };
 
@@ -99,10 +101,41 @@ class Listener {
   recording::BusRows rows_;
 };
 
+/// Serves the page, if one is wanted.
+class Page {
+ public:
+  explicit Page(const ViewOptions& options) {
+    if (options.web) {
+      server_.emplace(*options.web);
+    }
+  }
+
+  /// A line that says where it is; empty without one.
+  std::string where() const {
+    return server_ ? fmt::format("page        {}\n", server_->address()) : std::string();
+  }
+
+  void show(const monitor::Snapshot& snapshot) {
+    if (server_) {
+      server_->serve(monitor::to_json(snapshot).dump());
+    }
+  }
+
+ private:
+  std::optional<monitor::PageServer> server_;
+};
+
 /// Clears a terminal for the view and gives it back as it was, with the last view in it.
 class Screen {
  public:
-  explicit Screen(bool json) : is_terminal_(!json && ::isatty(STDOUT_FILENO) == 1), json_(json) {
+  /// `footer`: a line below each view, or empty. It goes to standard error where JSON is printed.
+  Screen(bool json, std::string footer)
+      : is_terminal_(!json && ::isatty(STDOUT_FILENO) == 1),
+        json_(json),
+        footer_(std::move(footer)) {
+    if (json_) {
+      fmt::print(stderr, "{}", footer_);
+    }
     if (is_terminal_) {
       fmt::print("\033[2J\033[?25l");
     }
@@ -116,15 +149,19 @@ class Screen {
     }
   }
 
-  std::int64_t period() const { return json_ || is_terminal_ ? kViewEvery : kLineEvery; }
-
-  void show(const monitor::Snapshot& snapshot) const {
+  /// Shows the view, where it is not too early for the next.
+  void show(const monitor::Snapshot& snapshot) {
+    const bool is_due = json_ || is_terminal_ || snapshot.time >= next_;
+    if (!is_due) {
+      return;
+    }
+    next_ = snapshot.time + kLineEvery;
     if (json_) {
       fmt::print("{}\n", monitor::to_json(snapshot).dump());
     } else if (is_terminal_) {
-      show_on_terminal(monitor::view(snapshot));
+      show_on_terminal(monitor::view(snapshot) + footer_);
     } else {
-      fmt::print("{}\n", monitor::view(snapshot));
+      fmt::print("{}{}\n", monitor::view(snapshot), footer_);
     }
     std::fflush(stdout);
   }
@@ -141,6 +178,8 @@ class Screen {
 
   bool is_terminal_;
   bool json_;
+  std::string footer_;
+  double next_ = 0;  ///< s
 };
 
 int status(const ViewOptions& options) {
@@ -169,17 +208,20 @@ int status(const ViewOptions& options) {
 
 int watch(const ViewOptions& options) {
   Listener listener(options);
+  Page page(options);
   std::signal(SIGINT, end_the_view);
   std::signal(SIGTERM, end_the_view);
   const std::int64_t began = monotonic_now();
   const auto until = options.seconds > 0 ? began + static_cast<std::int64_t>(1e9 * options.seconds)
                                          : std::numeric_limits<std::int64_t>::max();
   {
-    const Screen screen(options.json);
+    Screen screen(options.json, page.where());
     for (std::int64_t next = began; !is_over && monotonic_now() < until;) {
-      next = std::max(next + screen.period(), monotonic_now());
+      next = std::max(next + kViewEvery, monotonic_now());
       listener.listen(std::min(next, until));
-      screen.show(listener.snapshot());
+      const monitor::Snapshot snapshot = listener.snapshot();
+      screen.show(snapshot);
+      page.show(snapshot);
     }
   }
   listener.write();
@@ -207,6 +249,8 @@ void add_node_views(CLI::App* node, Action* action) {
   }
   live->add_option("--record", options->record,
                    "recording to write at the end: a row a setpoint, with what else the bus says");
+  live->add_option("--web", options->web,
+                   "port on this machine for a page with moving plots; 0: one that is free");
   live->add_option("--seconds", options->seconds, "s, after which it ends; 0: at Ctrl-C")
       ->check(CLI::NonNegativeNumber);
   one->callback([=] { *action = [=] { return status(*options); }; });
