@@ -3,9 +3,11 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "error.hpp"
@@ -117,10 +119,14 @@ class LcmBus : public PlantBus {
     const std::int64_t until = monotonic_now() + patience;
     while (received_.empty()) {
       const std::int64_t left = std::max<std::int64_t>(0, until - monotonic_now());
+      if (has_ended_) {
+        std::this_thread::sleep_for(std::chrono::nanoseconds(left));
+        return false;
+      }
       if (!wait_for_input(link_.number(), left)) {
         return false;
       }
-      link_.handle();
+      has_ended_ = !link_.handle();
     }
     *message = received_.front();
     received_.pop_front();
@@ -141,6 +147,7 @@ class LcmBus : public PlantBus {
   std::deque<Message> received_;
   std::array<SequenceMonitor, std::variant_size_v<Message>> monitors_;
   LcmLink link_;
+  bool has_ended_ = false;  ///< a log that was played
 };
 
 class InnerBus : public PlantBus {
