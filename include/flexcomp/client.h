@@ -93,7 +93,7 @@ typedef struct flexcomp_client_config {
 } flexcomp_client_config_t;
 
 /// Bytes of a client.
-#define FLEXCOMP_CLIENT_BYTES 12288
+#define FLEXCOMP_CLIENT_BYTES 6144
 /// Room for a client, static or on a stack. Do not touch the member.
 typedef struct flexcomp_client {
 #ifdef __cplusplus

@@ -192,13 +192,12 @@ class Client:
         Did an answer come?"""
         answered = False
         while True:
-            left = 0.0 if self.lockstep and answered else until - time.monotonic()
-            frame = self.bus.recv(max(0.0, left))
+            left = 0.0 if self.lockstep and answered else max(0.0, until - time.monotonic())
+            frame = self.bus.recv(left)
             if frame is not None:
                 answered = self._take(frame) or answered
-            elif left <= 0 or not self.lockstep:
-                if time.monotonic() >= until or self.lockstep:
-                    return answered
+            elif left == 0:
+                return answered
 
     def _take(self, frame):
         """Does this frame complete an answer?"""
