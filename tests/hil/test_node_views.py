@@ -13,6 +13,7 @@ import tempfile
 import threading
 import time
 import unittest
+import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(os.environ["FLEXCOMP_BUILD"]) / "python"))
 
@@ -146,6 +147,16 @@ class NodeViews(HilTest):
         views = text.split("\033[H")[1:]
         self.assertGreater(len(views), 3)
         self.assertIn("setpoints", views[-1])
+
+    def test_the_page_shows_what_the_monitor_hears(self):
+        with self.driver.running(), self.monitor("--web", 0, "--json", "--seconds", 10, stdout=subprocess.DEVNULL,
+                                                 stderr=subprocess.PIPE) as watching:
+            address = watching.stderr.readline().split()[1]
+            with urllib.request.urlopen(address + "events", timeout=10) as events:
+                told = json.loads(events.readline()[len("data: "):])
+            watching.terminate()
+            self.assertEqual(0, watching.wait(timeout=20))
+        self.assertEqual("off", told["state"])
 
     def test_the_monitor_sends_nothing(self):
         with open(self.folder / "log", "w+") as log:
