@@ -36,22 +36,18 @@ std::string head(const char* status, const char* type) {
       status, type);
 }
 
+char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 /// The value of the header Host, whose name may be written in any case; empty if there is none.
 std::string host_of(std::string request) {
-  const std::string lower = [&] {
-    std::string text = request;
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-      return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return text;
-  }();
   constexpr std::string_view kName = "\r\nhost:";
-  const std::size_t found = lower.find(kName);
+  std::transform(request.begin(), request.end(), request.begin(), to_lower);
+  const std::size_t found = request.find(kName);
   if (found == std::string::npos) {
     return "";
   }
-  const std::size_t begin = lower.find_first_not_of(" \t", found + kName.size());
-  return lower.substr(begin, lower.find("\r\n", begin) - begin);
+  const std::size_t begin = request.find_first_not_of(" \t", found + kName.size());
+  return request.substr(begin, request.find("\r\n", begin) - begin);
 }
 
 bool asks_for(const std::string& request, std::string_view target) {
