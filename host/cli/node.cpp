@@ -111,12 +111,13 @@ void add_bus(CLI::App* command, NodeAddress* address) {
 
 void add_node(CLI::App* app, Action* action) {
   auto options = std::make_shared<NodeOptions>();
-  CLI::App* node = app->add_subcommand("node",
-                                       "Tell a compensator on the bus what to do, or look how it "
-                                       "is. Exit code 1 if it refuses, with "
-                                       "the reason.\n"
-                                       "Example: flexcomp node arm --bus can:can0\n"
-                                       "         flexcomp node send-table t.fct --bus can:can0");
+  CLI::App* node = app->add_subcommand(
+      "node",
+      "Tell a compensator on the bus what to do, or look how it is. Exit code 1 if it refuses,\n"
+      "with the reason.\n"
+      "Example: flexcomp node arm --bus can:can0\n"
+      "         flexcomp node send-table t.fct --bus can:can0\n"
+      "         flexcomp node monitor --bus can:can0");
   node->require_subcommand(1);
   const std::array<std::tuple<const char*, Command, const char*>, 3> commands = {{
       {"arm", Command::arm, "Start to correct; the sender of setpoints must have named its robot."},

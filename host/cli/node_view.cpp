@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr std::int64_t kViewEvery = kSecond / 10;
 constexpr double kLineEvery = 1;                   // s, where standard output is no terminal
-constexpr std::int64_t kStatusTime = kSecond / 2;  // after the first sign of it
+constexpr std::int64_t kStatusTime = kSecond / 2;  // at least, for rates and latencies
 constexpr auto kLastStatistic = static_cast<std::uint8_t>(
     static_cast<std::size_t>(StatisticName::latency) + LatencyHistogram::kBins - 1);
 
