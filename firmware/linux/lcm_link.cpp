@@ -31,11 +31,12 @@ LcmLink::LcmLink(const std::string& url, Handler handler)
   lcm_subscribe(lcm_.get(), kLcmChannels, on_message, this);
 }
 
-void LcmLink::handle() {
-  lcm_handle(lcm_.get());
+bool LcmLink::handle() {
+  const bool is_alive = lcm_handle(lcm_.get()) == 0;
   if (failure_) {
     std::rethrow_exception(std::exchange(failure_, nullptr));
   }
+  return is_alive;
 }
 
 bool LcmLink::is_echo(const LcmMessage& message) const {

@@ -25,8 +25,9 @@ class LcmLink {
   /// Ready to be read from when something has arrived.
   int number() const { return lcm_get_fileno(lcm_.get()); }
 
-  /// Hands over what has arrived; waits for something if nothing has. Throws what the handler does.
-  void handle();
+  /// Hands over what has arrived; waits for something if nothing has. False if nothing will come
+  /// any more, as at the end of a log that is played. Throws what the handler does.
+  bool handle();
 
   /// False if it could not be sent.
   bool publish(const Message& message);

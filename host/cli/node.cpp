@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "cli/command.hpp"
+#include "cli/node_bus.hpp"
 #include "cli/progress.hpp"
 #include "core/crc32.hpp"
 #include "error.hpp"
@@ -14,7 +14,6 @@
 #include "linux/clock.hpp"
 #include "messages/table_trailer.hpp"
 #include "node/reply.hpp"
-#include "simulation/plant_bus.hpp"
 
 namespace flexcomp::cli {
 namespace {
@@ -22,8 +21,7 @@ namespace {
 constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer
 
 struct NodeOptions {
-  std::string bus;
-  std::string key;
+  NodeAddress address;
   std::string table;
   double pause = 100e-6;
 };
@@ -43,11 +41,11 @@ Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
 }
 
 int command(const NodeOptions& options, Command wanted) {
-  const auto bus = simulation::open_plant_bus(options.bus, options.key);
+  const auto bus = options.address.open();
   bus->send(CommandMessage{wanted});
-  CommandReplyMessage reply = wait_for<CommandReplyMessage>(bus.get(), options.bus);
+  CommandReplyMessage reply = wait_for<CommandReplyMessage>(bus.get(), options.address.bus);
   while (reply.command != wanted) {
-    reply = wait_for<CommandReplyMessage>(bus.get(), options.bus);
+    reply = wait_for<CommandReplyMessage>(bus.get(), options.address.bus);
   }
   if (reply.reply == static_cast<std::uint8_t>(Result::gain_too_high)) {
     fmt::print("{}; the largest safe one is {:.4g}\n", describe_reply(reply.reply),
@@ -77,15 +75,15 @@ std::vector<std::uint32_t> read_words(const std::string& file) {
 int send_table(const NodeOptions& options) {
   const std::vector<std::uint32_t> words = read_words(options.table);
   const auto size = static_cast<std::uint32_t>(words.size() * sizeof(std::uint32_t));
-  const auto bus = simulation::open_plant_bus(options.bus, options.key);
+  const auto bus = options.address.open();
   const std::uint32_t crc = crc32(words.data(), size);
   bus->send(TransferBeginMessage{size, crc});
-  TransferReplyMessage reply = wait_for<TransferReplyMessage>(bus.get(), options.bus);
+  TransferReplyMessage reply = wait_for<TransferReplyMessage>(bus.get(), options.address.bus);
   if (reply.result != 0) {
     fmt::print("{}\n", describe_reply(reply.result));
     return kDoesNotHold;
   }
-  const bool wide = options.bus.rfind("can:", 0) != 0;
+  const bool wide = options.address.bus.rfind("can:", 0) != 0;
   const std::size_t at_once = wide ? TransferDataMessage::kMaxWords : 1;
   Progress progress("sending", words.size());
   for (std::size_t i = 0; i < words.size(); i += at_once) {
@@ -97,27 +95,29 @@ int send_table(const NodeOptions& options) {
     std::this_thread::sleep_for(std::chrono::duration<double>(options.pause));
   }
   bus->send(TransferEndMessage{crc});
-  reply = wait_for<TransferReplyMessage>(bus.get(), options.bus);
+  reply = wait_for<TransferReplyMessage>(bus.get(), options.address.bus);
   fmt::print("{}\n", describe_reply(reply.result));
   return reply.result == 0 ? kDone : kDoesNotHold;
 }
 
-void add_bus(CLI::App* command, NodeOptions* options) {
-  command->add_option("--bus", options->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL")
+}  // namespace
+
+void add_bus(CLI::App* command, NodeAddress* address) {
+  command->add_option("--bus", address->bus, "can:INTERFACE, canfd:INTERFACE or lcm:URL")
       ->required();
-  command->add_option("--key", options->key,
+  command->add_option("--key", address->key,
                       "file with the key of flexcompd --key, 32 hexadecimal digits (CAN only)");
 }
-
-}  // namespace
 
 void add_node(CLI::App* app, Action* action) {
   auto options = std::make_shared<NodeOptions>();
   CLI::App* node = app->add_subcommand(
       "node",
-      "Tell a compensator on the bus what to do. Exit code 1 if it refuses, with the reason.\n"
+      "Tell a compensator on the bus what to do, or look how it is. Exit code 1 if it refuses,\n"
+      "with the reason.\n"
       "Example: flexcomp node arm --bus can:can0\n"
-      "         flexcomp node send-table t.fct --bus can:can0");
+      "         flexcomp node send-table t.fct --bus can:can0\n"
+      "         flexcomp node monitor --bus can:can0");
   node->require_subcommand(1);
   const std::array<std::tuple<const char*, Command, const char*>, 3> commands = {{
       {"arm", Command::arm, "Start to correct; the sender of setpoints must have named its robot."},
@@ -126,16 +126,17 @@ void add_node(CLI::App* app, Action* action) {
   }};
   for (const auto& [name, wanted, help] : commands) {
     CLI::App* one = node->add_subcommand(name, help);
-    add_bus(one, options.get());
+    add_bus(one, &options->address);
     one->callback([=, wanted = wanted] { *action = [=] { return command(*options, wanted); }; });
   }
   CLI::App* send = node->add_subcommand(
       "send-table", "Send a table, which is verified there and swapped in between two ticks.");
   send->add_option("table", options->table, "made by flexcomp table")->required();
-  add_bus(send, options.get());
+  add_bus(send, &options->address);
   send->add_option("--pause", options->pause, "s, between messages, which leaves room on the bus")
       ->check(CLI::NonNegativeNumber);
   send->callback([=] { *action = [=] { return send_table(*options); }; });
+  add_node_views(node, action);
 }
 
 }  // namespace flexcomp::cli

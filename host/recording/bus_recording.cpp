@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "error.hpp"
@@ -11,12 +10,12 @@
 #include "messages/can_encoder.hpp"
 #include "messages/lcm_codec.hpp"
 #include "messages/sequence.hpp"
+#include "recording/bus_rows.hpp"
 
 namespace flexcomp::recording {
 namespace {
 
 constexpr double kPerSecond = 1e9;
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t rejected(const CanDecoder& decoder) {
   std::size_t sum = 0;
@@ -27,77 +26,6 @@ std::size_t rejected(const CanDecoder& decoder) {
   }
   return sum;
 }
-
-/// Rows as they are collected; groups of which nothing was seen are left out in the end.
-class Rows {
- public:
-  void take(const Message& message) {
-    if (const auto* wrench = std::get_if<WrenchMessage>(&message)) {
-      put(kWrench, wrench->wrench);
-    } else if (const auto* joints = std::get_if<MeasuredJointsMessage>(&message)) {
-      put(kMeasured, joints->q);
-    } else if (const auto* position = std::get_if<MeasuredPositionMessage>(&message)) {
-      put(kPosition, position->position);
-    }
-  }
-
-  void end_row(std::int64_t time, const JointAngles& q) {
-    put(kCommanded, q);
-    time_.push_back(time);
-    rows_.push_back(row_);
-    row_.fill(kMissing);
-  }
-
-  Recording finish(const std::string& file) const {
-    if (rows_.size() < 2) {
-      throw InputError(file + ": expected at least two setpoints on the bus");
-    }
-    Recording recording;
-    recording.file = file;
-    const auto rows = static_cast<Eigen::Index>(rows_.size());
-    recording.time.resize(rows);
-    Samples samples(rows, static_cast<Eigen::Index>(kColumns));
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      recording.time[row] = static_cast<double>(time_[i] - time_[0]) / kPerSecond;
-      std::copy(rows_[i].begin(), rows_[i].end(), samples.row(row).data());
-    }
-    const auto group = [&](std::size_t column, Eigen::Index width) -> std::optional<Samples> {
-      const Samples part = samples.middleCols(static_cast<Eigen::Index>(column), width);
-      return part.array().isNaN().all() ? std::nullopt : std::optional(part);
-    };
-    recording.q_cmd = group(kCommanded, 6);
-    recording.q_meas = group(kMeasured, 6);
-    recording.wrench = group(kWrench, 6);
-    recording.position = group(kPosition, 3);
-    return recording;
-  }
-
-  bool is_after_last(std::int64_t time) const { return time_.empty() || time > time_.back(); }
-
- private:
-  static constexpr std::size_t kCommanded = 0;
-  static constexpr std::size_t kMeasured = 6;
-  static constexpr std::size_t kWrench = 12;
-  static constexpr std::size_t kPosition = 18;
-  static constexpr std::size_t kColumns = 21;
-  using Row = std::array<double, kColumns>;
-
-  static Row missing_row() {
-    Row row{};
-    row.fill(kMissing);
-    return row;
-  }
-
-  template <std::size_t Width>
-  void put(std::size_t column, const std::array<double, Width>& values) {
-    std::copy(values.begin(), values.end(), row_.begin() + static_cast<std::ptrdiff_t>(column));
-  }
-
-  Row row_ = missing_row();
-  std::vector<std::int64_t> time_;
-  std::vector<Row> rows_;
-};
 
 template <std::size_t Width>
 bool get_row(const std::optional<Samples>& group, Eigen::Index row,
@@ -152,7 +80,7 @@ std::vector<LoggedMessage> decode(const std::vector<LoggedEvent>& events, Decodi
 
 Recording to_recording(const std::vector<LoggedMessage>& messages, bool corrected,
                        const std::string& file) {
-  Rows rows;
+  BusRows rows;
   for (const LoggedMessage& logged : messages) {
     rows.take(logged.message);
     const auto* setpoint = std::get_if<SetpointMessage>(&logged.message);

@@ -5,8 +5,8 @@
 #include <memory>
 #include <random>
 
+#include "client/correction_follower.hpp"
 #include "recording/recording.hpp"
-#include "simulation/correction_follower.hpp"
 #include "simulation/milling.hpp"
 #include "simulation/plant_bus.hpp"
 

@@ -3,9 +3,11 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "error.hpp"
@@ -69,6 +71,16 @@ class CanBus : public PlantBus {
     }
   }
 
+  BusCounts counts() const override {
+    BusCounts counts;
+    for (std::size_t group = 0; group < kFrameGroups; ++group) {
+      const StreamCounters& of = decoder_.monitor(static_cast<FrameGroup>(group)).counters;
+      counts.lost += of.lost;
+      counts.damaged += std::uint64_t{of.corrupt} + of.incomplete;
+    }
+    return counts;
+  }
+
  private:
   /// The message that this frame completes, if it may be used.
   Message decode(const CanFrame& frame) {
@@ -92,7 +104,13 @@ class CanBus : public PlantBus {
 class LcmBus : public PlantBus {
  public:
   explicit LcmBus(const std::string& url)
-      : link_(url, [this](const LcmMessage& message) { received_.push_back(message.message); }) {}
+      : link_(url, [this](const LcmMessage& message) {
+          monitors_[message.message.index()].accept(static_cast<std::uint32_t>(message.sequence), 0,
+                                                    monotonic_now());
+          received_.push_back(message.message);
+        }) {
+    monitors_.fill(SequenceMonitor(kLcmCounter));
+  }
 
   void send(const Message& message) override { link_.publish(message); }
 
@@ -101,19 +119,35 @@ class LcmBus : public PlantBus {
     const std::int64_t until = monotonic_now() + patience;
     while (received_.empty()) {
       const std::int64_t left = std::max<std::int64_t>(0, until - monotonic_now());
+      if (has_ended_) {
+        std::this_thread::sleep_for(std::chrono::nanoseconds(left));
+        return false;
+      }
       if (!wait_for_input(link_.number(), left)) {
         return false;
       }
-      link_.handle();
+      has_ended_ = !link_.handle();
     }
     *message = received_.front();
     received_.pop_front();
     return true;
   }
 
+  BusCounts counts() const override {
+    BusCounts counts;
+    for (const SequenceMonitor& monitor : monitors_) {
+      counts.lost += monitor.counters.lost;
+    }
+    return counts;
+  }
+
  private:
+  static constexpr std::uint32_t kLcmCounter = 256;  // of the 64 bits, so many suffice to see gaps
+
   std::deque<Message> received_;
+  std::array<SequenceMonitor, std::variant_size_v<Message>> monitors_;
   LcmLink link_;
+  bool has_ended_ = false;  ///< a log that was played
 };
 
 class InnerBus : public PlantBus {

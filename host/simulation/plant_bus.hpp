@@ -8,6 +8,12 @@
 
 namespace flexcomp::simulation {
 
+/// Messages that did not arrive whole, of all senders together.
+struct BusCounts {
+  std::uint64_t lost = 0;     ///< by gaps in their counters
+  std::uint64_t damaged = 0;  ///< checksum or length wrong, or a part missing
+};
+
 /// The bus as the plant sees it: messages to the compensator and back.
 class PlantBus {
  public:
@@ -20,6 +26,9 @@ class PlantBus {
 
   /// The next message that has come, waiting up to `patience` (ns) for one; false if none has.
   virtual bool receive(Message* message, std::int64_t patience) = 0;
+
+  /// What was lost since it was opened, as far as this bus can tell.
+  virtual BusCounts counts() const { return {}; }
 };
 
 /// Opens "can:IFACE", "canfd:IFACE" or "lcm:URL". `key_file`: authenticate messages on CAN with the

@@ -1,5 +1,6 @@
-"""The commands of firmware/README.md as they stand, its client in Python among them, on a virtual bus."""
+"""The commands of the pages about the bus as they stand, and the clients that they show, on a virtual bus."""
 
+import contextlib
 import csv
 import json
 import os
@@ -25,10 +26,21 @@ def circularity(recording):
 
 
 class BusPage(unittest.TestCase):
-    def test_the_page_of_the_bus_runs_as_it_stands(self):
+    @contextlib.contextmanager
+    def followed(self, page):
+        """A folder in which all commands of a page were run."""
         with tempfile.TemporaryDirectory() as name:
             workplace = pages.Workplace(name, SOURCE, os.environ["FLEXCOMP_BUILD"], BIN, with_sources=True)
-            workplace.follow(pages.Page(SOURCE / "firmware" / "README.md"), kinds=((), ("bus",)))
+            workplace.follow(pages.Page(SOURCE / page), kinds=((), ("bus",)))
+            yield workplace
+
+    def test_the_clients_in_c_and_in_python_do_what_their_pages_say(self):
+        for page in ("firmware/client/README.md", "host/python/README.md"):
+            with self.subTest(page=page), self.followed(page):
+                pass
+
+    def test_the_page_of_the_bus_runs_as_it_stands(self):
+        with self.followed("firmware/README.md") as workplace:
             folder = workplace.folder
             workplace.run("flexcomp simulate --model host/robots/kr270/robot.yaml --path path.csv --out before.csv")
             self.assertLess(circularity(folder / "run.csv"), LEFT * circularity(folder / "before.csv"))

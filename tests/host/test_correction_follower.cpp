@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/correction_follower.hpp"
+#include "client/correction_follower.hpp"
 #include "unity_main.hpp"
 
-using flexcomp::simulation::CorrectionFollower;
+using flexcomp::CorrectionFollower;
 using Correction = CorrectionFollower::Correction;
 
 namespace {

@@ -2,14 +2,15 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import unittest
 
 import cantools
 import crccheck.crc
 
-DATABASE = cantools.database.load_file(
-    str(pathlib.Path(os.environ["FLEXCOMP_SOURCE"]) / "firmware" / "messages" / "flexcomp.dbc"))
+SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
+DATABASE = cantools.database.load_file(str(SOURCE / "firmware" / "messages" / "flexcomp.dbc"))
 PROGRAM = pathlib.Path(os.environ["FLEXCOMP_BIN"]) / "frames_of_messages"
 ROUNDS = 2  # each message so often, for its counter
 
@@ -107,6 +108,27 @@ class Frames(unittest.TestCase):
         sent = EXPECTED["classic"].keys() | EXPECTED["fd"].keys()
         every = {message.name for message in DATABASE.messages}
         self.assertEqual({name for name in every if not name.endswith("Authentication")}, sent)
+
+
+class PageOfTheController(unittest.TestCase):
+    """The frames that firmware/client/README.md gives to test a codec with."""
+
+    ROW = re.compile(r"^\| `(\w+)` \| (0x\w+) \| `([0-9A-F ]+)` \| `([0-9A-F ]+)` \|$", re.MULTILINE)
+
+    def test_they_are_those_of_the_dbc(self):
+        rows = self.ROW.findall((SOURCE / "firmware" / "client" / "README.md").read_text())
+        self.assertEqual(["SetpointA", "SetpointB", "SetpointC", "SetpointFd"], [row[0] for row in rows])
+        for name, identifier, over, data in rows:
+            message, payload = DATABASE.get_message_by_name(name), bytes.fromhex(data)
+            self.assertEqual(message.frame_id, int(identifier, 16))
+            signals = message.decode(payload)
+            self.assertEqual(0, signals["counter"])
+            for joint, angle in enumerate(Q, 1):
+                self.assertAlmostEqual(angle, signals.get(f"q{joint}", angle), delta=1e-7)
+            self.assertEqual(signals.get("timestamp", 123456), 123456)
+            crc = crccheck.crc.Crc16Ibm3740 if message.is_fd else crccheck.crc.Crc8Autosar
+            self.assertEqual(signals["crc"], crc.calc(bytes.fromhex(over)))
+            self.assertEqual(signals["crc"], checksum(message, payload))
 
 
 if __name__ == "__main__":

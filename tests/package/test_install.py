@@ -11,6 +11,8 @@ SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
 BUILD = pathlib.Path(os.environ["FLEXCOMP_BUILD"])
 PROJECT = SOURCE / "tests" / "package"
 GUIDE = SOURCE / "include" / "flexcomp" / "README.md"
+CONTROLLER_GUIDE = SOURCE / "firmware" / "client" / "README.md"
+USAGE_OF_CONTROLLER = 2  # its exit code without arguments
 KR270 = SOURCE / "host" / "robots" / "kr270" / "robot.yaml"
 
 
@@ -47,16 +49,25 @@ class InstalledPackage(unittest.TestCase):
         build = self.build(PROJECT / "c_alone", "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON",
                            "-DCMAKE_CXX_COMPILER=no-such-compiler")
         self.assertRegex(run(build / "controller_loop"), r"^active: TCP would be off by ")
+        self.assert_is_the_controller(build / "bus_controller")
+
+    def assert_is_the_controller(self, program):
+        done = subprocess.run([program], capture_output=True, text=True, check=False)
+        self.assertEqual((USAGE_OF_CONTROLLER, True), (done.returncode, done.stderr.startswith("usage: ")))
 
     def test_pkg_config_serves_a_c_compiler(self):
-        (package,) = self.prefix.rglob("flexcomp.pc")
-        environment = {**os.environ, "PKG_CONFIG_PATH": str(package.parent)}
-        flags = subprocess.run(["pkg-config", "--cflags", "--libs", "flexcomp"], check=True, text=True,
+        program = self.compile_by_pkg_config("controller_loop", "flexcomp", "-std=c11")
+        self.assertRegex(run(program), r"^active: TCP would be off by ")
+        self.assert_is_the_controller(self.compile_by_pkg_config("bus_controller", "flexcomp_client"))
+
+    def compile_by_pkg_config(self, name, package, *options):
+        (file,) = self.prefix.rglob(f"{package}.pc")
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(file.parent)}
+        flags = subprocess.run(["pkg-config", "--cflags", "--libs", package], check=True, text=True,
                                capture_output=True, env=environment).stdout.split()
         self.assertNotIn(str(self.folder / "first"), " ".join(flags))
-        program = self.folder / "controller_loop"
-        run(os.environ["FLEXCOMP_C"], "-std=c11", PROJECT / "controller_loop.c", *flags, "-o", program)
-        self.assertRegex(run(program), r"^active: TCP would be off by ")
+        run(os.environ["FLEXCOMP_C"], *options, PROJECT / f"{name}.c", *flags, "-o", self.folder / name)
+        return self.folder / name
 
     def test_pkg_config_serves_a_cpp_compiler_for_whatever_processor(self):
         (package,) = self.prefix.rglob("flexcomp.pc")
@@ -90,6 +101,8 @@ class InstalledPackage(unittest.TestCase):
     def test_the_guide_shows_the_programs_that_are_tested(self):
         shown = re.findall(r"```c\n(.*?)```", GUIDE.read_text(), re.DOTALL)
         self.assertEqual([(PROJECT / name).read_text() for name in ("controller_loop.c", "table_in_flash.c")], shown)
+        shown = re.findall(r"```c bus_controller.c\n(.*?)```", CONTROLLER_GUIDE.read_text(), re.DOTALL)
+        self.assertEqual([(PROJECT / "bus_controller.c").read_text()], shown)
 
     def test_no_page_is_installed_among_the_headers(self):
         self.assertEqual([], list(self.prefix.rglob("*.md")))

@@ -2,7 +2,7 @@
 
 #include "flexcomp/types.hpp"
 
-namespace flexcomp::simulation {
+namespace flexcomp {
 
 /// What a robot controller has to do with the corrections it is sent: move by them, and not by
 /// itself jump when they cease, because the compensator cannot fade out what it no longer sends.
@@ -27,6 +27,9 @@ class CorrectionFollower {
 
   const Correction& correction() const { return correction_; }
 
+  /// Have answers ceased? Until the compensator has been off.
+  bool is_lost() const { return lost_; }
+
  private:
   double period_;
   double hold_time_;
@@ -38,4 +41,4 @@ class CorrectionFollower {
   double missing_ = 0;  ///< s, since the last usable answer
 };
 
-}  // namespace flexcomp::simulation
+}  // namespace flexcomp

@@ -1,8 +1,8 @@
-#include "simulation/correction_follower.hpp"
+#include "client/correction_follower.hpp"
 
 #include <algorithm>
 
-namespace flexcomp::simulation {
+namespace flexcomp {
 namespace {
 
 constexpr double kAtZero = 1e-6;  // rad, a few steps of what travels on the bus
@@ -40,4 +40,4 @@ void CorrectionFollower::end_period() {
   }
 }
 
-}  // namespace flexcomp::simulation
+}  // namespace flexcomp
