@@ -1,0 +1,29 @@
+#include "model/written_law.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace flexcomp::model {
+
+WrittenLaw read_written_law(const YamlMap& yaml) {
+  WrittenLaw law;
+  law.place = yaml.text("place");
+  law.axis = yaml.has("axis") ? yaml.text("axis") : "";
+  law.formula = yaml.text("formula");
+  law.where = yaml.place_of("formula");
+  if (yaml.has("units")) {
+    const YamlMap units = yaml.map("units");
+    for (const std::string& name : units.keys()) {
+      law.units[name] = units.text(name);
+    }
+  }
+  return law;
+}
+
+bool is_key_of_law(const std::string& key) {
+  constexpr std::array<const char*, 6> kKeys = {"effect", "place",   "joint",
+                                                "axis",   "formula", "units"};
+  return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
+}
+
+}  // namespace flexcomp::model
