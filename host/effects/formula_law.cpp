@@ -256,6 +256,7 @@ LawPointer formula_law(std::shared_ptr<const BoundFormula> bound, Unvalued unval
   law.parameters = [bound](const model::Robot&, int) { return bound->parameters; };
   law.statement = [bound](int) { return clause_of(*bound); };
   law.written = std::shared_ptr<const model::WrittenLaw>(bound, &bound->written);
+  law.bound = bound;
   law.apply = [bound, unvalued](const Values& values, int, Machine* machine) {
     machine->terms.push_back(term_of(bound, values, unvalued));
     machine->needs_levers = machine->needs_levers || bound->needs_levers();

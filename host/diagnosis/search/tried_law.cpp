@@ -125,12 +125,12 @@ Hypothesis read_tried_law(const std::filesystem::path& file, const Observations&
     names.push_back(name);
   }
   const auto bound = std::make_shared<const effects::BoundFormula>(
-      bind_law(model::read_written_law(yaml), robot, joint, names));
+      effects::bind_law(model::read_written_law(yaml), robot, joint, names));
   if (bound->parameters.empty()) {
     yaml.refuse("formula", "has no parameter to be sought; give one or more a range under 'ranges'");
   }
   refuse_unseen(*bound, observations);
-  Hypothesis hypothesis(formula_law(bound, effects::Unvalued::not_a_number), joint, robot);
+  Hypothesis hypothesis(effects::formula_law(bound, effects::Unvalued::not_a_number), joint, robot);
   seek_within(yaml, ranges, &hypothesis);
   return hypothesis;
 }
