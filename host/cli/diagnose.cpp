@@ -225,9 +225,10 @@ void add_diagnose(CLI::App* app, Action* action) {
                    "recording to check with; else part of each recording is set aside")
       ->take_all();
   command
-      ->add_option("--law", options->laws,
-                   "a law of your own to weigh beside all others: a file with its place, its formula "
-                   "and\nthe ranges of its parameters; may be given again")
+      ->add_option(
+          "--law", options->laws,
+          "a law of your own to weigh beside all others: a file with its place, its formula "
+          "and\nthe ranges of its parameters; may be given again")
       ->take_all();
   command->add_option("--out", options->out, "folder to write to")->required();
   command->add_option("--false-discovery", options->false_discovery,

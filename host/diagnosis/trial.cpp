@@ -11,9 +11,9 @@ namespace flexcomp::diagnosis {
 namespace {
 
 bool is_found(const Choice& choice, const Hypothesis& hypothesis) {
-  return std::any_of(
-      choice.findings.begin(), choice.findings.end(),
-      [&](const Finding& each) { return are_the_same(each.chosen.hypothesis, hypothesis); });
+  return std::any_of(choice.findings.begin(), choice.findings.end(), [&](const Finding& each) {
+    return are_the_same(each.chosen.hypothesis, hypothesis);
+  });
 }
 
 /// The standard that the evidence for a law by itself does not meet; empty where it meets all.
@@ -37,9 +37,10 @@ std::string why_not(const Inquiry& inquiry, const Evidence& evidence) {
   }
   const double least = evidence.left > kFarFromNoise ? kLeastExplained : kExplainedNearNoise;
   if (!(evidence.explained >= least)) {
-    return fmt::format("it accounts for {:.0f} % of the mismatch where it shows, and {:.0f} % is asked "
-                       "for",
-                       100 * std::max(evidence.explained, 0.0), 100 * least);
+    return fmt::format(
+        "it accounts for {:.0f} % of the mismatch where it shows, and {:.0f} % is asked "
+        "for",
+        100 * std::max(evidence.explained, 0.0), 100 * least);
   }
   return holds(inquiry, evidence) ? "" : "it does not stand out of what else is left";
 }
@@ -63,20 +64,27 @@ std::string why_others(const Inquiry& inquiry, const Choice& choice, const Chose
   const double more = weigh_last(inquiry, choice.fit, beside).delta_bic;
   return more > kStrongEvidence
              ? fmt::format("it does not stand beside {}", findings_in_words(choice))
-             : fmt::format("what it does is known by name: {}, beside which BIC falls by {:.1f} more",
-                           findings_in_words(choice), more);
+             : fmt::format(
+                   "what it does is known by name: {}; beside that the evidence for it is "
+                   "{:.1f} of BIC, and {:g} is strong",
+                   findings_in_words(choice), more, kStrongEvidence);
 }
 
-Trial weighed(const Inquiry& inquiry, const Choice& choice, const std::vector<Candidate>& candidates,
-              const Hypothesis& hypothesis) {
+/// Why no values of a law promise anything.
+std::string why_not_tried(const Inquiry& inquiry, const Hypothesis& hypothesis) {
+  return inquiry.dictionary.find(hypothesis) == nullptr
+             ? "within its ranges it has no value in some row, or changes nothing that was recorded"
+             : "within its ranges the recordings show nothing of it";
+}
+
+Trial weighed(const Inquiry& inquiry, const Choice& choice,
+              const std::vector<Candidate>& candidates, const Hypothesis& hypothesis) {
   Trial trial{hypothesis, is_found(choice, hypothesis), "", {}, {}, {}};
-  const auto candidate =
-      std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& each) {
-        return are_the_same(each.chosen.hypothesis, hypothesis);
-      });
+  const auto candidate = std::find_if(
+      candidates.begin(), candidates.end(),
+      [&](const Candidate& each) { return are_the_same(each.chosen.hypothesis, hypothesis); });
   if (candidate == candidates.end()) {
-    trial.why = trial.stands ? ""
-                             : "within its ranges it changes nothing that was recorded, or has no value";
+    trial.why = trial.stands ? "" : why_not_tried(inquiry, hypothesis);
     return trial;
   }
   const Fit alone = fit_with(inquiry, inquiry.given, candidate->chosen, kLastSteps);

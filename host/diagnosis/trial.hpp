@@ -10,11 +10,11 @@ namespace flexcomp::diagnosis {
 /// What became of a law that a person suspected.
 struct Trial {
   Hypothesis hypothesis;
-  bool stands = false;          ///< it is among the findings
-  std::string why;              ///< it does not stand; empty where it does
-  std::vector<Chosen> chosen;   ///< the law as fitted by itself; empty where no start shows anything
-  Eigen::MatrixXd covariance;   ///< of its values
-  Evidence evidence;            ///< for it by itself
+  bool stands = false;         ///< it is among the findings
+  std::string why;             ///< it does not stand; empty where it does
+  std::vector<Chosen> chosen;  ///< the law as fitted by itself; empty where no start shows anything
+  Eigen::MatrixXd covariance;  ///< of its values
+  Evidence evidence;           ///< for it by itself
 };
 
 /// Weighs each written law of the hypotheses by itself, with the evidence that every hypothesis is

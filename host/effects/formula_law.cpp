@@ -16,8 +16,10 @@ namespace {
 
 constexpr std::size_t kMostParameters = 12;
 
-[[noreturn]] void refuse(const model::WrittenLaw& written, const std::string& why) {
-  throw InputError(fmt::format("{}: {}", written.where, why));
+[[noreturn]] void refuse(const model::WrittenLaw& written, const std::string& why,
+                         const std::string& key = "formula") {
+  const auto where = written.where.find(key);
+  throw InputError(fmt::format("{}: {}", where == written.where.end() ? key : where->second, why));
 }
 
 [[noreturn]] void refuse_at(const model::WrittenLaw& written, std::size_t column,
@@ -37,7 +39,7 @@ LawPlace read_place_of(const model::WrittenLaw& written, int joint) {
   try {
     return read_place(written.place, written.axis, joint);
   } catch (const std::invalid_argument& error) {
-    refuse(written, error.what());
+    refuse(written, error.what(), "place");
   }
 }
 
@@ -67,7 +69,7 @@ void refuse_wrong_names(const model::WrittenLaw& written, const formula::Formula
   }
   for (const auto& [name, unit] : written.units) {
     if (!is_among(parameters, name)) {
-      refuse(written, fmt::format("units: '{}' is no parameter", files::one_line(name)));
+      refuse(written, fmt::format("'{}' is no parameter", files::one_line(name)), "units");
     }
   }
   if (parameters.size() > kMostParameters) {
@@ -80,8 +82,9 @@ formula::Dimension read_unit(const model::WrittenLaw& written, const std::string
   try {
     return formula::dimension_of(unit);
   } catch (const formula::FormulaError& error) {
-    refuse(written, fmt::format("units: {}: '{}': {}", files::one_line(name), files::one_line(unit),
-                                error.what()));
+    refuse(written,
+           fmt::format("{}: '{}': {}", files::one_line(name), files::one_line(unit), error.what()),
+           "units");
   }
 }
 
@@ -199,8 +202,8 @@ Term term_of(const std::shared_ptr<const BoundFormula>& bound, const Values& val
             const bool is_of_wrench = bound->place.kind == PlaceKind::sensor_wrench;
             const Prediction& loads = is_of_wrench ? at.prediction : *prediction;
             const bool at_rest = bound->place.kind == PlaceKind::joint_windup;
-            const Eigen::VectorXd plain = along.over(
-                scene, at, loads, at_rest ? Loads::at_rest : Loads::with_inertia);
+            const Eigen::VectorXd plain =
+                along.over(scene, at, loads, at_rest ? Loads::at_rest : Loads::with_inertia);
             add_at(bound->place, plain,
                    has_two_loads(*bound, loads) ? along.over(scene, at, loads, Loads::with_inertia)
                                                 : plain,
@@ -217,9 +220,11 @@ std::string clause_of(const BoundFormula& bound) {
       drivers.push_back(signal->words);
     }
   }
-  std::string text = in_words(bound.place) + (drivers.empty() ? " that is constant" : " that follows ");
+  std::string text =
+      in_words(bound.place) + (drivers.empty() ? " that is constant" : " that follows ");
   for (std::size_t i = 0; i < std::min(drivers.size(), kFew); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "" : (i + 1 == drivers.size() ? " and " : ", "), drivers[i]);
+    text +=
+        fmt::format("{}{}", i == 0 ? "" : (i + 1 == drivers.size() ? " and " : ", "), drivers[i]);
   }
   return text + (drivers.size() > kFew ? " and more" : "") + ", by " + bound.formula.text();
 }
@@ -236,7 +241,7 @@ bool BoundFormula::needs_levers() const {
 }
 
 BoundFormula bind_law(const model::WrittenLaw& written, const model::Robot& robot, int joint,
-                  const std::vector<std::string>& parameters) {
+                      const std::vector<std::string>& parameters) {
   BoundFormula bound{written, read_place_of(written, joint), read_formula(written), {}, {}, {}, 0};
   refuse_wrong_names(written, bound.formula, robot, parameters);
   for (const std::string& name : bound.formula.names()) {
@@ -268,7 +273,8 @@ void refuse_unvalued(const BoundFormula& bound, const std::vector<double>& value
                      const std::string& file, double time) {
   std::string names;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    names += fmt::format("{}{} = {:g}", names.empty() ? "" : ", ", bound.formula.names()[i], values[i]);
+    names +=
+        fmt::format("{}{} = {:g}", names.empty() ? "" : ", ", bound.formula.names()[i], values[i]);
   }
   refuse(bound.written, fmt::format("has no value for {} at t = {:g} s, where {}",
                                     files::one_line(file, 200), time, names));

@@ -28,11 +28,11 @@ struct BoundFormula {
   bool needs_levers() const;
 };
 
-/// Checks a written law and binds it to a robot. `parameters`: the names that are no signals, as the
-/// file lists them. Throws InputError with file, line, key and column for a place or name that is
-/// unknown, a formula that cannot be read, and units that disagree.
+/// Checks a written law and binds it to a robot. `parameters`: the names that are no signals, as
+/// the file lists them. Throws InputError with file, line, key and column for a place or name that
+/// is unknown, a formula that cannot be read, and units that disagree.
 BoundFormula bind_law(const model::WrittenLaw& written, const model::Robot& robot, int joint,
-                  const std::vector<std::string>& parameters);
+                      const std::vector<std::string>& parameters);
 
 /// What becomes of a formula that has no value somewhere (a division by zero): a machine that is
 /// believed to have it cannot be simulated, and one that is only tried is not like the recording.
@@ -44,6 +44,6 @@ LawPointer formula_law(std::shared_ptr<const BoundFormula> bound, Unvalued unval
 
 /// Says that a formula has no value where its names have these; throws InputError.
 [[noreturn]] void refuse_unvalued(const BoundFormula& bound, const std::vector<double>& values,
-                     const std::string& file, double time);
+                                  const std::string& file, double time);
 
 }  // namespace flexcomp::effects

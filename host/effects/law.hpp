@@ -101,7 +101,7 @@ struct Law {
   /// the robot; null for all others.
   std::shared_ptr<const model::WrittenLaw> written;
   std::shared_ptr<const BoundFormula> bound;
-  std::string words;          ///< what people call the effect; empty where its name says it
+  std::string words;  ///< what people call the effect; empty where its name says it
   /// One plain clause: what the machine has that the model lacks.
   std::function<std::string(int joint)> statement;
 };

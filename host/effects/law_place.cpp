@@ -75,7 +75,8 @@ int read_axis(const NamedPlace& place, const std::string& axis) {
                      place.needs == kAxis ? "x, y or z" : "x, y, z, rx, ry or rz"));
 }
 
-Vector3<double> direction(const simulation::Simulation& at, Eigen::Index row, const LawPlace& place) {
+Vector3<double> direction(const simulation::Simulation& at, Eigen::Index row,
+                          const LawPlace& place) {
   const Pose<double>& tcp = at.bent[static_cast<std::size_t>(row)].tcp;
   const int axis = place.axis % 3;
   if (place.kind == PlaceKind::tcp_tool) {
@@ -169,8 +170,8 @@ std::string in_words(const LawPlace& place) {
     case PlaceKind::tcp_tool:
       return fmt::format("the TCP moves along the tool's {} by something", axis);
     case PlaceKind::base:
-      return fmt::format("the base {} {} by something", place.axis < 3 ? "moves along" : "turns about",
-                         axis);
+      return fmt::format("the base {} {} by something",
+                         place.axis < 3 ? "moves along" : "turns about", axis);
     case PlaceKind::sensor_wrench:
       return fmt::format("the force sensor's {} has an error",
                          kWrench[static_cast<std::size_t>(place.axis)]);

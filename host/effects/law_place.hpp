@@ -12,7 +12,8 @@ namespace flexcomp::effects {
 enum class PlaceKind {
   joint_torque,       ///< adds to a drive's torque
   joint_angle,        ///< the joint stands elsewhere; TCP and link encoder see it
-  joint_windup,       ///< the same, driven by the load: at rest for the TCP, with inertia for the encoder
+  joint_windup,       ///< the same, driven by the load: at rest for the TCP, with inertia for the
+                      ///< encoder
   tcp_base,           ///< the TCP moves along an axis of the base frame
   tcp_tool,           ///< the same of the tool frame
   base,               ///< the base moves along an axis, or turns about one

@@ -177,8 +177,8 @@ Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes) 
     for (const Scene& scene : scenes) {
       if (each.law->traits.needs_temperature && scene.temperature.size() == 0) {
         refuse(robot, fmt::format("a {} by {} cannot be simulated for {}, which has no temp_c",
-                                  each.law->effect, each.law->written ? "temperature" : each.law->form,
-                                  scene.file));
+                                  each.law->effect,
+                                  each.law->written ? "temperature" : each.law->form, scene.file));
       }
     }
   }

@@ -40,8 +40,8 @@ RunningLaws::RunningLaws(const model::Robot& robot, double period)
     }
     const BoundFormula& bound = *placed.law->bound;
     if (bound.follows(SignalKind::temperature)) {
-      throw InputError(
-          fmt::format("{}: follows temp_c, and the plant has no temperature", bound.written.where));
+      throw InputError(fmt::format("{}: follows temp_c, and the plant has no temperature",
+                                   bound.written.where.at("formula")));
     }
     laws_.push_back({placed.law->bound, formula::Course(bound.formula),
                      values_of_parameters(bound, placed.values)});

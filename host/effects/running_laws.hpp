@@ -7,7 +7,8 @@
 
 namespace flexcomp::effects {
 
-/// The laws that a robot's file has as formulas, while it runs: what moves its TCP, period by period.
+/// The laws that a robot's file has as formulas, while it runs: what moves its TCP, period by
+/// period.
 ///
 /// Speeds and accelerations are differences of the angles from period to period. Other effects of
 /// the file are not in it, and of the laws not those of what only a measurement shows.

@@ -38,7 +38,8 @@ std::optional<Signal> find_signal(const model::Robot& robot, const std::string& 
 /// The names of all, for messages.
 std::string signal_names(const model::Robot& robot);
 
-/// Which of two loads a signal is that depends on it: at rest, or with inertia as far as it is known.
+/// Which of two loads a signal is that depends on it: at rest, or with inertia as far as it is
+/// known.
 enum class Loads { at_rest, with_inertia };
 
 /// A signal's values, one a row. `prediction` holds the loads so far; `since`: the time (s) that

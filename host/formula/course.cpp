@@ -64,8 +64,7 @@ double Course::lagging(std::size_t at, double input, double constant, double ste
 
 double Course::playing(std::size_t at, double input, double gap) {
   const double half = std::max(0.5 * gap, 0.0);
-  memory_[at] =
-      has_begun_ ? std::min(std::max(memory_[at], input - half), input + half) : input;
+  memory_[at] = has_begun_ ? std::min(std::max(memory_[at], input - half), input + half) : input;
   return memory_[at];
 }
 

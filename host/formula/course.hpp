@@ -23,9 +23,9 @@ class Course {
   double playing(std::size_t at, double input, double gap);
 
   const std::vector<Node>* nodes_;
-  std::vector<double> now_;      ///< of every node
-  std::vector<double> memory_;   ///< of every node that remembers
-  std::vector<double> input_;    ///< that it had in the row before
+  std::vector<double> now_;     ///< of every node
+  std::vector<double> memory_;  ///< of every node that remembers
+  std::vector<double> input_;   ///< that it had in the row before
   bool has_begun_ = false;
 };
 

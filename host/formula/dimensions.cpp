@@ -40,8 +40,8 @@ Open sum(Open a, const Open& b) {
 
 Open difference(const Open& a, const Open& b) { return sum(a, scaled(-1, b)); }
 
-/// Equations between dimensions, solved one by one: an unknown that an equation tells is replaced by
-/// what it is equal to.
+/// Equations between dimensions, solved one by one: an unknown that an equation tells is replaced
+/// by what it is equal to.
 class Equations {
  public:
   Open solved(Open open) const {
@@ -93,15 +93,15 @@ class Checker {
     }
     const Open result{wanted, {}};
     if (!equations_.equate(all_.back(), result)) {
-      throw FormulaError(1, fmt::format("it is in {}; {} needs {}", text_of(all_.back()), what,
-                                        unit_text(wanted)));
+      throw FormulaError(
+          1, fmt::format("it is in {}; {} needs {}", text_of(all_.back()), what, text_of(result)));
     }
     std::vector<std::optional<Dimension>> found;
     for (std::size_t i = 0; i < known_.size(); ++i) {
       const Open open = equations_.solved({kPlain, {{i, 1.0}}});
-      found.push_back(known_[i] ? known_[i]
-                                : (open.unknown.empty() ? std::optional<Dimension>(open.fixed)
-                                                        : std::nullopt));
+      found.push_back(
+          known_[i] ? known_[i]
+                    : (open.unknown.empty() ? std::optional<Dimension>(open.fixed) : std::nullopt));
     }
     return found;
   }
@@ -164,8 +164,8 @@ class Checker {
         return all_[a];
       case FunctionUnits::lag:
         if (!equations_.equate(all_[b], {{0, 0, 1, 0}, {}})) {
-          refuse(b, fmt::format("'{}' is in {}; the second argument of lag is a time (s)", quoted(b),
-                                text_of(all_[b])));
+          refuse(b, fmt::format("'{}' is in {}; the second argument of lag is a time (s)",
+                                quoted(b), text_of(all_[b])));
         }
         return all_[a];
     }
@@ -182,7 +182,8 @@ class Checker {
   void demand_plain(std::size_t at, const std::string& what,
                     const std::string& wanted = "a plain number or an angle") {
     if (!equations_.equate(all_[at], {})) {
-      refuse(at, fmt::format("'{}' is in {}; {} is {}", quoted(at), text_of(all_[at]), what, wanted));
+      refuse(at,
+             fmt::format("'{}' is in {}; {} is {}", quoted(at), text_of(all_[at]), what, wanted));
     }
   }
 
@@ -192,6 +193,9 @@ class Checker {
 
   std::string text_of(const Open& open) const {
     const Open solved = equations_.solved(open);
+    if (solved.unknown.empty() && is_same(solved.fixed, kPlain)) {
+      return "rad or a plain number";
+    }
     return solved.unknown.empty() ? unit_text(solved.fixed) : "another unit";
   }
 

@@ -9,9 +9,9 @@
 
 namespace flexcomp::formula {
 
-/// Checks that a formula makes sense in units: both sides of a sum have one unit, arguments of sine,
-/// exponential and their like are angles or plain numbers, powers of a unit are numbers, and the
-/// result has the unit `wanted`.
+/// Checks that a formula makes sense in units: both sides of a sum have one unit, arguments of
+/// sine, exponential and their like are angles or plain numbers, powers of a unit are numbers, and
+/// the result has the unit `wanted`.
 ///
 /// `known`: for each of the formula's names its dimension, or nothing where the formula decides.
 /// Returns the dimension of every name; nothing for one that the formula leaves open. Zero written

@@ -71,7 +71,8 @@ bool is_constant(const Formula& formula, std::size_t node, double* value) {
       known[i] = -known[a];
       is_known[i] = is_known[a];
     } else {
-      is_known[i] = is_known[a] && is_known[b] && combine(at.operation, known[a], known[b], &known[i]);
+      is_known[i] =
+          is_known[a] && is_known[b] && combine(at.operation, known[a], known[b], &known[i]);
     }
   }
   *value = known[node];

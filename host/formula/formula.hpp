@@ -51,7 +51,9 @@ class Formula {
   /// Column of a name's first appearance, from 1 on.
   std::size_t column_of(std::size_t name) const;
   /// The text of a node.
-  std::string text_of(const Node& node) const { return text_.substr(node.begin, node.end - node.begin); }
+  std::string text_of(const Node& node) const {
+    return text_.substr(node.begin, node.end - node.begin);
+  }
 
   static constexpr std::size_t kLongest = 1000;
 

@@ -98,7 +98,8 @@ double binary(double a, double b) {
 double negated(double a) {
   const std::size_t inner = node_of(a).begin;
   const std::size_t sign = inner > 0 ? reading->text.rfind('-', inner - 1) : 0;
-  Node node{Operation::negate, {index_of(a), index_of(a)}, 0, 0, std::min(sign, inner), node_of(a).end};
+  Node node{Operation::negate, {index_of(a), index_of(a)}, 0, 0, std::min(sign, inner),
+            node_of(a).end};
   balance(&node);
   return written_down(node);
 }
@@ -121,9 +122,8 @@ double call_of_one(double a) {
 }
 
 std::size_t function_named(const std::string& name) {
-  const auto* const found =
-      std::find_if(kFunctions.begin(), kFunctions.end(),
-                   [&](const Function& each) { return each.name == name; });
+  const auto* const found = std::find_if(kFunctions.begin(), kFunctions.end(),
+                                         [&](const Function& each) { return each.name == name; });
   return static_cast<std::size_t>(found - kFunctions.begin());
 }
 
@@ -261,8 +261,9 @@ Reading prepared(const std::string& text) {
       continue;
     }
     if (!is_part_of_number(c) && std::string("+-*/^(),").find(c) == std::string::npos) {
-      throw FormulaError(i + 1, fmt::format("unexpected '{}'; expected numbers, names, + - * / ^ ( ) and ,",
-                                            files::one_line(text.substr(i, 1))));
+      throw FormulaError(
+          i + 1, fmt::format("unexpected '{}'; expected numbers, names, + - * / ^ ( ) and ,",
+                             files::one_line(text.substr(i, 1))));
     }
     depth += c == '(' ? 1 : 0;
     depth -= c == ')' && depth > 0 ? 1 : 0;

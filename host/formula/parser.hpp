@@ -13,8 +13,9 @@ struct Parsed {
   std::vector<std::string> names;
 };
 
-/// Reads a formula; throws FormulaError. The grammar is muParser's (https://beltoforion.de/en/muparser),
-/// whose operators and functions are bound to ones that write down what is to be computed.
+/// Reads a formula; throws FormulaError. The grammar is muParser's
+/// (https://beltoforion.de/en/muparser), whose operators and functions are bound to ones that write
+/// down what is to be computed.
 Parsed parse(const std::string& text);
 
 }  // namespace flexcomp::formula

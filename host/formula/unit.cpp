@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "files/one_line.hpp"
@@ -12,6 +11,8 @@
 
 namespace flexcomp::formula {
 namespace {
+
+constexpr double kMostPower = 100;
 
 struct NamedUnit {
   const char* name;
@@ -41,8 +42,10 @@ Dimension named(const std::string& name) {
       return unit.dimension;
     }
   }
-  throw FormulaError(1, fmt::format("'{}' is no SI unit; expected a product of m kg s K rad N J W Hz 1, such as N·m·s/rad",
-                                    files::one_line(name)));
+  throw FormulaError(
+      1, fmt::format(
+             "'{}' is no SI unit; expected a product of m kg s K rad N J W Hz 1, such as N·m·s/rad",
+             files::one_line(name)));
 }
 
 /// Dimension of one operation of a unit, by those of its operands.
@@ -78,7 +81,7 @@ std::string product(const std::vector<std::pair<const char*, double>>& factors, 
     const double power = sign * exponent;
     if (power > 0) {
       text += fmt::format("{}{}{}", text.empty() ? "" : "·", name,
-                          power == 1 ? "" : fmt::format("^{:g}", power));
+                          power == 1 ? "" : fmt::format("^{}", power));
     }
   }
   return text;
@@ -114,14 +117,14 @@ Dimension dimension_of(const std::string& unit) {
   replace_all("³", "^3", &text);
   const Formula formula(text);
   std::vector<Dimension> all;
-  bool is_finite = true;
   for (std::size_t i = 0; i < formula.nodes().size(); ++i) {
     all.push_back(combined(formula, i, all));
     const Dimension& last = all.back();
-    is_finite = is_finite && std::isfinite(std::accumulate(last.begin(), last.end(), 0.0));
-  }
-  if (!is_finite) {
-    throw FormulaError(1, "expected powers that are small numbers");
+    const bool is_small = std::all_of(
+        last.begin(), last.end(), [](double exponent) { return std::abs(exponent) < kMostPower; });
+    if (!is_small) {
+      throw FormulaError(1, "expected powers that are small numbers");
+    }
   }
   return all.back();
 }

@@ -23,7 +23,8 @@ struct JointDynamics {
   double velocity = 0;       ///< rad/s, largest speed
 };
 
-/// Physics of a machine that the other keys cannot say, as a diagnosis found it or a person wrote it.
+/// Physics of a machine that the other keys cannot say, as a diagnosis found it or a person wrote
+/// it.
 struct LearnedEffect {
   std::string effect;  ///< of the diagnosis' vocabulary, such as transmission_ripple
   int joint = 0;       ///< from 1 on, 0 where the effect has no joint
@@ -71,8 +72,8 @@ bool is_transmission(const JointMatrix& transmission);
 /// (3), of the link that the joint moves, diagonal in the link's frame, at the joint's origin; and
 /// the robot `transmission`, a list of as many rows as joints of as many numbers, and `effects`, a
 /// list of maps: `effect`, `joint` (from 1 on) and `form` where it has them, and the effect's
-/// parameters by name. An effect `law` (written_law.hpp) has its formula beside them; what it says is
-/// for others to check.
+/// parameters by name. An effect `law` (written_law.hpp) has its formula beside them; what it says
+/// is for others to check.
 ///
 /// With `tool` (tool.hpp) the TCP is the tool's, and `tool_compliance` and `payload` are in its
 /// frame. A tool that is given here takes the place of the file's.

@@ -10,7 +10,9 @@ WrittenLaw read_written_law(const YamlMap& yaml) {
   law.place = yaml.text("place");
   law.axis = yaml.has("axis") ? yaml.text("axis") : "";
   law.formula = yaml.text("formula");
-  law.where = yaml.place_of("formula");
+  for (const char* key : {"place", "axis", "joint", "formula", "units"}) {
+    law.where[key] = yaml.place_of(key);
+  }
   if (yaml.has("units")) {
     const YamlMap units = yaml.map("units");
     for (const std::string& name : units.keys()) {

@@ -79,15 +79,15 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
     json.update(formula_json(*hypothesis.law->written));
   }
   json.update(
-         {{"parameters", parameters_of(observations, finding.chosen, finding.covariance)},
-          {"evidence",
-           {{"delta_bic", finding.evidence.delta_bic},
-            {"p_value", finding.evidence.p_value},
-            {"channel", kChannels[channel]},
-            {"holdout_rms_before", observations.rms(finding.without.remainder, channel, true)},
-            {"holdout_rms_after", observations.rms(diagnosis.weighed().remainder, channel, true)}}},
-          {"alternatives", alternatives},
-          {"statement", statement(observations, diagnosis, index)}});
+      {{"parameters", parameters_of(observations, finding.chosen, finding.covariance)},
+       {"evidence",
+        {{"delta_bic", finding.evidence.delta_bic},
+         {"p_value", finding.evidence.p_value},
+         {"channel", kChannels[channel]},
+         {"holdout_rms_before", observations.rms(finding.without.remainder, channel, true)},
+         {"holdout_rms_after", observations.rms(diagnosis.weighed().remainder, channel, true)}}},
+       {"alternatives", alternatives},
+       {"statement", statement(observations, diagnosis, index)}});
   return json;
 }
 

@@ -82,11 +82,10 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
       others += fmt::format("{}: {:.0f} worse<br>", place_in_words(other.effect, other.joint),
                             other.delta_bic);
     }
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
-                        named(hypothesis),
-                        parameters(observations, finding.chosen, finding.covariance),
-                        finding.evidence.delta_bic, chance(finding.evidence.p_value),
-                        others.empty() ? "none comes near" : others);
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n", named(hypothesis),
+        parameters(observations, finding.chosen, finding.covariance), finding.evidence.delta_bic,
+        chance(finding.evidence.p_value), others.empty() ? "none comes near" : others);
   }
   if (rows.empty()) {
     return "<p>No effect is proved.</p>\n";

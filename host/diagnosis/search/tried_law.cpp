@@ -45,8 +45,8 @@ int read_joint(const YamlMap& yaml, int joints) {
   return static_cast<int>(joint);
 }
 
-/// The sequence of Halton (1960), whose points lie evenly in any number of dimensions: its `index`th
-/// number to a base, in 0…1.
+/// The sequence of Halton (1960), whose points lie evenly in any number of dimensions: its
+/// `index`th number to a base, in 0…1.
 double halton(int index, int base) {
   double value = 0;
   double share = 1;
@@ -80,7 +80,8 @@ std::vector<Values> starts_within(const std::vector<Sought>& ranges) {
   return starts;
 }
 
-void seek_within(const YamlMap& yaml, std::map<std::string, Sought> ranges, Hypothesis* hypothesis) {
+void seek_within(const YamlMap& yaml, std::map<std::string, Sought> ranges,
+                 Hypothesis* hypothesis) {
   constexpr double kStep = 0.01;  // of a range
   std::vector<Bounds> bounds;
   std::vector<Sought> shapes;
@@ -103,8 +104,8 @@ void seek_within(const YamlMap& yaml, std::map<std::string, Sought> ranges, Hypo
 void refuse_unseen(const effects::BoundFormula& bound, const Observations& observations) {
   for (const Scene& scene : observations.scenes) {
     if (bound.follows(effects::SignalKind::temperature) && scene.temperature.size() == 0) {
-      throw InputError(fmt::format("{}: follows temp_c, which {} does not have", bound.written.where,
-                                   scene.file));
+      throw InputError(fmt::format("{}: follows temp_c, which {} does not have",
+                                   bound.written.where.at("formula"), scene.file));
     }
   }
 }
@@ -127,7 +128,8 @@ Hypothesis read_tried_law(const std::filesystem::path& file, const Observations&
   const auto bound = std::make_shared<const effects::BoundFormula>(
       effects::bind_law(model::read_written_law(yaml), robot, joint, names));
   if (bound->parameters.empty()) {
-    yaml.refuse("formula", "has no parameter to be sought; give one or more a range under 'ranges'");
+    yaml.refuse("formula",
+                "has no parameter to be sought; give one or more a range under 'ranges'");
   }
   refuse_unseen(*bound, observations);
   Hypothesis hypothesis(effects::formula_law(bound, effects::Unvalued::not_a_number), joint, robot);

@@ -10,8 +10,9 @@ namespace flexcomp::diagnosis {
 /// are sought within the ranges that its file gives.
 ///
 /// The file is a YAML map with the keys of an effect `law` of robot.yaml, and `ranges`: for each
-/// parameter its lower and upper bound. A parameter in proportion may be nothing: its range holds 0.
-/// Throws InputError with file, line and key for a law that cannot be, or not of these observations.
+/// parameter its lower and upper bound. A parameter in proportion may be nothing: its range holds
+/// 0. Throws InputError with file, line and key for a law that cannot be, or not of these
+/// observations.
 Hypothesis read_tried_law(const std::filesystem::path& file, const Observations& observations);
 
 }  // namespace flexcomp::diagnosis
