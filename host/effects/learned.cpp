@@ -116,6 +116,27 @@ model::LearnedEffect entry_of(const model::Robot& robot, const Placed& placed) {
   return entry;
 }
 
+/// The same formula at the same place, whose parameters all act in proportion: then two add up.
+bool adds_up(const model::LearnedEffect& listed, const Placed& found) {
+  return listed.law && found.law->bound && listed.joint == found.joint &&
+         listed.law->place == found.law->written->place &&
+         listed.law->axis == found.law->written->axis &&
+         listed.law->formula == found.law->written->formula &&
+         found.law->traits.linear_in == found.law->bound->parameters.size();
+}
+
+void add_entry(model::LearnedEffect entry, const Placed& found, model::Robot* robot) {
+  for (model::LearnedEffect& listed : robot->effects) {
+    if (adds_up(listed, found)) {
+      for (const auto& [name, value] : entry.parameters) {
+        listed.parameters[name] += value;
+      }
+      return;
+    }
+  }
+  robot->effects.push_back(std::move(entry));
+}
+
 /// Of a law among all forms of all effects; behind them for one that is not among them.
 std::size_t place_in_catalogue(const Law& law) {
   static const std::vector<const Law*> kLaws = [] {
@@ -188,7 +209,7 @@ Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes) 
 model::Robot with_learned(model::Robot robot, const std::vector<Placed>& found) {
   for (const Placed& each : found) {
     if (!each.law->keys_say_all) {
-      robot.effects.push_back(entry_of(robot, each));
+      add_entry(entry_of(robot, each), each, &robot);
     }
     if (each.law->write_keys) {
       each.law->write_keys(each.values, each.joint, &robot);

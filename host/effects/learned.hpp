@@ -33,7 +33,8 @@ Machine machine_of(const model::Robot& robot);
 Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes);
 
 /// The robot with effects that were found: by the keys of its file where there are any, else as
-/// entries of its list.
+/// entries of its list. A formula that is listed already, with parameters that all act in
+/// proportion, gets what was found added to them.
 model::Robot with_learned(model::Robot robot, const std::vector<Placed>& found);
 
 }  // namespace flexcomp::effects

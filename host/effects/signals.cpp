@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace flexcomp::effects {
 namespace {
@@ -108,7 +109,10 @@ Eigen::VectorXd values_of(const Signal& signal, const Scene& scene, const Simula
     case SignalKind::position:
       return positions(at, signal.index);
     case SignalKind::temperature:
-      return scene.temperature;
+      return scene.temperature.size() == scene.rows()
+                 ? scene.temperature
+                 : Eigen::VectorXd::Constant(scene.rows(),
+                                             std::numeric_limits<double>::quiet_NaN());
     case SignalKind::time:
       return scene.time.array() - since;
   }

@@ -273,6 +273,15 @@ class Diagnosis(WithAFolder):
         again, _ = self.diagnose(self.with_law(), None, self.folder / "diagnosis/updated_model.yaml")
         self.assertEqual(("no_mismatch", []), (again["verdict"], again["findings"]))
 
+    def test_a_law_of_the_model_is_corrected(self):
+        known = {"effect": "law", "place": "joint_torque", "joint": 5, "formula": self.TRUE["formula"],
+                 "a": 25, "b": 0.2}
+        ranges = {"ranges": {"a": [-200, 200], "b": [-5, 5]}}
+        self.diagnose(self.with_law(), {**self.TRUE, **ranges}, self.model([known]))
+        updated = yaml.safe_load((self.folder / "diagnosis/updated_model.yaml").read_text())
+        self.assertEqual(1, len(updated["effects"]))
+        self.assertAlmostEqual(40, updated["effects"][0]["a"], delta=0.4)
+
     def test_a_shape_is_found_within_its_ranges(self):
         s = self.swing
         tau = s.tau.copy()
