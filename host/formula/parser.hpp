@@ -13,9 +13,11 @@ struct Parsed {
   std::vector<std::string> names;
 };
 
-/// Reads a formula; throws FormulaError. The grammar is muParser's
-/// (https://beltoforion.de/en/muparser), whose operators and functions are bound to ones that write
-/// down what is to be computed.
+/// Reads a formula; throws FormulaError.
+///
+/// The grammar is muParser's (https://beltoforion.de/en/muparser). Its own operators and functions
+/// are off; those that are on write down what is to be computed. It tells where a text is wrong,
+/// takes a compiler half a second, and is in Debian 12, unlike ExprTk.
 Parsed parse(const std::string& text);
 
 }  // namespace flexcomp::formula

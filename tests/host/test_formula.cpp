@@ -131,7 +131,7 @@ void units_that_disagree_are_told_with_their_column() {
     TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(beginning.c_str(), found.c_str(), beginning.size(),
                                          found.c_str());
   };
-  expect("6: 'v5' is in 1/s; the argument of sin", units_of("2*sin(v5)", {"rad/s"}, "1").c_str());
+  expect("7: 'v5' is in 1/s; the argument of sin", units_of("2*sin(v5)", {"rad/s"}, "1"));
   expect("8: 'v5' is in 1/s, but 'tau5' in N·m", units_of("tau5 + v5", {"N·m", "rad/s"}, "N·m"));
   expect("1: it is in N·m/s; joint_torque needs N·m", units_of("a*v5", {"N·m", "rad/s"}, "N·m"));
   expect("11: 'q1' is in rad or a plain number; the second argument of lag",
