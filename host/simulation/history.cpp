@@ -12,8 +12,7 @@ Eigen::RowVectorXd hermite(const Eigen::VectorXd& time, const Eigen::MatrixXd& v
   const double length = time[row + 1] - time[row];
   const double to_end = share * share * (3 - 2 * share);
   return (1 - to_end) * values.row(row) + to_end * values.row(row + 1) +
-         length * share * (1 - share) *
-             ((1 - share) * slope.row(row) - share * slope.row(row + 1));
+         length * share * (1 - share) * ((1 - share) * slope.row(row) - share * slope.row(row + 1));
 }
 
 /// Slopes of the parabolas through each row and its neighbours; straight at the ends.

@@ -43,8 +43,9 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
 /// their ends as they came there, turned about the last one.
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay);
 
-/// The same of a smooth signal: cubic between the times, as for `lag`. A straight line cuts the corners of a motion: by a·dt²/8 at an
-/// acceleration a, which of a TCP sampled at 50 Hz is more than a tracker's noise.
+/// The same of a smooth signal: cubic between the times, as for `lag`. A straight line cuts the
+/// corners of a motion: by a·dt²/8 at an acceleration a, which of a TCP sampled at 50 Hz is more
+/// than a tracker's noise.
 Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
                                  double delay);
 
