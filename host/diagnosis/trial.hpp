@@ -7,7 +7,7 @@
 
 namespace flexcomp::diagnosis {
 
-/// What became of a law that a person suspected.
+/// A law that a person suspected, weighed.
 struct Trial {
   Hypothesis hypothesis;
   bool stands = false;         ///< it is among the findings

@@ -34,7 +34,7 @@ struct BoundFormula {
 BoundFormula bind_law(const model::WrittenLaw& written, const model::Robot& robot, int joint,
                       const std::vector<std::string>& parameters);
 
-/// What becomes of a formula that has no value somewhere (a division by zero): a machine that is
+/// How a formula is taken that has no value somewhere (a division by zero): a machine that is
 /// believed to have it cannot be simulated, and one that is only tried is not like the recording.
 enum class Unvalued { refuse, not_a_number };
 

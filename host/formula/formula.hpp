@@ -46,7 +46,7 @@ class Formula {
 
   const std::string& text() const { return text_; }
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// What it is a function of, in the order of their first appearance.
+  /// The names that it is a function of, in the order of their first appearance.
   const std::vector<std::string>& names() const { return names_; }
   /// Column of a name's first appearance, from 1 on.
   std::size_t column_of(std::size_t name) const;

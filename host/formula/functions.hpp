@@ -5,7 +5,7 @@
 
 namespace flexcomp::formula {
 
-/// What the arguments of a function must be, and what it gives.
+/// Units that a function asks for, and those that it gives.
 enum class FunctionUnits {
   of_angle,   ///< a plain number or an angle gives a plain number
   of_number,  ///< the same, for functions that are no trigonometric ones

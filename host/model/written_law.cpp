@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "model/yaml_map.hpp"
+
 namespace flexcomp::model {
 
 WrittenLaw read_written_law(const YamlMap& yaml) {

@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
-#include "model/yaml_map.hpp"
-
 namespace flexcomp::model {
+
+class YamlMap;
 
 /// The effect's name of physics that a formula says.
 constexpr const char* kLaw = "law";

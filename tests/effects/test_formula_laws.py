@@ -332,7 +332,7 @@ class Diagnosis(WithAFolder):
 
 
 class Corrections(WithAFolder):
-    """What a law moves, a command moves back."""
+    """Programs and the plant with a law: a command undoes its motion."""
 
     LAW = {"effect": "law", "place": "tcp_tool", "axis": "z", "formula": "a*sin(3*q1) + b*abs(v2)",
            "a": 3e-4, "b": 2e-4}

@@ -16,7 +16,7 @@ double value_of(const std::string& text, const std::vector<double>& values = {})
   return Course(formula).next(values, 0);
 }
 
-/// What a formula's reader complains of: "column: why".
+/// The complaint of a formula's reader: "column: why".
 template <typename Read>
 std::string complaint(const Read& read) {
   try {
@@ -86,7 +86,7 @@ std::vector<std::optional<Dimension>> known(const std::vector<std::string>& unit
   return all;
 }
 
-/// What the check says of a formula whose names have these units, in the order of their appearance.
+/// The check's answer to a formula whose names have these units, in the order of their appearance.
 std::string units_of(const std::string& text, const std::vector<std::string>& units,
                      const std::string& wanted) {
   std::string found;

@@ -91,7 +91,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
   return json;
 }
 
-/// What became of a law that a person suspected, by itself.
+/// The answer to a law that a person suspected, with its fit by itself.
 Json trial_json(const Observations& observations, const Trial& trial) {
   Json json = formula_json(*trial.hypothesis.law->written);
   json["joint"] = joint_or_null(trial.hypothesis.joint);

@@ -8,6 +8,7 @@
 #include "effects/formula_law.hpp"
 #include "error.hpp"
 #include "files/one_line.hpp"
+#include "model/yaml_map.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
