@@ -17,6 +17,7 @@
 #include "diagnosis/output/json.hpp"
 #include "diagnosis/output/report.hpp"
 #include "diagnosis/output/sentences.hpp"
+#include "diagnosis/search/tried_law.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 
@@ -31,6 +32,7 @@ struct DiagnoseOptions {
   RobotChoice model;
   std::vector<std::string> recordings;
   std::vector<std::string> holdouts;
+  std::vector<std::string> laws;
   std::string out;
   double false_discovery = 0.01;
 };
@@ -117,6 +119,9 @@ std::string command_line(const DiagnoseOptions& options) {
   for (const std::string& file : options.holdouts) {
     line += " --holdout " + file;
   }
+  for (const std::string& file : options.laws) {
+    line += " --law " + file;
+  }
   return line +
          fmt::format(" --out {} --false-discovery {:g}", options.out, options.false_discovery);
 }
@@ -146,6 +151,9 @@ void summarize(const diagnosis::Observations& observations, const diagnosis::Dia
   for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
     fmt::print("{}\n", diagnosis::statement(observations, result, i));
   }
+  for (const diagnosis::Trial& trial : result.trials) {
+    fmt::print("{}\n", diagnosis::statement_of_trial(observations, trial));
+  }
   if (!result.retuned.chosen.empty()) {
     fmt::print("{}\n", diagnosis::statement_of_retuned(observations, result));
   }
@@ -174,7 +182,10 @@ int run(const DiagnoseOptions& options) {
   simulation::Machine machine = effects::machine_of(robot, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes),
                                        options.holdouts.size());
-  const std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
+  std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
+  for (const std::string& file : options.laws) {
+    hypotheses.push_back(diagnosis::read_tried_law(file, observations));
+  }
   Progress simulating("simulating hypotheses", hypotheses.size());
   Progress choosing("choosing", 5);
   diagnosis::Settings settings;
@@ -212,6 +223,12 @@ void add_diagnose(CLI::App* app, Action* action) {
   command
       ->add_option("--holdout", options->holdouts,
                    "recording to check with; else part of each recording is set aside")
+      ->take_all();
+  command
+      ->add_option(
+          "--law", options->laws,
+          "a law of your own to weigh beside all others: a file with its place, its formula "
+          "and\nthe ranges of its parameters; may be given again")
       ->take_all();
   command->add_option("--out", options->out, "folder to write to")->required();
   command->add_option("--false-discovery", options->false_discovery,

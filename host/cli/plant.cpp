@@ -16,11 +16,13 @@
 #include "control/arc_request.hpp"
 #include "control/dynamic_milling.hpp"
 #include "control/path_gain.hpp"
+#include "effects/running_laws.hpp"
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "node/default_config.hpp"
 #include "node/reply.hpp"
 #include "recording/plausible_angles.hpp"
+#include "simulation/displaced_robot.hpp"
 #include "simulation/rsi_controller.hpp"
 
 namespace flexcomp::cli {
@@ -155,6 +157,20 @@ std::unique_ptr<simulation::RobotInCut> robot_in_cut(const PlantOptions& options
       options.process.process);
 }
 
+/// The robot with the laws that its file has as formulas.
+std::unique_ptr<simulation::RobotInCut> with_laws(const PlantOptions& options,
+                                                  const model::Robot& robot,
+                                                  std::unique_ptr<simulation::RobotInCut> plain) {
+  const auto laws = std::make_shared<effects::RunningLaws>(robot, options.plant.period);
+  if (!laws->any()) {
+    return plain;
+  }
+  return std::make_unique<simulation::DisplacedRobot>(
+      std::move(plain), [laws](const JointVector<double, 6>& q, const Wrench<double>& wrench) {
+        return laws->next(q, wrench);
+      });
+}
+
 /// The plant as a KUKA with RSI running.
 std::unique_ptr<simulation::PlantBus> rsi_controller(const PlantOptions& options) {
   simulation::RsiControllerOptions rsi;
@@ -206,8 +222,8 @@ int run(const PlantOptions& options) {
   if (!options.allow_unstable) {
     plant_options.stable_gain = limit.stable;
   }
-  simulation::Plant plant(robot_in_cut(options, robot), std::move(contour), plant_options,
-                          bus.get());
+  simulation::Plant plant(with_laws(options, robot, robot_in_cut(options, robot)),
+                          std::move(contour), plant_options, bus.get());
   Progress progress("milling", 1000);
   const simulation::PlantRun result =
       plant.run([&](double share) { progress.show(static_cast<std::size_t>(1000 * share)); });
@@ -270,7 +286,9 @@ void add_plant(CLI::App* app, Action* action) {
       "what\n"
       "its force sensor and a tracker measure, and moves by what flexcompd sends back. A deeper "
       "cut\n"
-      "gives more force. With --table the compensator runs inside this process, in lock-step: the\n"
+      "gives more force. Laws that the model has as formulas (effects: - {effect: law, …}) move "
+      "its\n"
+      "TCP too. With --table the compensator runs inside this process, in lock-step: the\n"
       "same code and frames without a bus. Exit code 1 if the compensator refuses to arm, or if "
       "with\n"
       "its gain and this process the loop is unstable.\n"

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "effects/learned.hpp"
 #include "model/tool.hpp"
 
 namespace flexcomp::cli {
@@ -35,8 +36,10 @@ CLI::Option* add_robot(CLI::App* command, RobotChoice* choice) {
 }
 
 model::Robot load_robot(const RobotChoice& choice) {
-  return choice.tool.empty() ? model::load_robot(choice.file)
-                             : model::load_robot(choice.file, load_tool(choice.tool));
+  model::Robot robot = choice.tool.empty() ? model::load_robot(choice.file)
+                                           : model::load_robot(choice.file, load_tool(choice.tool));
+  effects::listed_effects(robot);  // refuses what the reader, which knows no physics, cannot judge
+  return robot;
 }
 
 std::string describe(const RobotChoice& choice) {

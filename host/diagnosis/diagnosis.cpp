@@ -240,6 +240,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     refit(inquiry, hypotheses, &diagnosis);
     diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
   }
+  diagnosis.trials = weigh_trials(inquiry, diagnosis.choice);
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;
     if (diagnosis.suggested_experiment.empty() && !others.empty() &&

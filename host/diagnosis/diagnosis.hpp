@@ -9,6 +9,7 @@
 #include "diagnosis/proposal.hpp"
 #include "diagnosis/retune.hpp"
 #include "diagnosis/select/choose.hpp"
+#include "diagnosis/trial.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -36,6 +37,7 @@ struct Diagnosis {
   bool is_weighed_whole = false;  ///< the findings were weighed beside what stands in
   std::vector<std::vector<Place>> indistinguishable;
   std::string suggested_experiment;  ///< empty where none is needed
+  std::vector<Trial> trials;         ///< of laws that a person suspected
 
   /// The fit behind the updated model: the findings, and the numbers that stand in for the rest.
   const Fit& updated() const { return retuned.chosen.empty() ? choice.fit : retuned; }

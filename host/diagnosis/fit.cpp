@@ -34,6 +34,9 @@ class WeightedRemainder : public HeldRemainder {
     } catch (const InputError&) {
       return false;  // springs so soft that there is no rest
     }
+    if (!predicted.allFinite()) {
+      return false;  // a formula has no value there
+    }
     left = root_.cwiseProduct(measured_ - predicted.head(n));
     if (slope != nullptr) {
       *slope = -(root_.asDiagonal() * derivative.topRows(n));

@@ -100,7 +100,7 @@ std::string three_digits(double value) {
 }
 
 std::string readable(double value, const std::string& unit) {
-  if (unit == "1") {
+  if (unit == "1" || unit.empty()) {  // a formula may leave a unit open
     return three_digits(value);
   }
   const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";

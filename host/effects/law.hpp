@@ -17,6 +17,8 @@ using simulation::Scene;
 using simulation::Simulation;
 using simulation::Term;
 
+struct BoundFormula;
+
 /// Values of a law's parameters, SI, in their order.
 using Values = std::vector<double>;
 
@@ -95,7 +97,11 @@ struct Law {
   /// it.
   std::function<void(const Values&, int joint, model::Robot*)> write_keys;
   bool keys_say_all = false;  ///< the keys need no entry in the list `effects` beside them
-  std::string words;          ///< what people call the effect; empty where its name says it
+  /// The formula, of a law that a person wrote as one (formula_law.hpp), as written and as bound to
+  /// the robot; null for all others.
+  std::shared_ptr<const model::WrittenLaw> written;
+  std::shared_ptr<const BoundFormula> bound;
+  std::string words;  ///< what people call the effect; empty where its name says it
   /// One plain clause: what the machine has that the model lacks.
   std::function<std::string(int joint)> statement;
 };

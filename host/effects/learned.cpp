@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "effects/formula_law.hpp"
 #include "error.hpp"
 
 namespace flexcomp::effects {
@@ -23,11 +24,11 @@ const Effect& effect_of(const model::Robot& robot, const model::LearnedEffect& l
     }
     known.push_back(effect.name);
   }
-  refuse(robot, fmt::format("'{}' is unknown; expected one of: {}", learned.effect,
-                            fmt::join(known, ", ")));
+  refuse(robot, fmt::format("'{}' is unknown; expected one of: {}, {}", learned.effect,
+                            fmt::join(known, ", "), model::kLaw));
 }
 
-LawPointer law_of(const model::Robot& robot, const model::LearnedEffect& learned) {
+LawPointer known_law(const model::Robot& robot, const model::LearnedEffect& learned) {
   std::vector<std::string> forms;
   for (const LawPointer& law : effect_of(robot, learned).forms) {
     if (law->form == learned.form) {
@@ -38,6 +39,16 @@ LawPointer law_of(const model::Robot& robot, const model::LearnedEffect& learned
   const bool has_one = forms.size() == 1 && forms.front().empty();
   refuse(robot, fmt::format("{} has no form '{}'; expected {}", learned.effect, learned.form,
                             has_one ? "none" : fmt::format("one of: {}", fmt::join(forms, ", "))));
+}
+
+LawPointer written_law(const model::Robot& robot, const model::LearnedEffect& learned) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : learned.parameters) {
+    names.push_back(name);
+  }
+  return formula_law(
+      std::make_shared<const BoundFormula>(bind_law(*learned.law, robot, learned.joint, names)),
+      Unvalued::refuse);
 }
 
 void refuse_wrong_joint(const model::Robot& robot, const model::LearnedEffect& learned,
@@ -94,12 +105,36 @@ void apply_keys(const model::Robot& robot, Machine* machine) {
 }
 
 model::LearnedEffect entry_of(const model::Robot& robot, const Placed& placed) {
-  model::LearnedEffect entry{placed.law->effect, placed.joint, placed.law->form, {}};
+  model::LearnedEffect entry{placed.law->effect, placed.joint, placed.law->form, {}, {}};
+  if (placed.law->written) {
+    entry.law = *placed.law->written;
+  }
   const std::vector<Parameter> parameters = placed.law->parameters(robot, placed.joint);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     entry.parameters[parameters[i].name] = placed.values[i];
   }
   return entry;
+}
+
+/// The same formula at the same place, whose parameters all act in proportion: then two add up.
+bool adds_up(const model::LearnedEffect& listed, const Placed& found) {
+  return listed.law && found.law->bound && listed.joint == found.joint &&
+         listed.law->place == found.law->written->place &&
+         listed.law->axis == found.law->written->axis &&
+         listed.law->formula == found.law->written->formula &&
+         found.law->traits.linear_in == found.law->bound->parameters.size();
+}
+
+void add_entry(model::LearnedEffect entry, const Placed& found, model::Robot* robot) {
+  for (model::LearnedEffect& listed : robot->effects) {
+    if (adds_up(listed, found)) {
+      for (const auto& [name, value] : entry.parameters) {
+        listed.parameters[name] += value;
+      }
+      return;
+    }
+  }
+  robot->effects.push_back(std::move(entry));
 }
 
 /// Of a law among all forms of all effects; behind them for one that is not among them.
@@ -118,6 +153,10 @@ std::size_t place_in_catalogue(const Law& law) {
 }
 
 }  // namespace
+
+LawPointer law_of(const model::Robot& robot, const model::LearnedEffect& learned) {
+  return learned.law ? written_law(robot, learned) : known_law(robot, learned);
+}
 
 void add_effects(const std::vector<Placed>& effects, Machine* machine) {
   using Rank = std::tuple<bool, std::size_t, int>;
@@ -138,7 +177,9 @@ std::vector<Placed> listed_effects(const model::Robot& robot) {
   std::vector<Placed> all;
   for (const model::LearnedEffect& learned : robot.effects) {
     const LawPointer law = law_of(robot, learned);
-    refuse_wrong_joint(robot, learned, *law);
+    if (!learned.law) {
+      refuse_wrong_joint(robot, learned, *law);
+    }
     all.push_back(
         {law, learned.joint, values_of(robot, learned, law->parameters(robot, learned.joint))});
   }
@@ -157,7 +198,8 @@ Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes) 
     for (const Scene& scene : scenes) {
       if (each.law->traits.needs_temperature && scene.temperature.size() == 0) {
         refuse(robot, fmt::format("a {} by {} cannot be simulated for {}, which has no temp_c",
-                                  each.law->effect, each.law->form, scene.file));
+                                  each.law->effect,
+                                  each.law->written ? "temperature" : each.law->form, scene.file));
       }
     }
   }
@@ -167,7 +209,7 @@ Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes) 
 model::Robot with_learned(model::Robot robot, const std::vector<Placed>& found) {
   for (const Placed& each : found) {
     if (!each.law->keys_say_all) {
-      robot.effects.push_back(entry_of(robot, each));
+      add_entry(entry_of(robot, each), each, &robot);
     }
     if (each.law->write_keys) {
       each.law->write_keys(each.values, each.joint, &robot);

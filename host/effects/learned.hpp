@@ -16,6 +16,10 @@ struct Placed {
 /// a machine must not depend on the order in which its effects are listed.
 void add_effects(const std::vector<Placed>& effects, Machine* machine);
 
+/// The law behind an effect that a robot's file lists, a formula included. Throws InputError as
+/// below.
+LawPointer law_of(const model::Robot& robot, const model::LearnedEffect& learned);
+
 /// The effects that a robot's file lists. Throws InputError for an effect, form, joint or parameter
 /// that is unknown, missing, or cannot be of this robot.
 std::vector<Placed> listed_effects(const model::Robot& robot);
@@ -29,7 +33,8 @@ Machine machine_of(const model::Robot& robot);
 Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes);
 
 /// The robot with effects that were found: by the keys of its file where there are any, else as
-/// entries of its list.
+/// entries of its list. A formula that is listed already, with parameters that all act in
+/// proportion, gets what was found added to them.
 model::Robot with_learned(model::Robot robot, const std::vector<Placed>& found);
 
 }  // namespace flexcomp::effects

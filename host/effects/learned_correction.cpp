@@ -14,10 +14,8 @@ constexpr double kDamping = 1e-3;  // m, of the Jacobian's singular values
 Machine moving_machine(const model::Robot& robot, const Scene& scene) {
   model::Robot moving = robot;
   moving.effects.erase(std::remove_if(moving.effects.begin(), moving.effects.end(),
-                                      [](const model::LearnedEffect& learned) {
-                                        const LawPointer law =
-                                            find_law(learned.effect, learned.form);
-                                        return law != nullptr && !law->traits.can_be_undone;
+                                      [&](const model::LearnedEffect& learned) {
+                                        return !law_of(robot, learned)->traits.can_be_undone;
                                       }),
                        moving.effects.end());
   return machine_of(moving, {scene});

@@ -8,6 +8,7 @@
 
 #include "model/chain.hpp"
 #include "model/tool.hpp"
+#include "model/written_law.hpp"
 
 namespace flexcomp::model {
 
@@ -22,12 +23,14 @@ struct JointDynamics {
   double velocity = 0;       ///< rad/s, largest speed
 };
 
-/// Physics of a machine that the other keys cannot say, as a diagnosis found it.
+/// Physics of a machine that the other keys cannot say, as a diagnosis found it or a person wrote
+/// it.
 struct LearnedEffect {
   std::string effect;  ///< of the diagnosis' vocabulary, such as transmission_ripple
   int joint = 0;       ///< from 1 on, 0 where the effect has no joint
   std::string form;    ///< which of its forms; empty where there is one
   std::map<std::string, double> parameters;  ///< SI
+  std::optional<WrittenLaw> law;             ///< where the effect is `law`: the formula
 };
 
 /// A robot as its two files describe it: a YAML file and the URDF it names.
@@ -69,7 +72,8 @@ bool is_transmission(const JointMatrix& transmission);
 /// (3), of the link that the joint moves, diagonal in the link's frame, at the joint's origin; and
 /// the robot `transmission`, a list of as many rows as joints of as many numbers, and `effects`, a
 /// list of maps: `effect`, `joint` (from 1 on) and `form` where it has them, and the effect's
-/// parameters by name.
+/// parameters by name. An effect `law` (written_law.hpp) has its formula beside them; what it says
+/// is for others to check.
 ///
 /// With `tool` (tool.hpp) the TCP is the tool's, and `tool_compliance` and `payload` are in its
 /// frame. A tool that is given here takes the place of the file's.

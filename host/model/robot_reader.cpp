@@ -85,15 +85,36 @@ JointMatrix read_transmission(const YamlMap& yaml, Eigen::Index joints) {
   return transmission;
 }
 
-LearnedEffect read_effect(const YamlMap& yaml, int joints) {
-  LearnedEffect learned;
-  learned.effect = yaml.text("effect");
-  learned.form = yaml.has("form") ? yaml.text("form") : "";
+/// From 1 on; 0 where there is none.
+int read_joint_number(const YamlMap& yaml, int joints) {
   const double joint = yaml.number_or("joint", 0);
   if (yaml.has("joint") && !(joint >= 1 && joint <= joints && joint == std::floor(joint))) {
     yaml.refuse("joint", fmt::format("expected a joint, 1 to {}", joints));
   }
-  learned.joint = static_cast<int>(joint);
+  return static_cast<int>(joint);
+}
+
+LearnedEffect read_law(const YamlMap& yaml, int joints) {
+  LearnedEffect learned;
+  learned.effect = kLaw;
+  learned.joint = read_joint_number(yaml, joints);
+  learned.law = read_written_law(yaml);
+  for (const std::string& key : yaml.keys()) {
+    if (!is_key_of_law(key)) {
+      learned.parameters[key] = yaml.number(key);
+    }
+  }
+  return learned;
+}
+
+LearnedEffect read_effect(const YamlMap& yaml, int joints) {
+  if (yaml.text("effect") == kLaw) {
+    return read_law(yaml, joints);
+  }
+  LearnedEffect learned;
+  learned.effect = yaml.text("effect");
+  learned.form = yaml.has("form") ? yaml.text("form") : "";
+  learned.joint = read_joint_number(yaml, joints);
   for (const std::string& key : yaml.keys()) {
     if (key != "effect" && key != "form" && key != "joint") {
       learned.parameters[key] = yaml.number(key);

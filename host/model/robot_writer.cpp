@@ -110,6 +110,21 @@ void write_transmission(YAML::Emitter* out, const JointMatrix& transmission) {
   *out << YAML::EndSeq;
 }
 
+void write_law(YAML::Emitter* out, const WrittenLaw& law) {
+  write_text(out, "place", law.place);
+  if (!law.axis.empty()) {
+    write_text(out, "axis", law.axis);
+  }
+  *out << YAML::Key << "formula" << YAML::Value << YAML::DoubleQuoted << law.formula;
+  if (!law.units.empty()) {
+    *out << YAML::Key << "units" << YAML::Value << YAML::BeginMap;
+    for (const auto& [name, unit] : law.units) {
+      write_text(out, name, unit);
+    }
+    *out << YAML::EndMap;
+  }
+}
+
 void write_effects(YAML::Emitter* out, const std::vector<LearnedEffect>& effects) {
   if (effects.empty()) {
     return;
@@ -123,6 +138,9 @@ void write_effects(YAML::Emitter* out, const std::vector<LearnedEffect>& effects
     }
     if (!learned.form.empty()) {
       write_text(out, "form", learned.form);
+    }
+    if (learned.law) {
+      write_law(out, *learned.law);
     }
     for (const auto& [name, value] : learned.parameters) {
       *out << YAML::Key << name << YAML::Value << number(value);

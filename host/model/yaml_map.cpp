@@ -71,15 +71,17 @@ std::string YamlMap::location(const YAML::Node& node, const std::string& key) co
   return path.empty() ? line : fmt::format("{}: '{}'", line, files::one_line(path));
 }
 
-void YamlMap::refuse(const std::string& key, const std::string& why) const {
-  YAML::Node at = node_;
+std::string YamlMap::place_of(const std::string& key) const {
   for (const auto& entry : node_) {
     if (entry.first.Scalar() == key) {
-      at = entry.first;
-      break;
+      return location(entry.first, key);
     }
   }
-  throw InputError(fmt::format("{}: {}", location(at, key), why));
+  return location(node_, key);
+}
+
+void YamlMap::refuse(const std::string& key, const std::string& why) const {
+  throw InputError(fmt::format("{}: {}", place_of(key), why));
 }
 
 void YamlMap::allow_only(const std::vector<std::string>& keys, const std::string& why) const {

@@ -52,6 +52,9 @@ class YamlMap {
   /// A list of finite numbers, however many.
   std::vector<double> list(const std::string& key) const;
 
+  /// File, line and key, as messages begin with them.
+  std::string place_of(const std::string& key) const;
+
   /// Throws InputError at a key's line.
   [[noreturn]] void refuse(const std::string& key, const std::string& why) const;
 

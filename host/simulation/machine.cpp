@@ -249,7 +249,8 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
 
 Wanted wanted_of(const Machine& machine, const Scene& scene) {
   Wanted wanted;
-  wanted.levers = !machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench);
+  wanted.levers = machine.needs_levers ||
+                  (!machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench));
   return wanted;
 }
 

@@ -54,6 +54,7 @@ struct Machine {
   /// Torques (N·m) in parallel to the drives, by the joint angles: gravity compensators.
   std::vector<std::function<JointValues(const JointValues& q)>> balancers;
   std::vector<Term> terms;
+  bool needs_levers = false;  ///< a term follows where the TCP is, or the loads at rest
 };
 
 /// Torques (N·m) of inertia and weight in a scene, with straight springs: what of a simulation

@@ -141,23 +141,24 @@ void assert_said(const char* what, const model::LearnedEffect& listed) {
 }
 
 void every_mistake_in_the_list_is_refused_without_a_recording() {
-  TEST_ASSERT_EQUAL_STRING("", said_of({"backlash", 2, "motion", {{"gap", 1e-4}}}).c_str());
-  assert_said("'backslash' is unknown", {"backslash", 2, "motion", {{"gap", 1e-4}}});
-  assert_said("has no form 'slack'", {"backlash", 2, "slack", {{"gap", 1e-4}}});
-  assert_said("needs the parameter 'gap' (rad)", {"backlash", 2, "motion", {}});
+  TEST_ASSERT_EQUAL_STRING("", said_of({"backlash", 2, "motion", {{"gap", 1e-4}}, {}}).c_str());
+  assert_said("'backslash' is unknown", {"backslash", 2, "motion", {{"gap", 1e-4}}, {}});
+  assert_said("has no form 'slack'", {"backlash", 2, "slack", {{"gap", 1e-4}}, {}});
+  assert_said("needs the parameter 'gap' (rad)", {"backlash", 2, "motion", {}, {}});
   assert_said("has no parameter 'hold'; expected gap",
-              {"backlash", 2, "motion", {{"gap", 1e-4}, {"hold", 3}}});
+              {"backlash", 2, "motion", {{"gap", 1e-4}, {"hold", 3}}, {}});
   assert_said("backlash has no joint; expected one of: 1, 2",
-              {"backlash", 0, "motion", {{"gap", 1e-4}}});
+              {"backlash", 0, "motion", {{"gap", 1e-4}}, {}});
   assert_said("payload has joint 6; expected none",
-              {"payload", 6, "", {{"mass", 1}, {"mx", 0}, {"my", 0}, {"mz", 0}}});
+              {"payload", 6, "", {{"mass", 1}, {"mx", 0}, {"my", 0}, {"mz", 0}}, {}});
   assert_said("link_length cannot be at joint 5: its link has no length",
-              {"link_length", 5, "", {{"length", 1e-3}}});
+              {"link_length", 5, "", {{"length", 1e-3}}, {}});
 }
 
 void a_drift_by_temperature_needs_temperatures() {
   MovingRobot moving;
-  moving.robot.effects = {{"thermal_drift", 0, "temperature", {{"x", 1e-5}, {"y", 0}, {"z", 0}}}};
+  moving.robot.effects = {
+      {"thermal_drift", 0, "temperature", {{"x", 1e-5}, {"y", 0}, {"z", 0}}, {}}};
   TEST_ASSERT_EQUAL_UINT64(1, effects::machine_of(moving.robot, {moving.scene()}).terms.size());
   moving.recording.temperature.reset();
   try {

@@ -57,6 +57,12 @@ Json parameters_of(const Observations& observations, const Chosen& chosen,
   return parameters;
 }
 
+Json formula_json(const model::WrittenLaw& law) {
+  return {{"place", law.place},
+          {"axis", law.axis.empty() ? Json(nullptr) : Json(law.axis)},
+          {"formula", law.formula}};
+}
+
 Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
   const Choice& choice = diagnosis.choice;
   const Finding& finding = choice.findings[index];
@@ -68,17 +74,39 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
                             {"delta_bic", other.delta_bic}});
   }
   const Channel channel = main_channel(observations, finding.without, diagnosis.weighed());
-  return {{"effect", hypothesis.effect()},
-          {"joint", joint_or_null(hypothesis.joint)},
-          {"parameters", parameters_of(observations, finding.chosen, finding.covariance)},
-          {"evidence",
-           {{"delta_bic", finding.evidence.delta_bic},
-            {"p_value", finding.evidence.p_value},
-            {"channel", kChannels[channel]},
-            {"holdout_rms_before", observations.rms(finding.without.remainder, channel, true)},
-            {"holdout_rms_after", observations.rms(diagnosis.weighed().remainder, channel, true)}}},
-          {"alternatives", alternatives},
-          {"statement", statement(observations, diagnosis, index)}};
+  Json json = {{"effect", hypothesis.effect()}, {"joint", joint_or_null(hypothesis.joint)}};
+  if (hypothesis.law->written) {
+    json.update(formula_json(*hypothesis.law->written));
+  }
+  json.update(
+      {{"parameters", parameters_of(observations, finding.chosen, finding.covariance)},
+       {"evidence",
+        {{"delta_bic", finding.evidence.delta_bic},
+         {"p_value", finding.evidence.p_value},
+         {"channel", kChannels[channel]},
+         {"holdout_rms_before", observations.rms(finding.without.remainder, channel, true)},
+         {"holdout_rms_after", observations.rms(diagnosis.weighed().remainder, channel, true)}}},
+       {"alternatives", alternatives},
+       {"statement", statement(observations, diagnosis, index)}});
+  return json;
+}
+
+/// The answer to a law that a person suspected, with its fit by itself.
+Json trial_json(const Observations& observations, const Trial& trial) {
+  Json json = formula_json(*trial.hypothesis.law->written);
+  json["joint"] = joint_or_null(trial.hypothesis.joint);
+  json["stands"] = trial.stands;
+  json["why_not"] = trial.stands ? Json(nullptr) : Json(trial.why);
+  json["parameters"] = nullptr;
+  json["evidence"] = nullptr;
+  if (!trial.chosen.empty()) {
+    json["parameters"] = parameters_of(observations, trial.chosen.front(), trial.covariance);
+    json["evidence"] = {{"delta_bic", trial.evidence.delta_bic},
+                        {"p_value", trial.evidence.p_value},
+                        {"explained", trial.evidence.explained}};
+  }
+  json["statement"] = statement_of_trial(observations, trial);
+  return json;
 }
 
 Json places(const std::vector<Place>& all) {
@@ -179,6 +207,10 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis,
   }
   json["suggested_experiment"] =
       diagnosis.suggested_experiment.empty() ? Json(nullptr) : Json(diagnosis.suggested_experiment);
+  json["laws"] = Json::array();
+  for (const Trial& trial : diagnosis.trials) {
+    json["laws"].push_back(trial_json(observations, trial));
+  }
   json["clocks"] = Json::array();
   for (const ClockCheck& clock : diagnosis.clocks) {
     json["clocks"].push_back(

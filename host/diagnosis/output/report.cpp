@@ -66,6 +66,12 @@ std::string parameters(const Observations& observations, const Chosen& chosen,
   return values;
 }
 
+/// "law of joint 5: a*sin(q4)"
+std::string named(const Hypothesis& hypothesis) {
+  const std::string place = place_in_words(hypothesis.effect(), hypothesis.joint);
+  return hypothesis.law->written ? place + ": " + escaped(hypothesis.law->written->formula) : place;
+}
+
 std::string finding_rows(const Observations& observations, const Diagnosis& diagnosis) {
   std::string rows;
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
@@ -76,11 +82,10 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
       others += fmt::format("{}: {:.0f} worse<br>", place_in_words(other.effect, other.joint),
                             other.delta_bic);
     }
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
-                        place_in_words(hypothesis.effect(), hypothesis.joint),
-                        parameters(observations, finding.chosen, finding.covariance),
-                        finding.evidence.delta_bic, chance(finding.evidence.p_value),
-                        others.empty() ? "none comes near" : others);
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n", named(hypothesis),
+        parameters(observations, finding.chosen, finding.covariance), finding.evidence.delta_bic,
+        chance(finding.evidence.p_value), others.empty() ? "none comes near" : others);
   }
   if (rows.empty()) {
     return "<p>No effect is proved.</p>\n";
@@ -213,6 +218,14 @@ std::string retuned(const Observations& observations, const Diagnosis& diagnosis
       escaped(statement_of_retuned(observations, diagnosis)), in_words(channel), scale.unit, rows);
 }
 
+std::string trials_html(const Observations& observations, const Diagnosis& diagnosis) {
+  std::string html;
+  for (const Trial& trial : diagnosis.trials) {
+    html += fmt::format("<p>{}</p>\n", escaped(statement_of_trial(observations, trial)));
+  }
+  return html.empty() ? "" : "<h2>Laws that you suspected</h2>\n" + html;
+}
+
 std::string checks_html(const check::Checks& checks) {
   std::string html;
   for (const check::Check& each : checks) {
@@ -269,7 +282,7 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
                       escaped(headline(observations, diagnosis)), in_words(diagnosis.verdict),
                       diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
   html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
-  html += retuned(observations, diagnosis);
+  html += trials_html(observations, diagnosis) + retuned(observations, diagnosis);
   html += errors_html(observations, diagnosis);
   html += "<h2>Where the mismatch is</h2>\n" + location_table(observations, diagnosis.location);
   if (!diagnosis.reason.empty()) {

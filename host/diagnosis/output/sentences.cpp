@@ -61,6 +61,19 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
                      fall(observations, found.without, diagnosis.weighed()));
 }
 
+std::string statement_of_trial(const Observations& observations, const Trial& trial) {
+  std::string values;
+  for (const Chosen& chosen : trial.chosen) {
+    for (const Estimate& each : estimates(observations, chosen, trial.covariance)) {
+      values += fmt::format("{}{} {}", values.empty() ? " (by itself " : ", ", each.name,
+                            readable(each.value, each.unit));
+    }
+    values += ")";
+  }
+  return fmt::format("Your law, {}{}: {}.", trial.hypothesis.statement(), values,
+                     trial.stands ? "it stands" : "it does not stand, since " + trial.why);
+}
+
 std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis) {
   const Fit& fit = diagnosis.retuned;
   if (fit.chosen.empty()) {

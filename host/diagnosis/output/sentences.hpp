@@ -8,6 +8,9 @@ namespace flexcomp::diagnosis {
 std::string statement(const Observations& observations, const Diagnosis& diagnosis,
                       std::size_t finding);
 
+/// One plain sentence about a law that a person suspected: whether it stands, or why not.
+std::string statement_of_trial(const Observations& observations, const Trial& trial);
+
 /// One plain sentence about the numbers that stand in for what is unexplained; empty without any.
 std::string statement_of_retuned(const Observations& observations, const Diagnosis& diagnosis);
 

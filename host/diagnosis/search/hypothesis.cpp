@@ -23,7 +23,12 @@ void Hypothesis::set_bounds(const std::vector<Bounds>& bounds) {
 }
 
 bool are_the_same(const Hypothesis& a, const Hypothesis& b) {
-  return a.effect() == b.effect() && a.joint == b.joint;
+  const auto written = [](const Hypothesis& of) {
+    return of.law->written
+               ? of.law->written->place + of.law->written->axis + of.law->written->formula
+               : std::string();
+  };
+  return a.effect() == b.effect() && a.joint == b.joint && written(a) == written(b);
 }
 
 std::vector<Hypothesis> sought_anew(const Observations& observations,

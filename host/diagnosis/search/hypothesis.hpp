@@ -65,7 +65,7 @@ struct Hypothesis {
   void set_bounds(const std::vector<Bounds>& bounds);
 };
 
-/// Are they the same effect at the same place, in whatever form?
+/// Are they the same effect at the same place, in whatever form, or the same formula there?
 bool are_the_same(const Hypothesis& a, const Hypothesis& b);
 
 /// All hypotheses of all effects that could show in the observations, within what the machine can
