@@ -9,7 +9,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
 BUILD = pathlib.Path(os.environ["FLEXCOMP_BUILD"])
-PROJECT = SOURCE / "tests" / "package"
+PROJECT = SOURCE / "tests" / "package" / "customer"
 GUIDE = SOURCE / "include" / "flexcomp" / "README.md"
 KR270 = SOURCE / "host" / "robots" / "kr270" / "robot.yaml"
 
