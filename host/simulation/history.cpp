@@ -4,6 +4,84 @@
 #include <cmath>
 
 namespace flexcomp::simulation {
+namespace {
+
+/// A signal (n×m) with its slopes at a share of the way from one row to the next: cubic (Hermite).
+Eigen::RowVectorXd hermite(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                           const Eigen::MatrixXd& slope, Eigen::Index row, double share) {
+  const double length = time[row + 1] - time[row];
+  const double to_end = share * share * (3 - 2 * share);
+  return (1 - to_end) * values.row(row) + to_end * values.row(row + 1) +
+         length * share * (1 - share) * ((1 - share) * slope.row(row) - share * slope.row(row + 1));
+}
+
+/// Slopes of the parabolas through each row and its neighbours; straight at the ends.
+Eigen::MatrixXd slopes(const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
+  const Eigen::Index last = time.size() - 1;
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(values.rows(), values.cols());
+  for (Eigen::Index row = 0; row <= last && last > 0; ++row) {
+    const Eigen::Index before = std::max<Eigen::Index>(row - 1, 0);
+    const Eigen::Index after = std::min(row + 1, last);
+    const double whole = time[after] - time[before];
+    const double share = (time[row] - time[before]) / whole;
+    slope.row(row) = (values.row(after) - values.row(before)) / whole;
+    if (before < row && row < after) {
+      slope.row(row) = (1 - share) * (values.row(row) - values.row(before)) / (share * whole) +
+                       share * (values.row(after) - values.row(row)) / ((1 - share) * whole);
+    }
+  }
+  return slope;
+}
+
+/// A signal between two rows, cubic (Hermite).
+class Cubic {
+ public:
+  Cubic(double first, double last, double slope, double last_slope, double length)
+      : linear_(slope),
+        square_(((last - first) / length * 3 - 2 * slope - last_slope) / length),
+        cube_((slope + last_slope - 2 * (last - first) / length) / (length * length)) {}
+
+  /// By how much a first-order lag is behind it at `s` after the first row, once it has settled.
+  double lag(double s, double constant) const {
+    const double velocity = linear_ + s * (2 * square_ + s * 3 * cube_);
+    const double acceleration = 2 * square_ + s * 6 * cube_;
+    return constant * (velocity - constant * (acceleration - constant * 6 * cube_));
+  }
+
+ private:
+  double linear_, square_, cube_;
+};
+
+/// Rows of a signal as they were `delay` (s) before. `between` gives it at a share of the way from
+/// a row to the next. Beyond the ends it goes on as it came there, turned about the last row.
+template <typename Between>
+Eigen::MatrixXd before(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay,
+                       const Between& between) {
+  const Eigen::Index last = time.size() - 1;
+  if (last < 1) {
+    return values;
+  }
+  Eigen::MatrixXd result(values.rows(), values.cols());
+  Eigen::Index at = 0;
+  for (Eigen::Index row = 0; row <= last; ++row) {
+    const double end = std::clamp(time[row] - delay, time[0], time[last]);
+    const double wanted = std::clamp(2 * end - (time[row] - delay), time[0], time[last]);
+    while (at > 0 && time[at] > wanted) {
+      --at;
+    }
+    while (at + 1 < last && time[at + 1] < wanted) {
+      ++at;
+    }
+    result.row(row) = between(at, (wanted - time[at]) / (time[at + 1] - time[at]));
+    if (wanted != time[row] - delay) {
+      const Eigen::Index edge = end > time[0] ? last : 0;
+      result.row(row) = 2 * values.row(edge) - result.row(row);
+    }
+  }
+  return result;
+}
+
+}  // namespace
 
 Eigen::VectorXd play(const Eigen::VectorXd& input, double half_gap) {
   Eigen::VectorXd output(input.size());
@@ -95,42 +173,32 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
   if (!(constant > 0) || input.size() < 2) {
     return output;
   }
-  double behind = 0;
+  const Eigen::VectorXd slope = slopes(time, input);
+  double behind = constant * slope[0];
+  output[0] -= behind;
   for (Eigen::Index row = 1; row < input.size(); ++row) {
     const double step = time[row] - time[row - 1];
-    const double follow = constant * (input[row] - input[row - 1]) / step;
-    behind = row == 1 ? follow : behind;
-    behind = follow + (behind - follow) * std::exp(-step / constant);
+    const Cubic piece(input[row - 1], input[row], slope[row - 1], slope[row], step);
+    const double start = piece.lag(0, constant);
+    const double end = piece.lag(step, constant);
+    behind = end + (behind - start) * std::exp(-step / constant);
     output[row] = input[row] - behind;
-    output[0] = row == 1 ? input[0] - follow : output[0];
   }
   return output;
 }
 
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay) {
-  Eigen::MatrixXd result(values.rows(), values.cols());
-  const Eigen::Index last = time.size() - 1;
-  Eigen::Index before = 0;
-  for (Eigen::Index row = 0; row <= last; ++row) {
-    const double end = std::clamp(time[row] - delay, time[0], time[last]);
-    const double wanted = std::clamp(2 * end - (time[row] - delay), time[0], time[last]);
-    const bool is_beyond = wanted != time[row] - delay;
-    while (before > 0 && time[before] > wanted) {
-      --before;
-    }
-    while (before + 1 < last && time[before + 1] < wanted) {
-      ++before;
-    }
-    const Eigen::Index after = std::min(before + 1, last);
-    const double length = time[after] - time[before];
-    const double share = length > 0 ? (wanted - time[before]) / length : 0;
-    result.row(row) = (1 - share) * values.row(before) + share * values.row(after);
-    if (is_beyond) {
-      const Eigen::Index edge = end > time[0] ? last : 0;
-      result.row(row) = 2 * values.row(edge) - result.row(row);
-    }
-  }
-  return result;
+  return before(time, values, delay, [&](Eigen::Index row, double share) {
+    return Eigen::RowVectorXd((1 - share) * values.row(row) + share * values.row(row + 1));
+  });
+}
+
+Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                                 double delay) {
+  const Eigen::MatrixXd slope = slopes(time, values);
+  return before(time, values, delay, [&](Eigen::Index row, double share) {
+    return hermite(time, values, slope, row, share);
+  });
 }
 
 Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
@@ -154,12 +222,8 @@ Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd&
       continue;
     }
     const double length = time[before + 1] - time[before];
-    const double s = (wanted - time[before]) / length;
-    const double to_end = s * s * (3 - 2 * s);
-    result.row(row) =
-        (1 - to_end) * position.row(before) + to_end * position.row(before + 1) +
-        length * s * (1 - s) * ((1 - s) * velocity.row(before) - s * velocity.row(before + 1)) -
-        position.row(row);
+    const double share = (wanted - time[before]) / length;
+    result.row(row) = hermite(time, position, velocity, before, share) - position.row(row);
   }
   return result;
 }

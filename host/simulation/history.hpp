@@ -35,12 +35,19 @@ Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input,
                      const Eigen::VectorXd& frequency, double damping);
 
 /// What follows `input` by a first-order lag (s), having caught up with its slope at first; exact
-/// for an input that is straight between the times (s).
+/// for an input that is cubic between the times (s) (Hermite, with the slopes of parabolas through
+/// three rows each).
 Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double constant);
 
 /// `values` (n×m) as they were `delay` (s) before: straight between the times (s), continued beyond
 /// their ends as they came there, turned about the last one.
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay);
+
+/// The same of a smooth signal: cubic between the times, as for `lag`. A straight line cuts the
+/// corners of a motion: by a·dt²/8 at an acceleration a, which of a TCP sampled at 50 Hz is more
+/// than a tracker's noise.
+Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                                 double delay);
 
 /// By how much a motion (n×m, with its velocity) stood elsewhere `delay` (s) before: cubic between
 /// the times (s) (Hermite), straight on beyond their ends.

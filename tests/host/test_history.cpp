@@ -138,6 +138,18 @@ void a_lag_stays_behind_a_ramp_by_its_time_constant() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.06, output[0]);
 }
 
+void a_lag_follows_a_sine_as_its_transfer_function_says() {
+  constexpr double kLag = 0.03;
+  constexpr double kOmega = 3;
+  const VectorXd time = times(500, 0.02);
+  const VectorXd output = history::lag(time, (kOmega * time).array().sin(), kLag);
+  const double gain = 1 / std::hypot(1, kOmega * kLag);
+  for (int row = 100; row < 400; ++row) {
+    const double expected = gain * std::sin(kOmega * time[row] - std::atan(kOmega * kLag));
+    TEST_ASSERT_DOUBLE_WITHIN(2e-6, expected, output[row]);
+  }
+}
+
 void a_lag_without_a_constant_is_the_input() {
   const VectorXd input = triangle(1);
   TEST_ASSERT_TRUE(history::lag(times(401, 0.01), input, 0) == input);
@@ -151,6 +163,24 @@ void what_is_delayed_is_what_was_before_and_goes_on_at_the_ends() {
   const Eigen::MatrixXd early = history::delayed(time, 5 * time, -0.025);
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (0.5 + 0.025), early(50, 0));
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (0.99 + 0.025), early(99, 0));
+}
+
+void a_smooth_motion_is_delayed_without_cutting_its_corners() {
+  VectorXd time = times(200, 0.02);
+  for (Eigen::Index i = 1; i < time.size(); ++i) {
+    time[i] += 0.004 * std::sin(37.0 * static_cast<double>(i));
+  }
+  const VectorXd position = (3 * time).array().sin();
+  for (const double delay : {0.004, 0.01, 0.0337, -0.02}) {
+    const Eigen::MatrixXd late = history::delayed_smoothly(time, position, delay);
+    for (int row = 10; row < 190; ++row) {
+      // A straight line would be off by (3 · 0.02)² / 8, which is 5e-4.
+      TEST_ASSERT_DOUBLE_WITHIN(2e-5, std::sin(3 * (time[row] - delay)), late(row, 0));
+    }
+  }
+  const Eigen::MatrixXd ramp = history::delayed_smoothly(time, 5 * time, 0.025);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (time[0] - 0.025), ramp(0, 0));
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5 * (time[199] - 0.025), ramp(199, 0));
 }
 
 void a_motion_is_where_it_was_before() {
@@ -183,7 +213,9 @@ int main() {
   RUN_TEST(a_mode_does_not_depend_on_even_steps);
   RUN_TEST(a_mode_whose_frequency_doubles_rings_twice_as_fast_from_there_on);
   RUN_TEST(a_lag_stays_behind_a_ramp_by_its_time_constant);
+  RUN_TEST(a_lag_follows_a_sine_as_its_transfer_function_says);
   RUN_TEST(a_lag_without_a_constant_is_the_input);
+  RUN_TEST(a_smooth_motion_is_delayed_without_cutting_its_corners);
   RUN_TEST(what_is_delayed_is_what_was_before_and_goes_on_at_the_ends);
   return UNITY_END();
 }

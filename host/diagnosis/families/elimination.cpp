@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "diagnosis/covariance.hpp"
 #include "diagnosis/evidence.hpp"
-#include "diagnosis/plausible.hpp"
+#include "diagnosis/families/candidates.hpp"
+#include "diagnosis/families/widths.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -19,45 +21,12 @@ constexpr double kRobustLimit = 3;  // deviations, as in `fit`
 /// explained: the scale of the ridge (Hoerl and Kennard 1970), which is none of the numbers' own
 /// units.
 constexpr double kTolerances[] = {0.1, 0.3, 1, 3, 10, 30};
-constexpr double kEdge = 1e-2;  // of a body's size, for its first fit by simulation
-constexpr double kWidths = 4;   // standard deviations that a plausible range is wide
+constexpr double kNoTolerance = 1e6;  // such units hold nothing
+constexpr double kEdge = 1e-2;        // of a body's size, for its first fit by simulation
 /// A smaller set, or a tighter tolerance, is taken where it predicts worse by less than this:
 /// simplicity against error.
 constexpr double kSameError = 1.0002;
 constexpr Eigen::Index kParts = 10;  // that are predicted from all others
-
-/// Is a hypothesis one of a family's numbers here? Positions alone show masses only by what they
-/// bend, which numbers of springs and frames do nearly as well: both together fit what neither is,
-/// and predict poses elsewhere worse.
-bool is_member(const Observations& observations, const Hypothesis& hypothesis) {
-  return hypothesis.traits().is_in_family && hypothesis.linear == hypothesis.parameters.size() &&
-         (!hypothesis.traits().is_body || observations.has(simulation::joint_torque));
-}
-
-/// Could a hypothesis, within its bounds, change a noticeable part of what is to be explained? What
-/// could not, as masses on stiff springs, only fits what other numbers do to it.
-template <typename Columns>
-bool could_matter(const Hypothesis& hypothesis, const Columns& columns,
-                  const Eigen::VectorXd& target) {
-  constexpr double kNoticeable = 0.1;
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
-    const double most = std::max(std::abs(parameter.lower), std::abs(parameter.upper));
-    if (most * columns.col(i).norm() > kNoticeable * target.norm()) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// What models are usually off by in a number.
-double usual_of(const Observations& observations, const Hypothesis& hypothesis,
-                const Parameter& parameter) {
-  const model::Robot& robot = observations.machine.robot;
-  return effects::plausible_range(*hypothesis.law, robot, size_of(robot), hypothesis.joint,
-                                  parameter.name)
-      .usual;
-}
 
 /// Which part of the samples is predicted together with this one: neighbours in time are.
 Eigen::Index part_of(const Observations& observations, const Sample& at) {
@@ -87,7 +56,7 @@ Elimination::Elimination(const Observations& observations, const Fit& about, std
   }
   for (const Hypothesis& each : hypotheses) {
     const Entry* entry = dictionary.find(each);
-    if (is_member(observations, each) && !is_chosen(about.chosen, each) && entry != nullptr) {
+    if (is_candidate(observations, each) && !is_chosen(about.chosen, each) && entry != nullptr) {
       const auto columns = dictionary.columns.middleCols(entry->first, entry->count);
       if (could_matter(each, columns.topRows(observations.train), target_)) {
         add({{each, Values(each.parameters.size(), 0.0)}, {}, false}, columns);
@@ -110,10 +79,8 @@ void Elimination::add(Member member, const Columns& columns) {
     bounds_.emplace_back(parameter.lower - begin, parameter.upper - begin);
     is_held_.push_back(false);
     widest_.conservativeResize(first + columns.cols());
-    widest_[first + i] =
-        member.is_given ? std::numeric_limits<double>::infinity()
-                        : std::min((parameter.upper - parameter.lower) / kWidths,
-                                   usual_of(observations_, member.chosen.hypothesis, parameter));
+    widest_[first + i] = member.is_given ? std::numeric_limits<double>::infinity()
+                                         : usual_width(observations_, member.chosen.hypothesis, at);
     member.columns.push_back(first + i);
   }
   members_.push_back(std::move(member));
@@ -279,19 +246,30 @@ void Elimination::hold_impossible(const std::vector<std::size_t>& members) {
   }
 }
 
+std::vector<std::size_t> Elimination::all_members() const {
+  std::vector<std::size_t> all(members_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+/// By how much the variance of each number is larger since the remainder hangs together over time.
+Eigen::VectorXd Elimination::widenings() const {
+  Eigen::VectorXd wide(columns_.cols());
+  for (Eigen::Index column = 0; column < columns_.cols(); ++column) {
+    wide[column] = correlated_widening(
+        observations_, columns_.col(column).cwiseProduct(weight_).cwiseProduct(remainder_));
+  }
+  return wide;
+}
+
 /// Leaves out members one at a time; the smallest of the sets that predict best.
 Elimination::Set Elimination::best_on_path() {
   Set best;
   double least = std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> members(members_.size());
-  std::iota(members.begin(), members.end(), std::size_t{0});
+  std::vector<std::size_t> members = all_members();
   solve(members);
   divide();
-  Eigen::VectorXd widenings(columns_.cols());
-  for (Eigen::Index column = 0; column < columns_.cols(); ++column) {
-    widenings[column] = correlated_widening(
-        observations_, columns_.col(column).cwiseProduct(weight_).cwiseProduct(remainder_));
-  }
+  const Eigen::VectorXd wide = widenings();
   while (true) {
     hold_impossible(members);
     const double error = error_elsewhere(members);
@@ -299,7 +277,7 @@ Elimination::Set Elimination::best_on_path() {
     if (error < kSameError * least) {
       best = {members, is_held_, tolerance_, error};
     }
-    const std::size_t weakest = members.empty() ? members_.size() : weakest_of(members, widenings);
+    const std::size_t weakest = members.empty() ? members_.size() : weakest_of(members, wide);
     if (weakest == members_.size()) {
       return best;
     }
@@ -365,8 +343,31 @@ std::vector<Chosen> Elimination::chosen_of(const Set& set) {
   return all;
 }
 
+/// Learns how large the numbers of each kind are from what all of them together leave. It hangs
+/// together over time, so that it tells less of them than its samples are many.
+void Elimination::learn_widths() {
+  tolerance_ = kNoTolerance;
+  solve(all_members());
+  std::map<std::string, std::size_t> kinds;
+  std::vector<std::size_t> kind;
+  std::vector<Eigen::Index> columns;
+  for (const Member& member : members_) {
+    for (std::size_t i = 0; i < member.columns.size() && !member.is_given; ++i) {
+      kind.push_back(
+          kinds.emplace(kind_of(member.chosen.hypothesis, i), kinds.size()).first->second);
+      columns.push_back(member.columns[i]);
+    }
+  }
+  const double variance = spread_ * spread_ * widenings()(columns).mean();
+  widest_(columns) = diagnosis::learn_widths({gram_(columns, columns), moment_(columns), variance},
+                                             widest_(columns), kind);
+}
+
 /// The best set by the tightest tolerance that predicts as well as any.
 Elimination::Set Elimination::best_set() {
+  if (!observations_.has(simulation::joint_torque)) {
+    learn_widths();
+  }
   std::vector<Set> sets;
   for (const double tolerance : kTolerances) {
     tolerance_ = tolerance;

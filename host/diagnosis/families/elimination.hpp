@@ -20,6 +20,9 @@ struct Member {
 /// one is taken that predicts best stretches of time (or of poses) that it was not fitted to. The
 /// tolerances are tried from tight to loose in the same manner: a recording that tells much needs
 /// no belief in the model, one of a few poses does.
+///
+/// Positions tell frames and springs only in combinations. What they do not tell is held by the
+/// size that the numbers of the same kind have, so that no large ones cancel each other.
 class Elimination {
  public:
   Elimination(const Observations& observations, const Fit& given,
@@ -59,6 +62,9 @@ class Elimination {
                          const Eigen::VectorXd& widenings) const;
   Eigen::Index farthest_out(const std::vector<std::size_t>& members) const;
   void hold_impossible(const std::vector<std::size_t>& members);
+  std::vector<std::size_t> all_members() const;
+  Eigen::VectorXd widenings() const;
+  void learn_widths();
   Set best_on_path();
   Set best_set();
   Eigen::VectorXd variances(const std::vector<Eigen::Index>& columns) const;
@@ -72,7 +78,7 @@ class Elimination {
   Eigen::VectorXd unit_;     ///< of each number: it alone would change as much as is to explain
   std::vector<std::pair<double, double>> bounds_;
   /// The largest standard deviation of each number: over its plausible range, or what models are
-  /// usually off by.
+  /// usually off by. Positions show themselves by how much this one is.
   Eigen::VectorXd widest_;
   std::vector<bool> is_held_;
   Eigen::VectorXd weight_, remainder_, value_;

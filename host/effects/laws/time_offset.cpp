@@ -10,7 +10,7 @@ Term late_channel(Channel channel, double delay) {
   return {Term::clock, [=](const Scene& scene, const Simulation&, Prediction* prediction) {
             Eigen::MatrixXd& values = prediction->channel[channel];
             if (values.cols() > 0 && !scene.is_static) {
-              values = simulation::delayed(scene.time, values, delay);
+              values = simulation::delayed_smoothly(scene.time, values, delay);
               if (channel == simulation::joint_deflection) {
                 // Late link encoders show the whole angle late, not the wind-up alone.
                 values += simulation::moved_before(scene.time, scene.q, scene.velocity, delay);

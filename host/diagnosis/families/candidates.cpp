@@ -1,0 +1,44 @@
+#include "diagnosis/families/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/plausible.hpp"
+
+namespace flexcomp::diagnosis {
+
+bool is_candidate(const Observations& observations, const Hypothesis& hypothesis) {
+  return hypothesis.traits().is_in_family && hypothesis.linear == hypothesis.parameters.size() &&
+         (!hypothesis.traits().is_body || observations.has(simulation::joint_torque));
+}
+
+bool could_matter(const Hypothesis& hypothesis, const Eigen::MatrixXd& columns,
+                  const Eigen::VectorXd& target) {
+  constexpr double kNoticeable = 0.1;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
+    const double most = std::max(std::abs(parameter.lower), std::abs(parameter.upper));
+    if (most * columns.col(i).norm() > kNoticeable * target.norm()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double usual_width(const Observations& observations, const Hypothesis& hypothesis,
+                   std::size_t parameter) {
+  constexpr double kWidths = 4;  // standard deviations that a plausible range is wide
+  const Parameter& own = hypothesis.parameters[parameter];
+  const model::Robot& robot = observations.machine.robot;
+  const double usual =
+      effects::plausible_range(*hypothesis.law, robot, size_of(robot), hypothesis.joint, own.name)
+          .usual;
+  return std::min((own.upper - own.lower) / kWidths, usual);
+}
+
+std::string kind_of(const Hypothesis& hypothesis, std::size_t parameter) {
+  return (hypothesis.joint > 0 ? "joints " : hypothesis.effect() + " ") +
+         hypothesis.parameters[parameter].unit;
+}
+
+}  // namespace flexcomp::diagnosis
