@@ -31,17 +31,17 @@ set(CPACK_DEBIAN_FLEXCOMPD_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # Those of C++ alone: a program in C needs no Eigen.
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libeigen3-dev)
-set(CPACK_COMPONENT_FLEXCOMP_DESCRIPTION
-    "correction of the path of robots that bend under cutting forces\n\
- Plans paths, makes tables of a robot's compliance with a certified error,\n\
- corrects programs, judges circularity, and finds out from a recording\n\
- why a robot does not move as its model says.")
-set(CPACK_COMPONENT_FLEXCOMPD_DESCRIPTION
-    "real-time correction of a robot's setpoints on CAN, LCM or RSI\n\
- The process, a hardened systemd unit, and the descriptions of all\n\
- messages for other clients of the bus. Not a safety function.")
-set(CPACK_COMPONENT_DEV_DESCRIPTION
-    "library that corrects a robot's setpoints in its controller\n\
- For C and C++: no heap, no exceptions, no locks. Programs in C++ need\n\
- Eigen beside it, programs in C do not.")
+set(CPACK_DEBIAN_FLEXCOMP_DESCRIPTION
+  "correction of the path of robots that bend under cutting forces
+Plans paths, makes tables of a robot's compliance with a certified error,
+corrects programs, judges circularity, and finds out from a recording why a
+robot does not move as its model says.")
+set(CPACK_DEBIAN_FLEXCOMPD_DESCRIPTION
+  "real-time correction of a robot's setpoints on CAN, LCM or RSI
+The process, a hardened systemd unit, and the descriptions of all messages for
+other clients of the bus. Not a safety function.")
+set(CPACK_DEBIAN_DEV_DESCRIPTION
+  "library that corrects a robot's setpoints in its controller
+For C and C++: no heap, no exceptions, no locks. Programs in C++ need Eigen
+beside it, programs in C do not.")
 include(CPack)
