@@ -31,6 +31,7 @@ set(CPACK_DEBIAN_FLEXCOMPD_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # Those of C++ alone: a program in C needs no Eigen.
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libeigen3-dev)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # it would come first in all of them
 set(CPACK_DEBIAN_FLEXCOMP_DESCRIPTION
   "correction of the path of robots that bend under cutting forces
 Plans paths, makes tables of a robot's compliance with a certified error,
