@@ -30,7 +30,33 @@ bool is_same_series(const Observations& observations, Eigen::Index a, Eigen::Ind
          one.component == other.component;
 }
 
+/// The inverse of a fit's normal equations, its parameters in units of which each is told alike.
+struct Inverse {
+  Eigen::VectorXd unit;
+  Eigen::MatrixXd inner;
+};
+
+Inverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
+                   const Eigen::VectorXd& precision) {
+  Eigen::MatrixXd gram = derivative.transpose() * (weight.asDiagonal() * derivative);
+  gram.diagonal() += precision;
+  const Eigen::VectorXd unit = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  gram = unit.asDiagonal() * gram * unit.asDiagonal();
+  return {unit, gram.completeOrthogonalDecomposition().pseudoInverse()};
+}
+
 }  // namespace
+
+double told_parameters(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
+                       const Eigen::VectorXd& precision) {
+  const Inverse inverse = inverse_of(derivative, weight, precision);
+  // Units of parameters that nothing depends on and nothing holds are endless.
+  const Eigen::ArrayXd share = (precision.array() > 0)
+                                   .select(inverse.inner.diagonal().array() *
+                                               inverse.unit.array().square() * precision.array(),
+                                           0);
+  return static_cast<double>(precision.size()) - share.sum();
+}
 
 double correlated_widening(const Observations& observations, const Eigen::VectorXd& score) {
   constexpr Eigen::Index kLagPart = 40;  // of a series, over which a score may be correlated
@@ -61,19 +87,15 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::Mat
                               const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,
                               const Eigen::VectorXd& precision, double variance) {
   const Eigen::VectorXd size = derivative.colwise().norm();
-  Eigen::MatrixXd gram = derivative.transpose() * (weight.asDiagonal() * derivative);
-  gram.diagonal() += precision;
-  const Eigen::VectorXd inverse = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
-  gram = inverse.asDiagonal() * gram * inverse.asDiagonal();
-  const Eigen::MatrixXd inner = gram.completeOrthogonalDecomposition().pseudoInverse();
+  const auto [unit, inner] = inverse_of(derivative, weight, precision);
   const Eigen::MatrixXd scores =
       scores_of_stretches(observations, derivative, weight.cwiseProduct(remainder)) *
-      inverse.asDiagonal();
+      unit.asDiagonal();
   const double stretches =
       static_cast<double>((scores.rowwise().squaredNorm().array() > 0).count());
   const Eigen::VectorXd together =
       (scores * inner).colwise().squaredNorm() * stretches / std::max(stretches - 1, 1.0);
-  Eigen::VectorXd widening = inverse;
+  Eigen::VectorXd widening = unit;
   for (Eigen::Index i = 0; i < widening.size(); ++i) {
     const double alone = inner(i, i) * variance;
     widening[i] *= !(size[i] > 0) ? 0 : std::sqrt(std::max(1.0, together[i] / alone));

@@ -19,6 +19,11 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::Mat
                               const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,
                               const Eigen::VectorXd& precision, double variance);
 
+/// How many parameters a fit tells, rather than what holds them: each counts by the part of its
+/// precision that the samples give (MacKay 1992, "Bayesian interpolation"). Arguments as above.
+double told_parameters(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
+                       const Eigen::VectorXd& precision);
+
 /// Times the variance of a number whose scores (derivative times weighted remainder, by sample)
 /// were independent of each other: scores that are correlated over time tell less (Newey and West
 /// 1987, Bartlett's weights). Quicker than the above, and never less than one.

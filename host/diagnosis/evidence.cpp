@@ -127,9 +127,8 @@ double bic_gain(double samples, double sum_before, double sum_after, std::size_t
 
 double bic_gain(const Observations& observations, const Fit& plain, const Fit& rich) {
   const double samples = independent_samples(observations, rich.remainder);
-  const double parameters =
-      static_cast<double>(rich.parameters()) - static_cast<double>(plain.parameters());
-  return bic_gain(samples, plain.train_sum, rich.train_sum, 0) - parameters * std::log(samples);
+  return bic_gain(samples, plain.train_sum, rich.train_sum, 0) -
+         (rich.told - plain.told) * std::log(samples);
 }
 
 Evidence weigh(const Observations& observations, const Fit& without, const Fit& with,

@@ -55,7 +55,8 @@ double independent_samples(const Observations& observations, const Eigen::Vector
 /// Schwarz's criterion: n·ln(before/after) less ln(n) for each parameter; n independent samples.
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters);
 
-/// The same of a fit over a plainer one, which may all the same have more parameters.
+/// The same of a fit over a plainer one, which may all the same have more parameters; each counts
+/// as far as the samples tell it, not what holds it.
 double bic_gain(const Observations& observations, const Fit& plain, const Fit& rich);
 
 /// Does a remainder that comes near the noise in what was fitted to fail on what was held out,

@@ -174,6 +174,7 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
     result.covariance =
         covariance_of(observations, result.derivative.topRows(n), weight, result.remainder.head(n),
                       evaluator.precisions(), result.train_sum / std::max(freedom, 1.0));
+    result.told = told_parameters(result.derivative.topRows(n), weight, evaluator.precisions());
     const Eigen::VectorXd widening = evaluator.widenings();
     result.covariance = widening.asDiagonal() * result.covariance * widening.asDiagonal();
   }

@@ -27,6 +27,7 @@ struct Fit {
   /// where they hang together over time.
   Eigen::MatrixXd covariance;
   double train_sum = 0;  ///< robust sum of squares of the remainder
+  double told = 0;       ///< parameters that the samples tell, rather than what holds them
 
   std::size_t parameters() const;
   /// Column of `derivative` and of `covariance` where those of one that was chosen begin.

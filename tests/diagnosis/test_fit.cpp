@@ -1,6 +1,7 @@
 // Stated deviations against errors that are known, and amplitudes within bounds.
 #include <cmath>
 
+#include "diagnosis/covariance.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/output/sentences.hpp"
 #include "diagnosis/parameters.hpp"
@@ -128,6 +129,15 @@ void a_finding_is_summed_up_by_its_surest_number_if_one_is_sure() {
                                37);
 }
 
+void a_parameter_counts_by_what_the_samples_tell_of_it() {
+  Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(10, 4);
+  derivative(0, 0) = derivative(1, 1) = derivative(2, 2) = 2;
+  const Eigen::VectorXd weight = Eigen::VectorXd::Ones(10);
+  // The samples give each of the first three 4; what holds them gives 0, 4 and 12.
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1 + 1.0 / 2 + 1.0 / 4 + 1,
+                            told_parameters(derivative, weight, Eigen::Vector4d(0, 4, 12, 0)));
+}
+
 Hypothesis of_two(double lower) {
   Hypothesis hypothesis(made_up({{"a", "1"}, {"b", "1"}}, 2), 0, {});
   hypothesis.set_bounds({{lower, 10, 1e-3}, {lower, 10, 1e-3}});
@@ -162,6 +172,7 @@ int main() {
   RUN_TEST(intervals_hold_where_errors_hang_together);
   RUN_TEST(the_shape_of_what_cannot_be_told_from_nothing_is_unknown);
   RUN_TEST(a_finding_is_summed_up_by_its_surest_number_if_one_is_sure);
+  RUN_TEST(a_parameter_counts_by_what_the_samples_tell_of_it);
   RUN_TEST(amplitudes_of_two_hypotheses_that_leave_their_bounds_are_held_at_zero);
   return UNITY_END();
 }

@@ -10,19 +10,19 @@ Without::Without(const Observations& observations, const Fit& whole)
     : observations_(observations), whole_(whole) {
   const auto count = static_cast<Eigen::Index>(whole.parameters());
   value_.resize(count);
-  Eigen::VectorXd precision(count);
+  precision_.resize(count);
   Eigen::Index at = 0;
   for (const Chosen& each : whole.chosen) {
     for (std::size_t i = 0; i < each.values.size(); ++i, ++at) {
       value_[at] = each.values[i];
-      precision[at] = std::pow(each.hypothesis.parameters[i].tolerance, -2);
+      precision_[at] = std::pow(each.hypothesis.parameters[i].tolerance, -2);
     }
   }
   const Eigen::Index n = observations.train;
   const Eigen::VectorXd weight = huber_weights(whole.remainder.head(n));
   const auto columns = whole.derivative.topRows(n);
   gram_ = columns.transpose() * (weight.asDiagonal() * columns);
-  gram_.diagonal() += precision;
+  gram_.diagonal() += precision_;
 }
 
 Fit Without::operator()(const std::vector<std::size_t>& indices) const {
@@ -42,13 +42,17 @@ Fit Without::operator()(const std::vector<std::size_t>& indices) const {
   const Eigen::VectorXd lost = value_(own);
   Eigen::MatrixXd inner = gram_(others, others);
   inner.diagonal() += 1e-12 * inner.diagonal();
-  const Eigen::VectorXd change = inner.ldlt().solve(gram_(others, own) * lost);
+  const Eigen::LDLT<Eigen::MatrixXd> factors(inner);
+  const Eigen::VectorXd change = factors.solve(gram_(others, own) * lost);
   Eigen::Index at = 0;
   for (Chosen& each : fit.chosen) {
     for (double& value : each.values) {
       value += change[at++];
     }
   }
+  const Eigen::VectorXd variance =
+      factors.solve(Eigen::MatrixXd::Identity(inner.rows(), inner.cols())).diagonal();
+  fit.told = static_cast<double>(others.size()) - variance.dot(precision_(others));
   fit.machine = machine_with(observations_, fit.chosen);
   fit.derivative = whole_.derivative(Eigen::all, others);
   fit.remainder =

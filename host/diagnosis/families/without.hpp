@@ -20,7 +20,7 @@ class Without {
  private:
   const Observations& observations_;
   const Fit& whole_;
-  Eigen::VectorXd value_;
+  Eigen::VectorXd value_, precision_;
   Eigen::MatrixXd gram_;  ///< parameters × parameters, weighted, with the tolerances
 };
 

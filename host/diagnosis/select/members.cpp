@@ -1,11 +1,13 @@
 #include "diagnosis/select/members.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "diagnosis/families/without.hpp"
 #include "diagnosis/select/standards.hpp"
+#include "statistics/distributions.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -62,11 +64,29 @@ bool stands_as_member(const Inquiry& inquiry, const Evidence& evidence) {
          evidence.lowers_held_out && !shows_on_small_path(inquiry.observations, evidence);
 }
 
+/// Is a choice known to differ from nothing, beside all others and what was left out for them? What
+/// it takes from the error may be another's else, and the number say nothing.
+bool is_told_apart(const Fit& whole, std::size_t index) {
+  constexpr double kChance = 0.05;  // as of the interval that is told with it
+  const auto count = static_cast<Eigen::Index>(whole.chosen[index].hypothesis.linear);
+  if (count == 0) {
+    return true;
+  }
+  const Eigen::MatrixXd covariance = whole.covariance_of(index).topLeftCorner(count, count);
+  const Eigen::Map<const Eigen::VectorXd> value(whole.chosen[index].values.data(), count);
+  const double deviations =
+      value.dot(covariance.completeOrthogonalDecomposition().pseudoInverse() * value);
+  return statistics::chi_squared_above(deviations, static_cast<double>(count)) < kChance;
+}
+
 /// Members that stand each beside all others.
 std::vector<Finding> standing_alone(const Inquiry& inquiry, const Fit& whole,
                                     const Without& without) {
   std::vector<Finding> standing;
   for (std::size_t i = 0; i < whole.chosen.size(); ++i) {
+    if (!is_told_apart(whole, i)) {
+      continue;
+    }
     Finding finding = judge_linearly(inquiry, whole, without, i, {i});
     if (stands_as_member(inquiry, finding.evidence)) {
       standing.push_back(std::move(finding));
