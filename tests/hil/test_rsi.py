@@ -1,6 +1,8 @@
 """flexcompd --rsi and a robot controller, over UDP on the loopback: the circle, and faults of either side."""
 
+import contextlib
 import json
+import os
 import socket
 import subprocess
 import unittest
@@ -80,6 +82,14 @@ class Circle(Milling):
 
 
 class RealTime(Milling):
+    @classmethod
+    def setUpClass(cls):
+        """Both ends go first on processors that all share, where that is allowed."""
+        super().setUpClass()
+        cls.addClassCleanup(os.setpriority, os.PRIO_PROCESS, 0, os.getpriority(os.PRIO_PROCESS, 0))
+        with contextlib.suppress(PermissionError):
+            os.setpriority(os.PRIO_PROCESS, 0, -15)
+
     def test_at_the_pace_of_the_clock_the_circle_is_as_round(self):
         before, _ = self.mill("without", "--table", self.job.table, "--without-compensation")
         for _ in range(3):  # a busy machine may stop a process for a moment, which nothing in it can bridge

@@ -41,7 +41,7 @@ class InstalledPackage(unittest.TestCase):
         return build
 
     def test_a_c_and_a_cpp_program_build_against_it_and_run(self):
-        build = self.build(PROJECT, "-DCMAKE_CXX_COMPILER=" + os.environ["FLEXCOMP_CXX"])
+        build = self.build(PROJECT / "c_and_cpp", "-DCMAKE_CXX_COMPILER=" + os.environ["FLEXCOMP_CXX"])
         self.assertRegex(run(build / "controller_loop"), r"^active: TCP would be off by ")
         self.assertEqual(run(build / "deflection_at_a_posture"), "1.000 mm\n")
 
