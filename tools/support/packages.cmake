@@ -13,7 +13,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL flexcomp flexcompd dev)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-# What is written at installation says where it will stand, not where it is packed.
+# The unit says where it will stand, not where it is packed.
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -29,7 +29,7 @@ set(CPACK_DEBIAN_FLEXCOMPD_PACKAGE_SUGGESTS flexcomp)
 set(CPACK_DEBIAN_FLEXCOMPD_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/tools/support/packages/postinst)
 set(CPACK_DEBIAN_FLEXCOMPD_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-# Those of C++ alone: a program in C needs no Eigen.
+# For programs in C++; those in C need no Eigen.
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libeigen3-dev)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # it would come first in all of them
 set(CPACK_DEBIAN_FLEXCOMP_DESCRIPTION
