@@ -4,7 +4,7 @@
 
 namespace flexcomp {
 
-/// What a robot controller has to do with the corrections it is sent: move by them, and not by
+/// A robot controller's duty towards the corrections it is sent: move by them, and not by
 /// itself jump when they cease, because the compensator cannot fade out what it no longer sends.
 ///
 /// A period without a usable answer holds the last correction; after `hold_time` of them it fades

@@ -12,7 +12,7 @@ namespace {
 
 constexpr RecordLayout kPath = record_layout(Chart::path, false, false);
 constexpr float kLargestAngle = 1e4F;
-/// Of the largest angle, what adding up a scalar product may be off by, at both ends, with reserve.
+/// Rounding error of a scalar product over the largest angle, at both ends, with reserve.
 constexpr float kRounding = 2e-6F;
 
 using Direction = Eigen::Matrix<float, kTableJoints, 1>;
@@ -79,7 +79,7 @@ class PathIndexBuilder {
     return {std::min(from, to) - aside, std::max(from, to) + aside};
   }
 
-  /// What the segments of a range are like: sums over all of them.
+  /// Shape of a range's segments: sums over all of them.
   struct Sums {
     Square places = Square::Zero();  ///< squares of where they lie about their mean
     Square chords = Square::Zero();  ///< of how they run from node to node

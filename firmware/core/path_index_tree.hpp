@@ -27,7 +27,7 @@ class PathIndexTree {
   std::uint32_t end(std::uint32_t node) const { return border(node, 1); }
 
  private:
-  /// Of a node, or of the highest bit of a number that is not zero.
+  /// Level of a node, or of the highest bit of a number that is not zero.
   static std::uint32_t level_of(std::uint32_t node) {
     return 31U - static_cast<std::uint32_t>(__builtin_clz(node));
   }

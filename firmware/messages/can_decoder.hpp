@@ -28,7 +28,7 @@ class CanDecoder {
   std::uint32_t foreign_frames() const { return foreign_frames_; }
 
  private:
-  /// Of the frames of a classic set, one after the other.
+  /// Payloads of the frames of a classic set, one after the other.
   using Payloads = std::array<std::uint8_t, 8 * kMaxFrameParts>;
 
   /// Parts of one classic set, on their way in.

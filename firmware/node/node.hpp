@@ -32,7 +32,7 @@ struct NodeConfig {
 /// Does a node take these numbers?
 bool is_usable(const NodeConfig& config);
 
-/// Of the exchange with a robot controller over RSI.
+/// Counts of the exchange with a robot controller over RSI.
 struct RsiCounters {
   bool is_in_use = false;
   std::uint64_t late_answers = 0;     ///< as the controller counts them

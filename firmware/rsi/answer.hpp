@@ -9,7 +9,7 @@
 
 namespace flexcomp {
 
-/// What RSI expects back within the cycle: `<Sen Type="…">` with the axis corrections, an element
+/// RSI expects it back within the cycle: `<Sen Type="…">` with the axis corrections, an element
 /// that is usually `AK`, and the `IPOC` of the telegram that it answers.
 struct RsiAnswer {
   std::string_view type;    ///< as in the controller's configuration (SENTYPE)

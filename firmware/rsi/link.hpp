@@ -46,7 +46,7 @@ class RsiLink {
   /// The names in `config` must outlive this.
   explicit RsiLink(const RsiConfig& config) : config_(config), session_(config.tolerated_losses) {}
 
-  /// What a datagram needs from who moves it.
+  /// The action that a datagram asks of who moves it.
   enum class Due : std::uint8_t {
     nothing,
     tick,      ///< a setpoint came: an answer is due, after a tick if there is one

@@ -9,7 +9,7 @@
 
 namespace flexcomp {
 
-/// What KUKA's RobotSensorInterface (RSI) sends each interpolation cycle: `<Rob …>`, one UDP
+/// KUKA's RobotSensorInterface (RSI) sends it each interpolation cycle: `<Rob …>`, one UDP
 /// datagram of XML. All in the controller's units.
 struct RsiTelegram {
   AxisAngles actual{};    ///< AIPos, degrees

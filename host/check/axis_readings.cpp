@@ -13,7 +13,7 @@ constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
 using Order = std::array<int, 3>;
 
-/// What stands in the column of an axis: "y" or "−y".
+/// Content of the column of an axis: "y" or "−y".
 std::string column(int axis, double sign) {
   return std::string(sign < 0 ? "−" : "") + kAxes[static_cast<std::size_t>(axis)];
 }
@@ -71,7 +71,7 @@ Reading reading_of(const PoseRows& rows, const Order& order, const Vector3<doubl
       Severity::error, "recording", "frame.base",
       "in the measured positions " + in_words(order, sign),
       fmt::format("give positions in the robot's base frame: write {} as x, y, z", columns)};
-  // Of several that fit equally, as on a plane path, the one that changes least.
+  // Among several that fit equally, as on a plane path, the one that changes least wins.
   reading.left = median_distance(rows.measured * turn.transpose(), rows.predicted) + 1e-9 * changes;
   reading.mend_positions = [turn](Points* positions) { *positions *= turn.transpose(); };
   return reading;

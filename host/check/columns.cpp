@@ -73,7 +73,7 @@ Checks check_missing(const recording::Recording& recording, const recording::Sam
                   "nothing need be done: they are kept as missing")};
 }
 
-/// What is measured of a robot that moves does not stay the same to the last digit.
+/// Measurements of a robot that moves do not stay the same to the last digit.
 Checks check_constant(const recording::Recording& recording, const recording::Samples& samples,
                       const char* name, bool moves) {
   const Eigen::RowVectorXd range = ranges(samples);

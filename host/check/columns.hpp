@@ -12,8 +12,8 @@ namespace flexcomp::check {
 /// joint.count.
 Checks check_columns(const recording::Recording& recording);
 
-/// What a recording cannot tell, whatever is done with it: joints that never move, and joints that
-/// only move together. Names: motion.none, motion.together.
+/// Joints of which a recording tells nothing, whatever is done with it: those that never move, and
+/// joints that only move together. Names: motion.none, motion.together.
 Checks check_motion(const recording::Recording& recording);
 
 /// Angles, speeds and torques beyond what the joints can do: limits.

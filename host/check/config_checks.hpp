@@ -7,7 +7,7 @@
 
 namespace flexcomp::check {
 
-/// What flexcompd is told beside the robot and the table that it is to correct: config.model
+/// Options of flexcompd beside the robot and the table that it is to correct: config.model
 /// (another robot's fingerprint), config.speed (joint speeds that stop the robot's own motion, or
 /// stop none), config.gain (above what the table's process allows), config.range (a wrench that the
 /// table allows counts as implausible), config.axes (with RSI: how the controller's axes are

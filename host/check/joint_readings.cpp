@@ -12,7 +12,7 @@ namespace {
 
 constexpr Eigen::Index kMostForAllSigns = 8;  // joints
 
-/// What is assumed of joints that a reading is about, for a tie with the axes of the frame.
+/// Handicap of readings that are about joints, for a tie with the axes of the frame.
 constexpr double kLessLikely = 1e-7;  // m
 
 class JointReadings {

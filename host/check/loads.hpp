@@ -4,7 +4,7 @@
 #include "model/robot.hpp"
 #include "recording/recording.hpp"
 
-/// What needs the physics: signs and units of wrench and torques, weight. On recordings whose
+/// Checks that need the physics: signs and units of wrench and torques, weight. On recordings whose
 /// positions and angles are as they should be.
 namespace flexcomp::check {
 

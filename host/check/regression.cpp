@@ -9,8 +9,8 @@
 namespace flexcomp::check {
 namespace {
 
-/// Of normal equations in columns of unit length, so that a column that nearly is a combination of
-/// others does no harm.
+/// Ridge of normal equations in columns of unit length, so that a column that nearly is a
+/// combination of others does no harm.
 constexpr double kRidge = 1e-8;
 constexpr double kHuber = 2.5;  // deviations
 constexpr double kRounding = 1e-9;

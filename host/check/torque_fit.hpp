@@ -9,7 +9,7 @@
 /// Torques by what they are made of, and what the parts say of signs and scales.
 namespace flexcomp::check {
 
-/// What a joint's torque is made of, a column each.
+/// Parts of a joint's torque, a column each.
 enum Part : Eigen::Index { kWeight, kInertia, kDry, kViscous, kConstant, kFromWrench, kParts };
 
 /// A joint's torque by what it is made of.
@@ -21,7 +21,7 @@ struct TorqueFit {
   double friction_noise = 0;  ///< N·m, its standard deviation
 };
 
-/// What a torque's parts say of its sign: 1, −1, or 0 where they do not tell.
+/// Votes of a torque's parts on its sign: 1, −1, or 0 where they do not tell.
 struct Witnesses {
   int weight = 0;
   int inertia = 0;

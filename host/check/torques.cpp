@@ -23,7 +23,7 @@ std::string listed(const std::vector<Eigen::Index>& joints) {
   return text;
 }
 
-/// What may have been done to the joints' angles.
+/// A way in which the joints' angles may have been rearranged.
 struct Rearranged {
   Check check;
   Eigen::Index one, other;  ///< swapped; the same where turned
@@ -68,7 +68,7 @@ std::vector<Rearranged> rearrangements(const Scene& scene) {
   return all;
 }
 
-/// What is left of the torques of all joints, less that of some, in logarithms.
+/// Remainder of the torques of all joints, less that of some, in logarithms.
 double misfit(const std::vector<TorqueFit>& fits, const Rearranged& beside, bool all) {
   double sum = 0;
   for (std::size_t i = 0; i < fits.size(); ++i) {

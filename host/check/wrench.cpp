@@ -111,7 +111,7 @@ WrenchEvidence by_joint(const model::Robot& robot, const Scene& scene, simulatio
   return evidence;
 }
 
-/// What the evidence says of the wrench.
+/// The evidence on the wrench.
 struct Answer {
   const char* what = nullptr;
   double slope = 0;  ///< measured over predicted; 0 where it does not tell

@@ -8,7 +8,7 @@
 
 namespace flexcomp::controller {
 
-/// What a controller with RSI has to know of the node.
+/// Facts of the node that a controller with RSI has to know.
 struct RsiProject {
   std::string robot;       ///< its name, for comments
   std::string address;     ///< of the node's computer, on the controller's sensor network

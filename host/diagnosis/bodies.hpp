@@ -20,7 +20,7 @@ class Bodies {
   /// How many numbers tell what is outside.
   Eigen::Index size() const { return size_; }
 
-  /// Of each its excess in a machine, a little before the edge already, over what it is held
+  /// The excess of each in a machine, a little before the edge already, over what it is held
   /// within; zeros inside.
   Eigen::VectorXd outside(const model::Robot& altered) const;
 

@@ -12,7 +12,7 @@ namespace flexcomp::diagnosis {
 class Changes {
  public:
   explicit Changes(const Observations& observations);
-  /// Of a machine that is the observations' model with what is known of it already.
+  /// Changes of a machine that is the observations' model with what is known of it already.
   Changes(const Observations& observations, const Machine& around);
 
   /// The whole change over the noise (samples), by the values of a hypothesis' parameters; to first

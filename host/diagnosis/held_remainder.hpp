@@ -8,8 +8,9 @@
 
 namespace flexcomp::diagnosis {
 
-/// What a fit makes small: what an evaluator's numbers leave (the first rows), each number over its
-/// tolerance, and the bodies beyond their edges. In numbers over their steps, as Ceres sees them.
+/// The quantities that a fit makes small: what an evaluator's numbers leave (the first rows), each
+/// number over its tolerance, and the bodies beyond their edges. In numbers over their steps, as
+/// Ceres sees them.
 class HeldRemainder : public ceres::CostFunction {
  public:
   HeldRemainder(Eigen::Index rows, Evaluator* evaluator);
@@ -18,8 +19,8 @@ class HeldRemainder : public ceres::CostFunction {
                 double** jacobians) const override;
 
  protected:
-  /// What values leave, and its slope by them (rows × numbers) where it is wanted; false where they
-  /// cannot be simulated.
+  /// The remainder of values, and its slope by them (rows × numbers) where it is wanted; false
+  /// where they cannot be simulated.
   virtual bool leave(const Values& values, Eigen::Ref<Eigen::VectorXd> left,
                      Eigen::MatrixXd* slope) const = 0;
 

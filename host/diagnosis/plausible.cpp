@@ -16,7 +16,7 @@ constexpr double kRestTolerance = 1e-3;  // of a parameter's step
 constexpr double kFullyPositive = 1e-9;  // of the largest eigenvalue
 constexpr Eigen::Index kPostures = 10;   // of a scene in which the inertia matrix is looked at
 
-/// What is made of a number that rests on a bound.
+/// Judgement of a number that rests on a bound.
 enum AtBound { kBoundTellsNothing, kBoundIsPossible };
 
 /// Why a number cannot be; empty if it can.

@@ -137,7 +137,7 @@ void add_entry(model::LearnedEffect entry, const Placed& found, model::Robot* ro
   robot->effects.push_back(std::move(entry));
 }
 
-/// Of a law among all forms of all effects; behind them for one that is not among them.
+/// Place of a law among all forms of all effects; behind them for one that is not among them.
 std::size_t place_in_catalogue(const Law& law) {
   static const std::vector<const Law*> kLaws = [] {
     std::vector<const Law*> all;

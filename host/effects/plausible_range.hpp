@@ -63,7 +63,7 @@ double over(double value, double divisor);
 double softest(double of_any, double most, double load);
 
 constexpr double kSpringTurn = 0.1;  ///< rad, the most under the load that a spring bore
-/// What an arm's geometry is off by from its drawing, several times of what calibration found on
+/// Error of an arm's geometry against its drawing, several times of what calibration found on
 /// industrial arms (Nubiola and Bonev 2013; Ginani and Motta 2011): tenths of a millimetre and of a
 /// milliradian up to some, on reaches of 1 to 3 m.
 constexpr double kUsualShift = 2e-3;    ///< of the reach

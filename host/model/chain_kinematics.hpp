@@ -3,7 +3,7 @@
 #include "flexcomp/chain.hpp"
 #include "model/chain.hpp"
 
-/// What the core computes of six revolute joints, for any chain (same methods, same names).
+/// The core's computations for six revolute joints, for any chain (same methods, same names).
 namespace flexcomp::model {
 
 /// Where everything is in one posture; all in the base frame.
@@ -33,7 +33,7 @@ JointValues wrench_torque(const ChainJacobian& jacobian, const Wrench<double>& w
 /// Load on each joint from the weight of everything beyond it, payload included.
 JointValues weight_torque(const Chain& chain, const ChainKinematics& kinematics);
 
-/// What each joint's spring gives under its load: c1 τ + c3 τ³.
+/// Wind-up of each joint's spring under its load: c1 τ + c3 τ³.
 JointValues joint_windup(const Chain& chain, const JointValues& load);
 
 /// Linear compliance at the TCP, base frame: C = J K⁻¹ Jᵀ over the joint springs plus the base,

@@ -12,8 +12,8 @@
 
 namespace flexcomp::model {
 
-/// What a joint adds to the torque balance, on the joint side of its gear; metres and newtons in
-/// place of radians and newton metres for one that slides.
+/// Contributions of a joint to the torque balance, on the joint side of its gear; metres and
+/// newtons in place of radians and newton metres for one that slides.
 struct JointDynamics {
   double viscous = 0;        ///< N·m·s/rad
   double coulomb = 0;        ///< N·m
@@ -90,7 +90,8 @@ RobotModel<double, 6> six_axis_model(const Robot& robot);
 /// written, std::invalid_argument for a robot that `load_robot` would refuse.
 void write_robot(const std::filesystem::path& file, const Robot& robot);
 
-/// What `write_robot` would write to a file; throws as it does, but for what only writing shows.
+/// The text that `write_robot` would write to a file; throws as it does, but for what only writing
+/// shows.
 std::string robot_text(const std::filesystem::path& file, const Robot& robot);
 
 }  // namespace flexcomp::model

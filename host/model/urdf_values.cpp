@@ -20,7 +20,7 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// What stands in a joint or a link according to the standard.
+/// Parts of a joint or a link according to the standard.
 const Names kJointParts = {"origin", "parent",      "child",
                            "axis",   "calibration", "dynamics",
                            "limit",  "mimic",       "safety_controller"};
@@ -59,7 +59,7 @@ std::optional<double> decimal_number(std::string_view word) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
-/// What stands between spaces; other white space separates nothing for urdfdom.
+/// Words between spaces; other white space separates nothing for urdfdom.
 std::vector<std::string_view> words(std::string_view text) {
   std::vector<std::string_view> all;
   while (true) {

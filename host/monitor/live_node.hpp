@@ -27,7 +27,7 @@ struct Snapshot {
   std::vector<std::string> latched;   ///< what led to the last fade-out, until a reset
   JointAngles setpoint = filled();    ///< rad, uncorrected
   JointAngles correction = filled();  ///< rad
-  /// Of the joint springs (rad) and the TCP (m, rad; base frame), where the model is at hand:
+  /// Deflection of the joint springs (rad) and the TCP (m, rad; base frame), if the model is known:
   /// under the wrench on the bus and the weights in the model.
   JointAngles windup = filled();
   std::array<double, 6> tcp = filled();

@@ -18,7 +18,7 @@ std::optional<std::vector<double>> read_rapid_numbers(Scanner* scanner);
 /// stand; those of a target without any if there are none.
 std::string rapid_configuration(std::string_view target);
 
-/// What a module declares, by name in capitals.
+/// Declarations of a module, by name in capitals.
 struct RapidData {
   std::map<std::string, Pose<double>> targets;        ///< robtargets, m
   std::map<std::string, std::string> configurations;  ///< of targets by name, as they are written

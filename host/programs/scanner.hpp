@@ -27,7 +27,7 @@ class Scanner {
   /// A number with or without a sign; nothing if there is none, or if it is not finite.
   std::optional<double> number();
 
-  /// What is left, as it stands.
+  /// The rest of the text, as it stands.
   std::string_view rest() const { return text_.substr(at_); }
 
   std::size_t place() const { return at_; }

@@ -15,7 +15,8 @@ using model::ChainJoint;
 
 constexpr double kHalfTurn = 3.141592653589793;
 
-/// What is taken for a slip of the unit, beyond which a robot's own limits may be a little off.
+/// An angle beyond this one is taken for a slip of the unit; below it a robot's own limits may be a
+/// little off.
 double slip_of(const ChainJoint& joint) {
   return joint.slides() ? joint.upper - joint.lower : kHalfTurn;
 }

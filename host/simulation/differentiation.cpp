@@ -61,8 +61,8 @@ void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
   }
 }
 
-/// Of angles whose steps drown in noise: a joint stands where it has not moved beyond it before or
-/// after a row.
+/// Finds standing joints where angles' steps drown in noise: a joint stands where it has not moved
+/// beyond the noise before or after a row.
 void find_standing_in_noise(const Eigen::VectorXd& time, const recording::Samples& q,
                             const Eigen::RowVectorXd& angle_noise, const Window& window,
                             LocalMotion* motion) {
@@ -201,7 +201,7 @@ std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recordi
                                       const Eigen::RowVectorXd& angle_noise) {
   const Eigen::Index joints = q.cols();
   const Probes shortest = probe(time, q, kHalfWindows[0]);
-  // Of the windows tried: noise of the accelerations, and what differs from the shortest by more.
+  // For each window tried: noise of the accelerations, and what differs from the shortest by more.
   std::vector<Eigen::ArrayXd> noise = {mean_square_noise(shortest, angle_noise)};
   std::vector<Eigen::ArrayXd> cut = {Eigen::ArrayXd::Zero(joints)};
   Eigen::ArrayXd scale = Eigen::ArrayXd::Constant(joints, kMostNoiseScale);

@@ -14,7 +14,7 @@ namespace flexcomp::simulation {
 /// that are rounded. The others are for angles whose noise would drown the acceleration.
 constexpr std::array<double, 8> kHalfWindows = {0.0161, 0.025, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2};
 
-/// Of the polynomials.
+/// Order of the polynomials.
 constexpr int kPolynomialOrder = 5;
 
 /// So many numbers of every joint.

@@ -34,9 +34,9 @@ Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input, 
 Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input,
                      const Eigen::VectorXd& frequency, double damping);
 
-/// What follows `input` by a first-order lag (s), having caught up with its slope at first; exact
-/// for an input that is cubic between the times (s) (Hermite, with the slopes of parabolas through
-/// three rows each).
+/// A signal that follows `input` by a first-order lag (s), having caught up with its slope at
+/// first; exact for an input that is cubic between the times (s) (Hermite, with the slopes of
+/// parabolas through three rows each).
 Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double constant);
 
 /// `values` (n×m) as they were `delay` (s) before: straight between the times (s), continued beyond

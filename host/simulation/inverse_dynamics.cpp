@@ -16,13 +16,13 @@ struct Motion {
   Vector angular_acceleration = Vector::Zero();  ///< rad/s²
   Vector acceleration = Vector::Zero();          ///< of the origin, less gravity, m/s²
 
-  /// Of a point that is fixed to the link, `arm` away from its origin.
+  /// Acceleration of a point that is fixed to the link, `arm` away from its origin.
   Vector acceleration_at(const Vector& arm) const {
     return acceleration + angular_acceleration.cross(arm) + spin.cross(spin.cross(arm));
   }
 };
 
-/// What moves a link, about its origin.
+/// Force and moment that move a link, about its origin.
 struct Effort {
   Vector axis;
   Vector origin;

@@ -11,7 +11,7 @@ namespace flexcomp::simulation {
 
 using model::JointValues;
 
-/// What a recording should show, by channel (n×3 m; N·m and rad, a column a joint), and the loads
+/// The recording that should be, by channel (n×3 m; N·m and rad, a column a joint), and the loads
 /// behind it.
 struct Prediction {
   std::array<Eigen::MatrixXd, 3> channel;  ///< no columns where the scene does not have it
@@ -40,7 +40,7 @@ struct Term {
   std::function<void(const Scene&, const Simulation&, Prediction*)> add;
 };
 
-/// What is believed of a machine: its model, and physics that the model has no keys for.
+/// A machine as it is believed to be: its model, and physics that the model has no keys for.
 struct Machine {
   Machine() = default;
   explicit Machine(model::Robot of);
@@ -49,7 +49,8 @@ struct Machine {
   JointValues encoder_offset;  ///< rad, q = reading + it
   JointValues lag;             ///< s, behind the command
   double wrench_delay = 0;     ///< s, by which the force sensor is late
-  /// What the force sensor's readings stand for, tool frame, one correction after another.
+  /// The wrench that the force sensor's readings stand for, tool frame, one correction after
+  /// another.
   std::vector<std::function<Wrench<double>(const Wrench<double>& read)>> sensor;
   /// Torques (N·m) in parallel to the drives, by the joint angles: gravity compensators.
   std::vector<std::function<JointValues(const JointValues& q)>> balancers;
@@ -90,7 +91,7 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
 Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
                       const Simulation& simulation);
 
-/// What the terms of a machine need of its simulation: levers only where they move a TCP or a
+/// Parts of the simulation that the terms of a machine need: levers only where they move a TCP or a
 /// wrench.
 Wanted wanted_of(const Machine& machine, const Scene& scene);
 

@@ -32,7 +32,7 @@ struct PlantOptions {
   double stable_gain = std::numeric_limits<double>::infinity();
 };
 
-/// What came of a run.
+/// The result of a run.
 struct PlantRun {
   /// Along the contour: q_cmd, q_meas (what the robot moved by), wrench (with noise), position.
   recording::Recording recording;

@@ -115,7 +115,7 @@ class LcmBus : public PlantBus {
   void send(const Message& message) override { link_.publish(message); }
 
   bool receive(Message* message, std::int64_t patience) override {
-    // What arrives may be an echo of our own, which the link swallows.
+    // A frame that arrives may be an echo of our own, which the link swallows.
     const std::int64_t until = monotonic_now() + patience;
     while (received_.empty()) {
       const std::int64_t left = std::max<std::int64_t>(0, until - monotonic_now());

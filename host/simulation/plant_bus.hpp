@@ -27,7 +27,7 @@ class PlantBus {
   /// The next message that has come, waiting up to `patience` (ns) for one; false if none has.
   virtual bool receive(Message* message, std::int64_t patience) = 0;
 
-  /// What was lost since it was opened, as far as this bus can tell.
+  /// Losses since it was opened, as far as this bus can tell.
   virtual BusCounts counts() const { return {}; }
 };
 

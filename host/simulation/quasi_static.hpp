@@ -6,7 +6,7 @@ namespace flexcomp::simulation {
 
 using model::JointValues;
 
-/// What every spring of a robot has given, each in its own frame (m, rad); at first nothing.
+/// Deflection of every spring of a robot, each in its own frame (m, rad); at first nothing.
 struct Springs {
   Twist<double> base = Twist<double>::Zero();
   JointValues windup;

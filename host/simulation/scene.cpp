@@ -127,8 +127,7 @@ Eigen::Index measured_at(const recording::Recording& recording, Eigen::Index row
   return known(recording.position) + known(recording.tau) + known(recording.q_link);
 }
 
-/// Of so many rows that follow each other, the first of those that show most: a slow sensor may be
-/// there in some only.
+/// The first of every so many rows that shows most: a slow sensor may be there in some only.
 std::vector<Eigen::Index> thinned(const recording::Recording& recording,
                                   const std::vector<Eigen::Index>& rows, Eigen::Index each) {
   std::vector<Eigen::Index> kept;

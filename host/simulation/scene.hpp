@@ -11,7 +11,7 @@ namespace flexcomp::simulation {
 enum Channel : std::size_t { tcp_position, joint_torque, joint_deflection };
 constexpr std::array<const char*, 3> kChannels = {"tcp_position", "joint_torque",
                                                   "joint_deflection"};
-/// Of joints that turn; those that slide have N and m.
+/// Units for joints that turn; those that slide have N and m.
 constexpr std::array<const char*, 3> kChannelUnits = {"m", "N·m", "rad"};
 
 /// A recording made ready for simulation: what drove the robot, and what was measured of it. SI
@@ -38,7 +38,7 @@ struct Scene {
   /// samples; zero elsewhere.
   Eigen::MatrixXd acceleration_doubt;
   Eigen::VectorXd temperature;  ///< n, °C, gaps filled; empty where not recorded
-  /// What was measured, by channel (TCP: n×3): no columns where not recorded, NaN where a
+  /// Measurements, by channel (TCP: n×3): no columns where not recorded, NaN where a
   /// sample is missing. Joint deflection is q_link − q_meas.
   std::array<Eigen::MatrixXd, 3> measured;
 
@@ -47,7 +47,7 @@ struct Scene {
   bool has(Channel channel) const { return measured[channel].cols() > 0; }
 };
 
-/// What was done to a recording to make it usable.
+/// Steps that made a recording usable.
 struct Preparation {
   Eigen::Index rows = 0;        ///< in the file
   Eigen::Index incomplete = 0;  ///< left out: without all joint angles or without the whole wrench

@@ -85,7 +85,7 @@ typedef struct flexcomp_frames {
   flexcomp_can_frame_t frame[3];  ///< `count` of them
 } flexcomp_frames_t;
 
-/// What a client is made with.
+/// Settings that a client is made with.
 typedef struct flexcomp_client_config {
   bool fd;              ///< send FD frames where a message has one; both kinds are understood
   uint64_t model_hash;  ///< fingerprint of the robot, as in node.toml (flexcomp configure)
@@ -123,7 +123,7 @@ flexcomp_result_t flexcomp_client_setpoint(flexcomp_client_t* client,
                                            const double setpoint[FLEXCOMP_JOINTS], int64_t now,
                                            flexcomp_frames_t* frames);
 
-/// What a compensator can be told. Stable numbers.
+/// Commands to a compensator. Stable numbers.
 typedef enum flexcomp_command {
   FLEXCOMP_COMMAND_NONE = 0,
   FLEXCOMP_COMMAND_ARM = 1,
@@ -136,7 +136,7 @@ typedef enum flexcomp_command {
 flexcomp_result_t flexcomp_client_command(flexcomp_client_t* client, flexcomp_command_t command,
                                           flexcomp_frames_t* frames);
 
-/// What a received frame completed.
+/// Outcome of a received frame.
 typedef enum flexcomp_client_event {
   FLEXCOMP_CLIENT_NOTHING = 0,    ///< part of a message, damaged, repeated, or not for a client
   FLEXCOMP_CLIENT_ANSWER = 1,     ///< flexcomp_client_answer has it

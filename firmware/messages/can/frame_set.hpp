@@ -7,8 +7,8 @@
 #include "flexcomp_can.h"
 #include "messages/messages.hpp"
 
-/// What the files beside this one say of each message, and in which words. They take what cantools
-/// generates from flexcomp.dbc; checksums and counters are not their business.
+/// The files beside this one say for each message what it holds, in the words below. They take what
+/// cantools generates from flexcomp.dbc; checksums and counters are not their business.
 namespace flexcomp::can {
 
 /// The frames of a message on classic CAN, and how they are packed and unpacked. Specialised for

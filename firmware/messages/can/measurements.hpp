@@ -2,7 +2,7 @@
 
 #include "messages/can/frame_set.hpp"
 
-/// What sensors and trackers measure, on CAN.
+/// Measurements of sensors and trackers, on CAN.
 namespace flexcomp::can {
 
 template <>

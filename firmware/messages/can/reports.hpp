@@ -2,7 +2,7 @@
 
 #include "messages/can/frame_set.hpp"
 
-/// What the node tells of itself, on CAN.
+/// Reports of the node on itself, on CAN.
 namespace flexcomp::can {
 
 template <>

@@ -5,8 +5,8 @@
 
 #include "messages/messages.hpp"
 
-/// What the files beside this one say of each message. They take the classes that lcm-gen makes
-/// from the .lcm files, and which break the rules of aliasing: only lcm_codec.cpp, which is
+/// The files beside this one say for each message what it holds. They take the classes that lcm-gen
+/// makes from the .lcm files, and which break the rules of aliasing: only lcm_codec.cpp, which is
 /// compiled for that, may include them.
 namespace flexcomp::lcm {
 

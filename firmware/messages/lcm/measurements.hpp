@@ -5,7 +5,7 @@
 #include "flexcomp_lcm/wrench.hpp"
 #include "messages/lcm/event.hpp"
 
-/// What sensors and trackers measure, on LCM.
+/// Measurements of sensors and trackers, on LCM.
 namespace flexcomp::lcm {
 
 template <>

@@ -5,7 +5,7 @@
 #include "flexcomp_lcm/statistic.hpp"
 #include "messages/lcm/event.hpp"
 
-/// What the node tells of itself, on LCM.
+/// Reports of the node on itself, on LCM.
 namespace flexcomp::lcm {
 
 template <>

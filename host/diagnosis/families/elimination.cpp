@@ -128,7 +128,7 @@ void Elimination::solve(const std::vector<std::size_t>& members) {
     remainder_ = target_ - columns_ * value_;
     const auto n = static_cast<double>(remainder_.size());
     spread_ = std::max(1.0, std::sqrt(weight_.dot(remainder_.cwiseAbs2()) / n));
-    // Of positions, frames and tools are told whole: what holds them weighs as one sample.
+    // Positions tell frames and tools whole: what holds them weighs as one sample.
     repeats_ = observations_.has(simulation::joint_torque)
                    ? n / independent_samples(observations_, remainder_)
                    : 1;

@@ -10,8 +10,8 @@ namespace flexcomp::diagnosis {
 double component_rms(const Observations& observations, const Eigen::VectorXd& values,
                      Channel channel, Eigen::Index component, bool held_out);
 
-/// What is held out (or, where nothing is, what was fitted), with the model, with the findings, and
-/// with what stands in for the rest: a row a channel. HTML.
+/// Errors held out (or, where nothing is, of what was fitted), with the model, with the findings,
+/// and with what stands in for the rest: a row a channel. HTML.
 std::string channel_table(const Observations& observations, const Diagnosis& diagnosis);
 
 /// The same for each joint or axis, against its own noise. HTML.

@@ -13,7 +13,7 @@ struct Quality {
   simulation::Preparation preparation;
 };
 
-/// What a page tells of how it came to be.
+/// How a page came to be, as it tells.
 struct Origin {
   std::vector<Quality> qualities;  ///< of the recordings
   check::Checks checks;            ///< what was wrong or suspicious in the input

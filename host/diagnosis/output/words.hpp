@@ -4,7 +4,7 @@
 
 #include "diagnosis/observations.hpp"
 
-/// What files call by names for programs, as people say it.
+/// Names that files use for programs, as people say them.
 namespace flexcomp::diagnosis {
 
 /// "dry friction" for coulomb_friction; an effect without words of its own by its name.
