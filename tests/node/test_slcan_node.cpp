@@ -278,7 +278,7 @@ bool is_used(const IndexMemory& memory) {
 void tables_get_an_index_in_the_memory_of_their_slot() {
   SerialBench bench(settings(Trigger::setpoint));
   bench.machine(20);
-  for (const std::size_t slot : {0, 1}) {
+  for (const std::size_t slot : {0U, 1U}) {
     TEST_ASSERT_FALSE(is_used(bench.half_of_indices(slot)));
     TEST_ASSERT_EQUAL(0, transfer(&bench, test::loop_table(test::kr270<float>())));
     TEST_ASSERT_EQUAL(slot + 1, bench.heartbeat.slot);
