@@ -13,7 +13,7 @@ import numpy as np
 import scipy.signal
 import yaml
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "diagnosis"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "campaigns" / "diagnosis"))
 
 from generator import dynamics, kinematics, robot as robots  # noqa: E402
 
