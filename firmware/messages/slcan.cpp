@@ -5,17 +5,17 @@ namespace {
 
 constexpr std::size_t kIdDigits = 3;
 constexpr std::size_t kHeadSize = 1 + kIdDigits + 1;
-constexpr std::int8_t kNoDigit = -1;
+constexpr std::uint8_t kNoDigit = 0xFF;
 
 constexpr char kDigits[] = "0123456789ABCDEF";
 
 /// The value of each character as a hexadecimal digit, or kNoDigit.
-constexpr std::array<std::int8_t, 256> make_values() {
-  std::array<std::int8_t, 256> values{};
-  for (std::int8_t& value : values) {
+constexpr std::array<std::uint8_t, 256> make_values() {
+  std::array<std::uint8_t, 256> values{};
+  for (std::uint8_t& value : values) {
     value = kNoDigit;
   }
-  for (std::int8_t i = 0; i < 16; ++i) {
+  for (std::uint8_t i = 0; i < 16; ++i) {
     const char c = kDigits[i];
     values[static_cast<std::uint8_t>(c)] = i;
     if (c >= 'A') {
@@ -25,17 +25,17 @@ constexpr std::array<std::int8_t, 256> make_values() {
   return values;
 }
 
-constexpr std::array<std::int8_t, 256> kValues = make_values();
+constexpr std::array<std::uint8_t, 256> kValues = make_values();
 
 /// Reads `count` hexadecimal digits; false if one is none.
 bool read_hexadecimal(const char* text, std::size_t count, std::uint32_t* value) {
   *value = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const int next = kValues[static_cast<std::uint8_t>(text[i])];
+    const std::uint8_t next = kValues[static_cast<std::uint8_t>(text[i])];
     if (next == kNoDigit) {
       return false;
     }
-    *value = *value << 4 | static_cast<std::uint32_t>(next);
+    *value = *value << 4 | next;
   }
   return true;
 }
