@@ -18,15 +18,15 @@ namespace {
 constexpr int kWeightRounds = 3;    // of Huber's weights: they change little after that
 constexpr double kRobustLimit = 3;  // deviations, as in `fit`
 /// Tolerances of each number, in units by which it alone would change as much as is to be
-/// explained: the scale of the ridge (Hoerl and Kennard 1970), which is none of the numbers' own
-/// units.
+/// explained: the scale of the ridge (Hoerl and Kennard 1970).
 constexpr double kTolerances[] = {0.1, 0.3, 1, 3, 10, 30};
 constexpr double kNoTolerance = 1e6;  // such units hold nothing
 constexpr double kEdge = 1e-2;        // of a body's size, for its first fit by simulation
 /// A smaller set, or a tighter tolerance, is taken where it predicts worse by less than this:
 /// simplicity against error.
 constexpr double kSameError = 1.0002;
-constexpr Eigen::Index kParts = 10;  // that are predicted from all others
+constexpr double kClearlyLess = 0.95;  // of squares, that numbers of other sizes are worth
+constexpr Eigen::Index kParts = 10;    // that are predicted from all others
 
 /// Which part of the samples is predicted together with this one: neighbours in time are.
 Eigen::Index part_of(const Observations& observations, const Sample& at) {
@@ -275,7 +275,7 @@ Elimination::Set Elimination::best_on_path() {
     const double error = error_elsewhere(members);
     least = std::min(least, error);
     if (error < kSameError * least) {
-      best = {members, is_held_, tolerance_, error};
+      best = {members, is_held_, tolerance_, widest_, error};
     }
     const std::size_t weakest = members.empty() ? members_.size() : weakest_of(members, wide);
     if (weakest == members_.size()) {
@@ -319,6 +319,7 @@ Eigen::VectorXd Elimination::widenings_by_others(const std::vector<std::size_t>&
 
 std::vector<Chosen> Elimination::chosen_of(const Set& set) {
   tolerance_ = set.tolerance;
+  widest_ = set.widest;
   is_held_ = set.is_held;
   solve(set.members);
   const Eigen::VectorXd widenings = widenings_by_others(set.members);
@@ -363,11 +364,8 @@ void Elimination::learn_widths() {
                                              widest_(columns), kind);
 }
 
-/// The best set by the tightest tolerance that predicts as well as any.
-Elimination::Set Elimination::best_set() {
-  if (!observations_.has(simulation::joint_torque)) {
-    learn_widths();
-  }
+/// The best set, with the widths in use, by the tightest tolerance that predicts as well as any.
+Elimination::Set Elimination::best_of_tolerances() {
   std::vector<Set> sets;
   for (const double tolerance : kTolerances) {
     tolerance_ = tolerance;
@@ -377,12 +375,22 @@ Elimination::Set Elimination::best_set() {
     repeats_ = 1;
     sets.push_back(best_on_path());
   }
-  const double least = std::min_element(sets.begin(), sets.end(), [](const Set& a, const Set& b) {
-                         return a.error < b.error;
-                       })->error;
-  const Set& best = *std::find_if(sets.begin(), sets.end(),
-                                  [&](const Set& set) { return set.error < kSameError * least; });
-  return best;
+  const auto is_less = [](const Set& a, const Set& b) { return a.error < b.error; };
+  const double least = std::min_element(sets.begin(), sets.end(), is_less)->error;
+  return *std::find_if(sets.begin(), sets.end(),
+                       [&](const Set& set) { return set.error < kSameError * least; });
+}
+
+/// By learnt widths, unless the usual ones predict clearly better, as where one of a few poses'
+/// numbers is far larger than its like.
+Elimination::Set Elimination::best_set() {
+  if (observations_.has(simulation::joint_torque)) {
+    return best_of_tolerances();
+  }
+  const Set wide = best_of_tolerances();
+  learn_widths();
+  Set learnt = best_of_tolerances();
+  return wide.error < kClearlyLess * learnt.error ? wide : learnt;
 }
 
 std::vector<Chosen> Elimination::best() { return chosen_of(best_set()); }

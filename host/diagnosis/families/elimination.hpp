@@ -45,6 +45,7 @@ class Elimination {
     std::vector<std::size_t> members;
     std::vector<bool> is_held;  ///< by column: at zero, since it would leave its bounds
     double tolerance = 0;
+    Eigen::VectorXd widest;
     double error = 0;
   };
 
@@ -66,6 +67,7 @@ class Elimination {
   Eigen::VectorXd widenings() const;
   void learn_widths();
   Set best_on_path();
+  Set best_of_tolerances();
   Set best_set();
   Eigen::VectorXd variances(const std::vector<Eigen::Index>& columns) const;
   Eigen::VectorXd widenings_by_others(const std::vector<std::size_t>& members) const;
