@@ -30,14 +30,10 @@ bool is_same_series(const Observations& observations, Eigen::Index a, Eigen::Ind
          one.component == other.component;
 }
 
-/// The inverse of a fit's normal equations, its parameters in units of which each is told alike.
-struct Inverse {
-  Eigen::VectorXd unit;
-  Eigen::MatrixXd inner;
-};
+}  // namespace
 
-Inverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
-                   const Eigen::VectorXd& precision) {
+NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
+                         const Eigen::VectorXd& precision) {
   Eigen::MatrixXd gram = derivative.transpose() * (weight.asDiagonal() * derivative);
   gram.diagonal() += precision;
   const Eigen::VectorXd unit = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
@@ -45,12 +41,7 @@ Inverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& wei
   return {unit, gram.completeOrthogonalDecomposition().pseudoInverse()};
 }
 
-}  // namespace
-
-double told_parameters(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
-                       const Eigen::VectorXd& precision) {
-  const Inverse inverse = inverse_of(derivative, weight, precision);
-  // Units of parameters that nothing depends on and nothing holds are endless.
+double told_parameters(const NormalInverse& inverse, const Eigen::VectorXd& precision) {
   const Eigen::ArrayXd share = (precision.array() > 0)
                                    .select(inverse.inner.diagonal().array() *
                                                inverse.unit.array().square() * precision.array(),
@@ -83,11 +74,11 @@ double correlated_widening(const Observations& observations, const Eigen::Vector
   return alone > 0 ? std::max(1.0, together / alone) : 1.0;
 }
 
-Eigen::MatrixXd covariance_of(const Observations& observations, const Eigen::MatrixXd& derivative,
-                              const Eigen::VectorXd& weight, const Eigen::VectorXd& remainder,
-                              const Eigen::VectorXd& precision, double variance) {
+Eigen::MatrixXd covariance_of(const Observations& observations, const NormalInverse& inverse,
+                              const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
+                              const Eigen::VectorXd& remainder, double variance) {
   const Eigen::VectorXd size = derivative.colwise().norm();
-  const auto [unit, inner] = inverse_of(derivative, weight, precision);
+  const auto& [unit, inner] = inverse;
   const Eigen::MatrixXd scores =
       scores_of_stretches(observations, derivative, weight.cwiseProduct(remainder)) *
       unit.asDiagonal();

@@ -174,10 +174,12 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
   result.train_sum = weight.dot(result.remainder.head(n).cwiseAbs2());
   const double freedom = static_cast<double>(n) - static_cast<double>(evaluator.size());
   if (evaluator.size() > 0) {
+    const Eigen::VectorXd precision = evaluator.precisions();
+    const NormalInverse inverse = inverse_of(result.derivative.topRows(n), weight, precision);
     result.covariance =
-        covariance_of(observations, result.derivative.topRows(n), weight, result.remainder.head(n),
-                      evaluator.precisions(), result.train_sum / std::max(freedom, 1.0));
-    result.told = told_parameters(result.derivative.topRows(n), weight, evaluator.precisions());
+        covariance_of(observations, inverse, result.derivative.topRows(n), weight,
+                      result.remainder.head(n), result.train_sum / std::max(freedom, 1.0));
+    result.told = told_parameters(inverse, precision);
     const Eigen::VectorXd widening = evaluator.widenings();
     result.covariance = widening.asDiagonal() * result.covariance * widening.asDiagonal();
   }

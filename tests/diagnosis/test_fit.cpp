@@ -133,9 +133,10 @@ void a_parameter_counts_by_what_the_samples_tell_of_it() {
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(10, 4);
   derivative(0, 0) = derivative(1, 1) = derivative(2, 2) = 2;
   const Eigen::VectorXd weight = Eigen::VectorXd::Ones(10);
+  const Eigen::Vector4d held(0, 4, 12, 0);
   // The samples give each of the first three 4; what holds them gives 0, 4 and 12.
   TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1 + 1.0 / 2 + 1.0 / 4 + 1,
-                            told_parameters(derivative, weight, Eigen::Vector4d(0, 4, 12, 0)));
+                            told_parameters(inverse_of(derivative, weight, held), held));
 }
 
 Hypothesis of_two(double lower) {

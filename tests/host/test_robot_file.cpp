@@ -1,38 +1,28 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "error.hpp"
 #include "host/arm_robot.hpp"
 #include "model/robot.hpp"
+#include "refusal.hpp"
 #include "unity_main.hpp"
 
-using flexcomp::InputError;
 using flexcomp::model::load_robot;
 using flexcomp::test::content_of;
 using flexcomp::test::Edit;
 using flexcomp::test::put;
 using flexcomp::test::put_arm;
+using flexcomp::test::refusal_of;
 using flexcomp::test::ScratchFolder;
 namespace fs = std::filesystem;
 
 namespace {
 
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 /// The message with the folder cut off, which is where each has to begin.
 std::string load_refusal(const ScratchFolder& folder, const std::string& file = "robot.yaml") {
-  const std::string message = refusal([&] { load_robot(folder / file); });
+  const std::string message = refusal_of([&] { load_robot(folder / file); });
   const std::string start = (folder / "").string();
   return message.rfind(start, 0) == 0 ? message.substr(start.size()) : message;
 }
@@ -239,7 +229,7 @@ void the_core_is_given_six_revolute_joints_only() {
     const bool has_five = one.edit.to.find("fixed") != std::string::npos;
     put_arm(folder, has_five ? Edit{"  j1: {compliance: 1e-6}\n", ""} : Edit{}, one.edit);
     const flexcomp::model::Robot robot = load_robot(folder / "robot.yaml");
-    const std::string message = refusal([&] { six_axis_model(robot); });
+    const std::string message = refusal_of([&] { six_axis_model(robot); });
     const std::string start = (folder / "").string();
     TEST_ASSERT_EQUAL_STRING(
         one.message.c_str(),

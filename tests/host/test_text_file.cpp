@@ -3,13 +3,13 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <functional>
 #include <ostream>
 #include <thread>
 
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "host/scratch_folder.hpp"
+#include "refusal.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::InputError;
@@ -19,21 +19,13 @@ using flexcomp::files::write_file;
 using flexcomp::files::write_texts;
 using flexcomp::test::content_of;
 using flexcomp::test::put;
+using flexcomp::test::refusal_of;
 using flexcomp::test::ScratchFolder;
 namespace fs = std::filesystem;
 
 namespace {
 
 constexpr std::size_t kLimit = 1 << 20;
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 void write_text(const fs::path& path, const std::string& text) {
   write_file(path, [&](std::ostream& stream) { stream << text; });
@@ -65,15 +57,15 @@ void unreadable_paths_are_refused_with_the_reason() {
   const fs::path file = folder / "file";
   const std::string name = file.string();
   TEST_ASSERT_EQUAL_STRING((name + ": no such file").c_str(),
-                           refusal([&] { read_text(file); }).c_str());
+                           refusal_of([&] { read_text(file); }).c_str());
   put(file, "");
   TEST_ASSERT_EQUAL_STRING((name + ": the file is empty").c_str(),
-                           refusal([&] { read_text(file); }).c_str());
+                           refusal_of([&] { read_text(file); }).c_str());
   put(file, std::string("PK\3\4\0\0", 6));
   TEST_ASSERT_EQUAL_STRING((name + ": not a text file").c_str(),
-                           refusal([&] { read_text(file); }).c_str());
+                           refusal_of([&] { read_text(file); }).c_str());
   TEST_ASSERT_EQUAL_STRING("/: is a directory; expected a file",
-                           refusal([] { read_text("/"); }).c_str());
+                           refusal_of([] { read_text("/"); }).c_str());
 }
 
 /// None of them has an end, or one that is worth waiting for.
@@ -81,13 +73,13 @@ void devices_sockets_and_files_beyond_the_limit_are_refused_unread() {
   for (const char* device : {"/dev/zero", "/dev/null", "/dev/urandom", "/dev/full"}) {
     TEST_ASSERT_EQUAL_STRING(
         (std::string(device) + ": is a device or socket; expected a file").c_str(),
-        refusal([&] { read_file(device, kLimit); }).c_str());
+        refusal_of([&] { read_file(device, kLimit); }).c_str());
   }
   const ScratchFolder folder;
   put(folder / "huge", "");
   fs::resize_file(folder / "huge", std::uintmax_t{1} << 42);
   TEST_ASSERT_EQUAL_STRING(((folder / "huge").string() + ": larger than 1 MiB").c_str(),
-                           refusal([&] { read_file(folder / "huge", kLimit); }).c_str());
+                           refusal_of([&] { read_file(folder / "huge", kLimit); }).c_str());
 }
 
 void a_pipe_is_read_up_to_the_limit() {
@@ -100,7 +92,7 @@ void a_pipe_is_read_up_to_the_limit() {
   ::signal(SIGPIPE, SIG_IGN);
   writer = std::thread([&] { std::ofstream(pipe) << std::string(4 * kLimit, 'x'); });
   TEST_ASSERT_EQUAL_STRING((pipe + ": larger than 1 MiB").c_str(),
-                           refusal([&] { read_file(pipe, kLimit); }).c_str());
+                           refusal_of([&] { read_file(pipe, kLimit); }).c_str());
   writer.join();
 }
 
@@ -123,7 +115,7 @@ void a_full_disk_leaves_the_old_file_and_no_other() {
   std::string message;
   {
     const FullDisk disk(10000);
-    message = refusal([&] { write_text(file, std::string(1 << 20, 'x')); });
+    message = refusal_of([&] { write_text(file, std::string(1 << 20, 'x')); });
   }
   TEST_ASSERT_EQUAL_STRING((file.string() + ": cannot be written: File too large").c_str(),
                            message.c_str());
@@ -135,7 +127,7 @@ void of_several_files_none_is_written_if_one_cannot_be() {
   const ScratchFolder folder;
   put(folder / "first", "before");
   fs::create_directory(folder / "last");
-  const std::string message = refusal([&] {
+  const std::string message = refusal_of([&] {
     write_texts(
         {{folder / "first", "after"}, {folder / "new", "after"}, {folder / "last", "after"}});
   });
@@ -152,13 +144,13 @@ void of_several_files_none_is_written_if_one_cannot_be() {
 
 void a_full_device_is_one_clear_error() {
   TEST_ASSERT_EQUAL_STRING("/dev/full: cannot be written: No space left on device",
-                           refusal([] { write_text("/dev/full", "text"); }).c_str());
+                           refusal_of([] { write_text("/dev/full", "text"); }).c_str());
 }
 
 void a_writer_that_throws_leaves_the_old_file_and_its_own_message() {
   const ScratchFolder folder;
   put(folder / "file", "before");
-  const std::string message = refusal([&] {
+  const std::string message = refusal_of([&] {
     write_file(folder / "file", [](std::ostream& stream) {
       stream << "half";
       throw InputError("the writer's own");
@@ -173,7 +165,7 @@ void an_interrupted_write_can_be_cleaned_up() {
   const ScratchFolder folder;
   std::size_t during = 0;
   std::size_t after = 1;
-  refusal([&] {
+  refusal_of([&] {
     write_file(folder / "file", [&](std::ostream& stream) {
       stream << "half" << std::flush;
       during = folder.file_count();
@@ -205,11 +197,11 @@ void places_that_hold_no_file_are_refused() {
   fs::create_symlink("nowhere", folder / "link");
   const std::string reason = ": cannot be written: No such file or directory";
   TEST_ASSERT_EQUAL_STRING(((folder / "link").string() + reason).c_str(),
-                           refusal([&] { write_text(folder / "link", "text"); }).c_str());
+                           refusal_of([&] { write_text(folder / "link", "text"); }).c_str());
   TEST_ASSERT_EQUAL_STRING(((folder / "no/file").string() + reason).c_str(),
-                           refusal([&] { write_text(folder / "no/file", "text"); }).c_str());
+                           refusal_of([&] { write_text(folder / "no/file", "text"); }).c_str());
   TEST_ASSERT_EQUAL_STRING("/: is a directory; expected a file to write",
-                           refusal([] { write_text("/", "text"); }).c_str());
+                           refusal_of([] { write_text("/", "text"); }).c_str());
 }
 
 void the_permissions_of_a_replaced_file_are_kept() {

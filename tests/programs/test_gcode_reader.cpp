@@ -5,12 +5,11 @@
 #include <string>
 
 #include "cases.hpp"
-#include "error.hpp"
 #include "programs/gcode_reader.hpp"
 #include "programs/positions.hpp"
+#include "refusal.hpp"
 #include "unity_main.hpp"
 
-using flexcomp::InputError;
 using flexcomp::Pose;
 using flexcomp::Vector3;
 using flexcomp::programs::gcode_program;
@@ -19,18 +18,14 @@ using flexcomp::programs::MotionKind;
 using flexcomp::programs::pose_at;
 using flexcomp::programs::Program;
 using flexcomp::test::assert_at;
+using flexcomp::test::refusal_of;
 
 namespace {
 
 Program program_of(const std::string& text) { return gcode_program("p.nc", text); }
 
 std::string refusal(const std::string& text) {
-  try {
-    program_of(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { program_of(text); });
 }
 
 Vector3<double> middle_of(const Program& program, std::size_t motion, double share = 0.5) {

@@ -6,29 +6,24 @@
 #include <string>
 
 #include "cases.hpp"
-#include "error.hpp"
 #include "programs/corrected_program.hpp"
 #include "programs/krl_point.hpp"
 #include "programs/krl_reader.hpp"
 #include "programs/positions.hpp"
+#include "refusal.hpp"
 #include "unity_main.hpp"
 
-using flexcomp::InputError;
 using flexcomp::Matrix3;
 using flexcomp::Pose;
 using flexcomp::Vector3;
 using flexcomp::test::assert_at;
+using flexcomp::test::refusal_of;
 using namespace flexcomp::programs;
 
 namespace {
 
 std::string refusal(const std::string& src) {
-  try {
-    krl_program("p.src", src, "");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { krl_program("p.src", src, ""); });
 }
 
 constexpr const char* kInlineForms =

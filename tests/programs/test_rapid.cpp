@@ -4,27 +4,22 @@
 #include <cmath>
 #include <string>
 
-#include "error.hpp"
 #include "programs/corrected_program.hpp"
 #include "programs/positions.hpp"
 #include "programs/rapid_reader.hpp"
+#include "refusal.hpp"
 #include "unity_main.hpp"
 
-using flexcomp::InputError;
 using flexcomp::Pose;
 using flexcomp::Vector3;
 using flexcomp::test::assert_at;
+using flexcomp::test::refusal_of;
 using namespace flexcomp::programs;
 
 namespace {
 
 std::string refusal(const std::string& text) {
-  try {
-    rapid_program("m.mod", text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { rapid_program("m.mod", text); });
 }
 
 constexpr const char* kModule =
