@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "effects/machine_size.hpp"
 #include "recording/noise.hpp"
 
 namespace flexcomp::diagnosis {
@@ -277,7 +278,8 @@ double Observations::range(int joint) const {
 }
 
 bool Observations::spans_workspace() const {
-  constexpr double kApart = 0.15;  // m, standard deviation
+  constexpr double kApart = 0.15;     // m, standard deviation in two directions
+  constexpr double kAllApart = 0.05;  // of the reach, in all three: no circle does that
   Eigen::Index count = 0;
   Vector3<double> sum = Vector3<double>::Zero();
   Matrix3<double> square = Matrix3<double>::Zero();
@@ -295,7 +297,9 @@ bool Observations::spans_workspace() const {
   const Vector3<double> mean = sum / static_cast<double>(count);
   const Matrix3<double> spread = square / static_cast<double>(count) - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(spread, Eigen::EigenvaluesOnly);
-  return axes.eigenvalues()[1] > kApart * kApart;  // in rising order
+  const double least = kAllApart * effects::size_of(machine.robot).reach;
+  return axes.eigenvalues()[1] > kApart * kApart ||  // in rising order
+         axes.eigenvalues()[0] > least * least;
 }
 
 Eigen::VectorXd Observations::stacked(const std::vector<Prediction>& values) const {

@@ -21,23 +21,12 @@ constexpr Eigen::Index kRows = FLEXCOMP_FEW_CASES ? 50 : 200;
 
 /// Sizes that any machine could have, by unit.
 double size_of(const std::string& unit) {
-  const std::map<std::string, double> sizes = {{"rad", 1e-3},
-                                               {"m", 1e-3},
-                                               {"s", 0.02},
-                                               {"N", 20},
-                                               {"N·m", 30},
-                                               {"kg", 5},
-                                               {"kg·m", 1},
-                                               {"1", 0.05},
-                                               {"m/N", 1e-8},
-                                               {"rad/(N·m)", 1e-7},
-                                               {"rad/(N·m)^3", 1e-15},
-                                               {"Hz", 8},
-                                               {"N·m/rad", 1e6},
-                                               {"kg·m^2", 10},
-                                               {"N·m·s/rad", 20},
-                                               {"rad/s", 0.3},
-                                               {"m/K", 1e-5}};
+  const std::map<std::string, double> sizes = {
+      {"rad", 1e-3},  {"rad/K", 1e-5},  {"m", 1e-3},         {"s", 0.02},
+      {"N", 20},      {"N·m", 30},      {"kg", 5},           {"kg·m", 1},
+      {"1", 0.05},    {"m/N", 1e-8},    {"rad/(N·m)", 1e-7}, {"rad/(N·m)^3", 1e-15},
+      {"Hz", 8},      {"N·m/rad", 1e6}, {"kg·m^2", 10},      {"N·m·s/rad", 20},
+      {"rad/s", 0.3}, {"m/K", 1e-5}};
   return sizes.at(unit);
 }
 
@@ -169,6 +158,44 @@ void a_drift_by_temperature_needs_temperatures() {
   }
 }
 
+/// By how much an effect moves the TCP (n×3, m).
+Eigen::MatrixXd moved_by(const char* form, const effects::Values& values, int joint) {
+  const MovingRobot moving;
+  const simulation::Scene scene = moving.scene();
+  simulation::Machine machine = effects::machine_of(moving.robot, {scene});
+  const auto place = [&] {
+    return simulation::predict(machine, {scene}).front().channel[simulation::tcp_position];
+  };
+  const Eigen::MatrixXd before = place();
+  effects::find_law("thermal_drift", form)->apply(values, joint, &machine);
+  return place() - before;
+}
+
+void a_tool_that_grows_moves_the_tcp_along_itself() {
+  const Eigen::VectorXd rise = MovingRobot().recording.temperature->array() - 20.005;
+  const Eigen::VectorXd length = moved_by("tool", {1e-5, 0, 0}, 0).rowwise().norm();
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0, (length - 1e-5 * rise.cwiseAbs()).cwiseAbs().maxCoeff());
+  const Eigen::MatrixXd along = moved_by("tool", {1e-5, 0, 0}, 0);
+  const Eigen::MatrixXd across = moved_by("tool", {0, 1e-5, 0}, 0);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0,
+                            along.cwiseProduct(across).rowwise().sum().cwiseAbs().maxCoeff());
+}
+
+void a_zero_that_drifts_is_an_offset_that_grows() {
+  const Eigen::VectorXd rise = MovingRobot().recording.temperature->array() - 20.005;
+  const MovingRobot moving;
+  const simulation::Scene scene = moving.scene();
+  simulation::Machine machine = effects::machine_of(moving.robot, {scene});
+  const auto place = [&] {
+    return simulation::predict(machine, {scene}).front().channel[simulation::tcp_position];
+  };
+  const Eigen::MatrixXd before = place();
+  effects::find_law("joint_offset", "")->apply({1e-5}, 2, &machine);
+  const Eigen::MatrixXd expected = rise.asDiagonal() * (place() - before);
+  const Eigen::MatrixXd found = moved_by("zero", {1e-5}, 2);
+  TEST_ASSERT_TRUE((found - expected).norm() < 0.01 * expected.norm());
+}
+
 void play_by_the_key_follows_the_load_where_there_is_any_and_else_the_motion() {
   constexpr double kGap = 3e-4;
   MovingRobot moving;
@@ -201,6 +228,8 @@ int main() {
   RUN_TEST(a_machine_does_not_depend_on_the_order_in_which_its_effects_are_listed);
   RUN_TEST(every_mistake_in_the_list_is_refused_without_a_recording);
   RUN_TEST(a_drift_by_temperature_needs_temperatures);
+  RUN_TEST(a_tool_that_grows_moves_the_tcp_along_itself);
+  RUN_TEST(a_zero_that_drifts_is_an_offset_that_grows);
   RUN_TEST(play_by_the_key_follows_the_load_where_there_is_any_and_else_the_motion);
   return UNITY_END();
 }

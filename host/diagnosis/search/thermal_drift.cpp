@@ -5,15 +5,19 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Needs the TCP. Time stands in for the temperature where none was recorded.
+/// Needs the TCP, or for a joint's zero whatever shows its angle. Time stands in for the
+/// temperature where none was recorded.
 bool prepare_thermal_drift(const Observations& observations, Hypothesis* hypothesis) {
   const Scene& first = observations.scenes.front();
   const bool has_temperature = first.temperature.size() > 0;
-  if (!observations.has(simulation::tcp_position) ||
-      hypothesis->law->traits.needs_temperature != has_temperature) {
+  const bool is_of_zero = hypothesis->joint > 0;
+  const bool shows =
+      is_of_zero ? sees_angles(observations) : observations.has(simulation::tcp_position);
+  if (!shows || hypothesis->law->traits.needs_temperature != has_temperature) {
     return false;
   }
-  std::vector<Bounds> bounds(3, {-0.1, 0.1, has_temperature ? 1e-5 : 1e-4});
+  const double step = (has_temperature ? 1e-5 : 1e-4) * (is_of_zero ? 0.1 : 1);
+  std::vector<Bounds> bounds(hypothesis->linear, {-0.1, 0.1, step});
   if (!has_temperature) {
     constexpr double kQuickest = 60;  // s, in which anything of an arm warms
     const double duration = first.time[first.rows() - 1] - first.time[0];

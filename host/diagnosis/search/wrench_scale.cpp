@@ -5,7 +5,7 @@ namespace {
 
 /// Needs a wrench.
 bool prepare_wrench_scale(const Observations& observations, Hypothesis* hypothesis) {
-  hypothesis->set_bounds({{-0.9, 5, 0.05}});
+  hypothesis->set_bounds(std::vector<Bounds>(hypothesis->parameters.size(), {-0.9, 5, 0.05}));
   return observations.has_wrench();
 }
 

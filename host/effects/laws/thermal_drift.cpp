@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "effects/laws/laws.hpp"
 
@@ -26,52 +29,121 @@ Eigen::VectorXd by_temperature(const Scene& scene, const Values& /*values*/) {
 }
 
 Eigen::VectorXd by_time(const Scene& scene, const Values& values) {
-  return approach(scene.time, values[3]);
+  return approach(scene.time, values.back());
 }
 
-Law drift_law(const char* form, Growth growth, std::vector<Parameter> parameters) {
+/// What the structure does where it has grown so far, at every row.
+using Drift = std::function<void(const Eigen::VectorXd& grown, const Values&, int joint,
+                                 const Simulation&, Prediction*)>;
+
+Law drift_law(const char* form, std::size_t amplitudes, Growth growth, Drift drift) {
   Law law;
   law.form = form;
   law.joints = whole_machine;
-  law.traits.linear_in = 3;
-  law.parameters = constant(std::move(parameters));
+  law.traits.linear_in = amplitudes;
+  law.traits.needs_temperature = growth == by_temperature;
   law.statement = says("the structure grows as it warms");
   add_term(
-      [growth](const Values& values, int) {
+      [growth, drift](const Values& values, int joint) {
         return Term{Term::output,
-                    [=](const Scene& scene, const Simulation&, Prediction* prediction) {
-                      Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
-                      if (position.cols() > 0) {
-                        const Eigen::VectorXd grown = growth(scene, values);
-                        position += grown * Eigen::RowVector3d(values[0], values[1], values[2]);
-                      }
+                    [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
+                      drift(growth(scene, values), values, joint, at, prediction);
                     }};
       },
       &law);
   return law;
 }
 
+/// Amplitudes, and how fast they are reached where time stands in for the temperature.
+std::vector<Parameter> parameters_of(const std::vector<std::string>& names, const char* unit,
+                                     bool is_by_time) {
+  std::vector<Parameter> all;
+  all.reserve(names.size() + 1);
+  for (const std::string& name : names) {
+    all.push_back({name, is_by_time ? unit : std::string(unit) + "/K"});
+  }
+  if (is_by_time) {
+    all.push_back({"time_constant", "s"});
+  }
+  return all;
+}
+
+/// Along directions of the base frame.
+void drift_in_base(const Eigen::VectorXd& grown, const Values& values, int /*joint*/,
+                   const Simulation& /*at*/, Prediction* prediction) {
+  Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
+  if (position.cols() > 0) {
+    position += grown * Eigen::RowVector3d(values[0], values[1], values[2]);
+  }
+}
+
+/// Along directions of the tool frame.
+void drift_along_tool(const Eigen::VectorXd& grown, const Values& values, int /*joint*/,
+                      const Simulation& at, Prediction* prediction) {
+  Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
+  for (Eigen::Index row = 0; row < position.rows(); ++row) {
+    const Vector3<double> direction = at.bent[static_cast<std::size_t>(row)].tcp.rotation *
+                                      Vector3<double>(values[0], values[1], values[2]);
+    position.row(row) += grown[row] * direction.transpose();
+  }
+}
+
+void drift_of_zero(const Eigen::VectorXd& grown, const Values& values, int joint,
+                   const Simulation& at, Prediction* prediction) {
+  add_joint_angle(at, joint, values[0] * grown, prediction);
+}
+
+Law base_law(const char* form, Growth growth) {
+  Law law = drift_law(form, 3, growth, drift_in_base);
+  law.parameters = constant(parameters_of({"x", "y", "z"}, "m", growth == by_time));
+  return law;
+}
+
+Law tool_law(const char* form, Growth growth) {
+  Law law = drift_law(form, 3, growth, drift_along_tool);
+  law.parameters = constant(parameters_of({"tool_x", "tool_y", "tool_z"}, "m", growth == by_time));
+  return law;
+}
+
+Law zero_law(const char* form, Growth growth) {
+  Law law = drift_law(form, 1, growth, drift_of_zero);
+  law.joints = every_joint;
+  law.parameters = of_joint(parameters_of({"zero"}, "rad", growth == by_time));
+  law.statement = says("the zero of joint {} drifts as it warms");
+  return law;
+}
+
 }  // namespace
 
-// The structure grows as it warms: the TCP moves in a fixed direction of the base frame, in
-// proportion to the rise of temperature, or towards a limit with time where no temperature was
-// recorded (ISO 230-3).
+// The structure grows as it warms, in proportion to the rise of temperature, or towards a limit
+// with time where no temperature was recorded (ISO 230-3). The TCP moves in a fixed direction of
+// the base frame, as where the column grows, or of the tool frame, as where the spindle does; or a
+// joint's zero creeps.
 Forms laws::thermal_drift() {
-  Law temperature =
-      drift_law("temperature", by_temperature, {{"x", "m/K"}, {"y", "m/K"}, {"z", "m/K"}});
-  temperature.traits.needs_temperature = true;
-  const Law time =
-      drift_law("time", by_time, {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"time_constant", "s"}});
+  constexpr const char* kColumn =
+      "aluminium grows by 23e-6 a kelvin; up and forward, and five times as warm as the sensor";
+  constexpr const char* kWarmColumn =
+      "aluminium grows by 23e-6 a kelvin; up and forward, by 50 K (ISO 230-3)";
+  constexpr const char* kTool =
+      "aluminium grows by 23e-6 a kelvin; no tool is longer than half of the arm's reach";
+  constexpr const char* kZero =
+      "what holds an encoder grows by no more than 23e-6 of its size a kelvin, one side alone";
   return {
-      {temperature, time},
+      {base_law("temperature", by_temperature), base_law("time", by_time),
+       tool_law("tool", by_temperature), tool_law("tool_time", by_time),
+       zero_law("zero", by_temperature), zero_law("zero_time", by_time)},
       {},
       {{"temperature", " x y z ",
-        [](const Subject& of) { return within(10 * kAluminium * of.size.reach); },
-        "aluminium grows by 23e-6 a kelvin; up and forward, and five times as warm as the sensor"},
+        [](const Subject& of) { return within(10 * kAluminium * of.size.reach); }, kColumn},
        {"time", " x y z ",
-        [](const Subject& of) { return within(100 * kAluminium * of.size.reach); },
-        "aluminium grows by 23e-6 a kelvin; up and forward, by 50 K (ISO 230-3)"},
-       {"time", " time_constant ",
+        [](const Subject& of) { return within(100 * kAluminium * of.size.reach); }, kWarmColumn},
+       {"tool", " tool_x tool_y tool_z ",
+        [](const Subject& of) { return within(5 * kAluminium * of.size.reach); }, kTool},
+       {"tool_time", " tool_x tool_y tool_z ",
+        [](const Subject& of) { return within(50 * kAluminium * of.size.reach); }, kTool},
+       {"zero", " zero ", [](const Subject&) { return within(10 * kAluminium); }, kZero},
+       {"zero_time", " zero ", [](const Subject&) { return within(100 * kAluminium); }, kZero},
+       {"", " time_constant ",
         [](const Subject&) {
           return Range{60, std::numeric_limits<double>::infinity(), Rest::above};
         },

@@ -146,7 +146,7 @@ def _attempt(family, seed, attempt, folder):
         name, kind = SINGLES[number]
         cell, entries = _single(rng, CATALOGUE[name], kind, folder, attempt % ATTEMPTS < ATTEMPTS // 4)
     elif family == "variant":
-        effect, kind = VARIED[(seed * 13 + attempt // ATTEMPTS) % len(VARIED)]
+        effect, kind = VARIED[(seed * 29 + attempt // ATTEMPTS) % len(VARIED)]
         cell, entries = _single(rng, effect, kind, folder, patient=False)
     elif family == "pair":
         kind = kinds.KINDS[seed % len(kinds.KINDS)]

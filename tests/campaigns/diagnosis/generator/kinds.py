@@ -17,6 +17,7 @@ from .machine import Drive
 
 KINDS = ("circle", "air", "torque", "link", "static", "mixed")
 ROOM = 25.0  # °C at the start
+QUICKEST = 60.0  # s: housings warm within minutes to hours (ISO 230-3)
 LATEST = 0.07  # s, more than any column comes late
 
 
@@ -41,6 +42,7 @@ def _temperature(rng, time, warming):
     if not warming:
         return ROOM + rng.uniform(-1, 1) * np.ones(len(time))
     rise, constant = rng.uniform(4, 15), rng.uniform(0.3, 1.2) * (time[-1] - time[0])
+    constant = max(constant, QUICKEST)
     return ROOM + rise * -np.expm1(-(time - time[0]) / constant)
 
 

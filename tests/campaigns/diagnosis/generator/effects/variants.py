@@ -2,7 +2,8 @@
 effect's; a law of its own at the right joint says as much.
 
 Real machines brought them up: drifts along the tool or of a joint's zero, gains of some channels only, play
-and loops whose side the torque decides.
+and loops whose side the torque decides. Friction that acts one way is none of them: it is half of Coulomb's and
+half a torque's zero, exactly.
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ from ..kinematics import turn
 from .base import direction, log_uniform, one, signed
 from .geometry import JointOffset, ThermalDrift
 from .instruments import WrenchScale
-from .torques import CoulombFriction, StribeckFriction
+from .torques import StribeckFriction
 from .transmission import Backlash, Hysteresis, Resonance, ServoLag, TransmissionRipple
 
 ARM = (1, 2, 3, 4, 5, 6)
@@ -184,17 +185,6 @@ class VibrationInTorques(Resonance):
         machine.torque.append(ringing)
 
 
-class FrictionOneWay(CoulombFriction):
-    """More friction one way than the other."""
-
-    form = "one way"
-
-    def apply(self, machine, joint, parameters):
-        k, column = one(machine, joint)
-        machine.torque.append(lambda state: parameters["torque"] * (
-            state.velocity[:, k] > 0).astype(float)[:, None] * column)
-
-
 class StribeckStraight(StribeckFriction):
     """Friction that falls as exp(-|v|/v_s) (Tustin's), not by the square."""
 
@@ -252,4 +242,4 @@ class LateClock(JointOffset):
 
 VARIANTS = (DriftAlongTool(), DriftOfZero(), DriftBehind(), ForceGain(), ChannelGain(),
             RippleOfLittleMotion(), ZeroInTorques(), PlayByTorque(), HysteresisBeyond(),
-            VibrationInTorques(), FrictionOneWay(), StribeckStraight(), LagOfSecondOrder(), LateClock())
+            VibrationInTorques(), StribeckStraight(), LagOfSecondOrder(), LateClock())
