@@ -128,7 +128,7 @@ def _rail(rng, joint, scale, size):
     half = max(np.ptp(s) / 2, 0.05)
     return stand.BentRail(None, along=along, axis=axis, middle=_within(rng, s, 0.2, 0.8),
                            bow=2e-4 * size * _sign(rng) / half**2,
-                           skew=1e-4 * size * _sign(rng) / half**3)
+                           skew=3e-5 * size * _sign(rng) / half**3)
 
 
 def _floor(rng, joint, scale, size):
