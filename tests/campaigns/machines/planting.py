@@ -14,7 +14,7 @@ import numpy as np
 
 from . import consequences
 from .tables import COLUMNS, columns_of, read_recording, write_recording
-from .urdf_arm import UrdfArm
+from .urdf_arm import UrdfArm, coupled
 
 SIZES = 3, 6, 12  # times the residual that is left, root mean squares
 GOAL = {6: 0.90, 12: 0.98}  # share that is named rightly
@@ -69,7 +69,8 @@ def learnt(name, experiment, tool, folder):
     first = tool.diagnose(experiment, folder / f"learnt_{experiment.name}")
     model = dataclasses.replace(experiment, model=first.updated_model)
     second = tool.diagnose(model, folder / f"unchanged_{experiment.name}")
-    arm = UrdfArm(first.updated_model)
+    arm = UrdfArm(experiment.model)
+    arm.coupled = coupled(first.updated_model)
     left = _residual(tool, first.updated_model, experiment.recordings, folder)
     return Machine(name, model, arm, second.answer.findings, left)
 

@@ -33,8 +33,9 @@ def _turn(axis, angle):
     return np.eye(3) + sine * skew + (1 - cosine) * (skew @ skew)
 
 
-def _coupled(text):
-    found = set()
+def coupled(model):
+    """The joints whose drives turn others too, of a robot.yaml."""
+    text, found = yaml.safe_load(pathlib.Path(model).read_text()), set()
     for effect in text.get("effects", []):
         if effect["effect"] == "transmission":
             found |= {int(effect["joint"]), int(effect["joint"]) - 1}
@@ -56,7 +57,7 @@ class UrdfArm:
             self._chain.insert(0, by_child[link])
             link = by_child[link].find("parent").get("link")
         self.gravity = np.array(text["gravity"], float)
-        self.coupled = _coupled(text)  # joints whose drives turn others too
+        self.coupled = set()  # joints whose drives turn others too
         self.slides = [joint.get("type") == "prismatic" for joint in self._chain
                        if joint.get("type") != "fixed"]
 
