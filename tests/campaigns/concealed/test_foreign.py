@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -229,6 +230,13 @@ class Draw(InFolder):
                          [20, 10, 10])
         self.assertEqual({case.foreign for case in drawn} - {None}, set(menu.MENU))
 
+    def test_the_same_seed_draws_the_same_cases(self):
+        words = "from foreign import cases; print(cases.draw(4, 12))"
+        drawn = {subprocess.run([sys.executable, "-c", words], capture_output=True, check=True,
+                                env=os.environ | {"PYTHONPATH": str(HERE), "PYTHONHASHSEED": salt}
+                                ).stdout for salt in ("1", "2")}
+        self.assertEqual(len(drawn), 1)
+
     def test_a_case_shows_its_law_and_its_floor_does_not(self):
         case = cases.Case("alone", "poses", "bent_rail", None, (2, 3, 0))
         truth = cases.write(case, self.folder / "case", self.folder / "floors")
@@ -312,6 +320,11 @@ class Judging(InFolder):
         errors = {name: value for name, value in self.errors.items() if name != "flexcomp"}
         found = judge.figures([self.row(errors=errors)])
         self.assertEqual(found["fall"]["holdout"]["flexcomp"]["reached"]["count"], 0)
+
+    def test_a_model_that_leaves_more_is_worse(self):
+        for left, worse in ((0.9, []), (60.0, ["untrained"])):
+            errors = self.errors | {"flexcomp": {"holdout": 4.5, "untrained": left}}
+            self.assertEqual(self.row(errors=errors)["worse"]["flexcomp"], worse)
 
     def test_excess_is_nothing_for_noise(self):
         left = np.random.default_rng(1).normal(size=(5000, 3)) * [1, 2, 3]

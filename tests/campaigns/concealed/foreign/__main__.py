@@ -41,7 +41,8 @@ def _parse(words):
     parser.add_argument("--limit", type=float, default=300.0, metavar="S",
                         help="seconds after which a diagnosis counts as failed (default 300)")
     parser.add_argument("--again", type=pathlib.Path, metavar="DIR",
-                        help="diagnose the opened cases of an earlier run in DIR with another build")
+                        help="diagnose the first --cases opened cases of an earlier run in DIR with "
+                        "another build")
     options = parser.parse_args(words)
     options.tool = options.tool.resolve()
     options.out = (options.out or SOURCE / f"build/concealed/foreign-{options.seed}").resolve()
@@ -134,7 +135,7 @@ def main(words=None):
     source = options.again or options.out
     if options.again:
         sealed, truths = None, json.loads((source / seal.OPENED).read_text())["truth"]
-        names = sorted(truths)
+        names = sorted(truths)[:options.cases]
     else:
         sealed, names = _drawn(options)
     box = [options.tool], [options.out, source]

@@ -11,6 +11,7 @@ SHOWS = 1.0  # excess from which what is concealed counts as shown by a recordin
 GOAL = {"holdout": 0.8, "untrained": 0.6}  # share of the error beyond the noise that shall fall
 SHARE = 0.7  # of the cases with a law
 MOST_WRONG = 0.03  # of all cases
+RISE = 1.05  # times the error, from which a model counts as worse
 
 
 def fall(errors, method, part):
@@ -56,10 +57,10 @@ def _is_right_law(finding, truth):
             and _place_of(finding) in [tuple(place) for place in foreign["places"]])
 
 
-def _times(answer):
-    """What the answer says of a course in time: findings of another kind than laws and effects."""
-    return sorted({key for key in answer if key.startswith(("time_", "event", "periodic"))
-                   if answer[key]})
+def _is_worse(errors, method, part):
+    """Whether a method's model leaves clearly more than the nominal one."""
+    return method in errors and errors[method][part] - errors["nominal"][part] > max(
+        SHOWS, (RISE**2 - 1) * max(errors["nominal"][part], 0.0))
 
 
 def judged(name, truth, answers):
@@ -84,12 +85,13 @@ def judged(name, truth, answers):
         "last_words": run["last_words"] if run["code"] != 0 else "",
         "verdict": answer.get("verdict"), "named": [name_of(finding) for finding in findings],
         "statements": [finding.get("statement", "") for finding in findings],
-        "in_time": _times(answer),
         "wrong": [name_of(finding) for finding in wrong], "laws": len(laws),
         "right_law": any(_is_right_law(finding, truth) for finding in findings),
         "kin": any(_is_kin(finding, truth) for finding in findings),
         "known_found": any(_is_known(finding, truth) for finding in findings),
         "excess": errors, "failures": measured["failures"],
+        "worse": {method: [part for part in JUDGED if _is_worse(errors, method, part)]
+                  for method in ("flexcomp", "refit")},
         "fall": {method: {part: fall(errors, method, part) for part in JUDGED}
                  for method in ("flexcomp", "refit", "true law") if method in errors}}
 
@@ -139,6 +141,8 @@ def figures(rows):
         "known_found": _share(row["known_found"] for row in beside),
         "wrong_known_name": _share(bool(row["wrong"]) for row in rows),
         "no_law_and_wrong_name": _share(bool(row["wrong"]) for row in unseen),
+        "made_worse": {method: _share(bool(row["worse"][method]) for row in rows)
+                       for method in ("flexcomp", "refit")},
         "laws_on_clean": _share(row["laws"] > 0 for row in clean),
         "findings_on_clean": _share(bool(row["named"]) for row in clean),
         "seconds": {"median": float(np.median(seconds)), "max": max(seconds)},

@@ -40,7 +40,7 @@ def show(rows, found):
     print("\nBy which share the error beyond the noise falls: held out, then in the untrained "
           "region; by flexcomp, by the plain refit, by the true law.\n")
     print(f"{'case':<3} {'kind':<7}{'concealed':<44}{'×':>3} "
-          + "".join(f"{word:>8}" for word in ("held out", "refit", "true") * 1)
+          + "".join(f"{word:>8}" for word in ("held out", "refit", "true"))
           + "".join(f"{word:>8}" for word in ("untr.", "refit", "true")) + "     s  named")
     for row in sorted(rows, key=lambda row: (row["family"], row["foreign"] or "", row["case"])):
         _case(row)
@@ -59,6 +59,8 @@ def show(rows, found):
     print(f"       of these where no law exists: {_of(found['no_law_and_wrong_name'])}")
     _goal("clean: a law all the same", found["laws_on_clean"], 0.01, at_least=False)
     print(f"       any finding: {_of(found['findings_on_clean'])}")
+    print("       worse than the nominal model, held out or in the untrained region: "
+          + ", ".join(f"{method} {_of(share)}" for method, share in found["made_worse"].items()))
     print(f"{found['answered']} of {found['cases']} answered; "
           f"{found['seconds']['median']:.1f} s in the median, {found['seconds']['max']:.0f} s at "
           f"most (processor {found['cpu']['median']:.1f}, {found['cpu']['max']:.0f} s)")
