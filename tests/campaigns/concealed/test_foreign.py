@@ -305,6 +305,12 @@ class Judging(InFolder):
         row = self.row(self.known | {"joint": 3}, {"effect": "torque_ripple", "joint": 5})
         self.assertEqual(row["wrong"], ["coulomb_friction 3", "torque_ripple 5"])
 
+    def test_another_name_for_the_same_is_right(self):
+        truth = self.truth | {"known": {"effect": "payload", "joint": None}}
+        for effect, joint, right in (("link_mass", 6, True), ("link_mass", 5, False)):
+            row = self.row({"effect": effect, "joint": joint}, truth=truth)
+            self.assertEqual((row["known_found"], not row["wrong"]), (right, right))
+
     def test_kin_is_no_wrong_name_at_its_joint(self):
         truth = self.truth | {"foreign": self.truth["foreign"] | {"kin": ["torque_ripple"]}}
         for joint, wrong in ((5, 0), (4, 1)):

@@ -14,6 +14,12 @@ MOST_WRONG = 0.03  # of all cases
 RISE = 1.05  # times the error, from which a model counts as worse
 
 
+# Effects that say the same of the same joint, None: of the last one, or of the machine.
+SAME = {("payload", "link_mass"): (None, 6), ("tcp_offset", "link_offset"): (None, 6),
+        ("joint_offset", "base_frame"): (1, None)}
+SAME_AT_JOINT = {("link_length", "link_offset"), ("coulomb_friction", "friction_hysteresis")}
+
+
 def fall(errors, method, part):
     """By which share a method brings down the error beyond what the machine shows without what is
     concealed; None where nothing shows or the method gave none. Negative where it rose."""
@@ -41,8 +47,12 @@ def name_of(finding):
 
 def _is_known(finding, truth):
     known = truth["known"]
-    return bool(known) and (finding["effect"], finding.get("joint")) == (known["effect"],
-                                                                        known["joint"])
+    if not known:
+        return False
+    pair, joints = (known["effect"], finding["effect"]), (known["joint"], finding.get("joint"))
+    if pair[0] == pair[1] or pair in SAME_AT_JOINT:
+        return joints[0] == joints[1]
+    return SAME.get(pair) == joints
 
 
 def _is_kin(finding, truth):
