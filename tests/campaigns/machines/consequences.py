@@ -13,7 +13,9 @@ from scipy.signal import savgol_filter
 
 from .tables import columns_of
 
-SMOOTHING = 0.08  # s of the polynomials that tell speeds and accelerations
+SMOOTHINGS = 0.08, 0.16, 0.3  # s of the polynomials that tell speeds and accelerations
+STEPS = 6.0  # Hz, above which an acceleration is mostly the encoders' steps
+MOST_STEPS = 0.1  # of an acceleration's power
 SLOW = 0.01  # of a joint's largest speed, over which dry friction turns round
 FASTEST = 4.0  # Hz, of a ripple: a motion's angles tell no faster torque
 SPANS = 4, 10  # periods of a ripple in a joint's travel
@@ -31,12 +33,27 @@ def angles_of(recording):
     return stacked(recording, "q_meas" if measured else "q_cmd")
 
 
-def _derivative(recording, order):
-    """(n, joints) of the angles, on the grid of the mean step."""
-    time, q = recording["t"], angles_of(recording)
+def _derived(time, values, order, smoothing):
+    """(n, columns): local cubics (Savitzky and Golay, 1964) on the grid of the median step."""
     step = float(np.median(np.diff(time)))
-    window = max(7, 2 * round(SMOOTHING / step / 2) + 1)
-    return savgol_filter(q, window, 3, deriv=order, delta=step, axis=0)
+    window = max(7, 2 * round(smoothing / step / 2) + 1)
+    return savgol_filter(values, window, 3, deriv=order, delta=step, axis=0)
+
+
+def _smoothing(recording):
+    """s: the shortest that leaves of every joint's acceleration little but motion."""
+    time, q = recording["t"], angles_of(recording)
+    frequency = np.fft.rfftfreq(len(time), float(np.median(np.diff(time))))
+    for smoothing in SMOOTHINGS:
+        power = np.abs(np.fft.rfft(_derived(time, q, 2, smoothing), axis=0)) ** 2
+        if (power[frequency > STEPS].sum(0) <= MOST_STEPS * power.sum(0)).all():
+            break
+    return smoothing
+
+
+def _derivative(recording, order):
+    """(n, joints) of the angles."""
+    return _derived(recording["t"], angles_of(recording), order, _smoothing(recording))
 
 
 @dataclasses.dataclass
@@ -169,11 +186,8 @@ class Payload(Effect):
         return [("link_mass", self.arm.joints)]
 
     def trace(self, recording, amount):
-        q = angles_of(recording)
-        stand = self.arm.stand(q)
-        step = float(np.median(np.diff(recording["t"])))
-        window = max(7, 2 * round(SMOOTHING / step / 2) + 1)
-        push = savgol_filter(stand.tip, window, 3, deriv=2, delta=step, axis=0) - self.arm.gravity
+        stand = self.arm.stand(angles_of(recording))
+        push = _derived(recording["t"], stand.tip, 2, _smoothing(recording)) - self.arm.gravity
         found = {}
         for k, (axis, origin, slides) in enumerate(zip(stand.axes, stand.origins,
                                                        self.arm.slides)):

@@ -90,6 +90,13 @@ class Torques(InFolder):
         turning = np.abs(speed) > 0.05 * np.abs(speed).max()
         np.testing.assert_allclose(found[turning], 8 * np.sign(speed[turning]), atol=0.01)
 
+    def test_steps_of_the_encoders_are_no_acceleration(self):
+        coarse = {f"q_meas_{k}": np.round(angle / 2e-3) * 2e-3
+                  for k, angle in enumerate(ANGLES.T, 1)}
+        found = consequences.RotorInertia(2, {}, self.arm).trace(swing(**coarse), 1.0)["tau_2"]
+        left = (found - PUSHES[:, 1])[INSIDE]
+        self.assertLess(left.std(), 0.08 * PUSHES[:, 1].std())
+
     def test_zeros_gains_and_ripples_are_closed_forms(self):
         self.check(consequences.TorqueOffset(4, {}, self.arm), 7.0, 7 + 0 * TIME, 0)
         self.check(consequences.TorqueGain(4, {}, self.arm), 0.1, 0.1 * np.sin(5 * TIME), 1e-12)
