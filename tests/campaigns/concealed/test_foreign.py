@@ -368,10 +368,12 @@ class Command(InFolder):
         with (mock.patch.object(cases, "draw", lambda *_: drawn), mock.patch("sys.stdout"),
               mock.patch("sys.stderr")):
             self.assertEqual(command.main([*words, str(first)]), 0)
-            self.assertEqual(command.main([*words, str(second), "--again", str(first)]), 0)
+            self.assertEqual(command.main([*words, str(second), "--again", str(first),
+                                           "--no-rivals"]), 0)
         for out in (first, second):
             rows = json.loads((out / "summary.json").read_text())["cases"]
             self.assertEqual([row["foreign"] for row in rows], ["soft_floor"])
+            self.assertEqual("refit" in rows[0]["excess"], out == first)
             answer = json.loads((out / "answers/000/diagnosis.json").read_text())
             self.assertEqual(answer["shown"], ["holdout.csv", "model", "out", "train.csv"])
 

@@ -40,6 +40,7 @@ def _parse(words):
                         metavar="FILE", help="default: build/release/bin/flexcomp")
     parser.add_argument("--limit", type=float, default=300.0, metavar="S",
                         help="seconds after which a diagnosis counts as failed (default 300)")
+    parser.add_argument("--no-rivals", action="store_true", help="leave the plain refit out")
     parser.add_argument("--again", type=pathlib.Path, metavar="DIR",
                         help="diagnose the first --cases opened cases of an earlier run in DIR with "
                         "another build")
@@ -149,7 +150,8 @@ def main(words=None):
         truths = sealed.open()
     _all(options.jobs, _measure, [
         (options.tool, source / "cases" / name, source / "floors" / name,
-         options.out / "answers" / name, truths[name]) for name in names], "measured")
+         options.out / "answers" / name, truths[name], not options.no_rivals)
+        for name in names], "measured")
     rows = [judge.judged(name, truths[name], options.out / "answers" / name) for name in names]
     found = judge.figures(rows)
     (options.out / "summary.json").write_text(json.dumps(

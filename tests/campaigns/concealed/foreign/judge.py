@@ -113,7 +113,10 @@ def _share(values):
 
 
 def _falls(rows, method, part):
-    """Of the rows in which something shows; a method without a model changes nothing."""
+    """Of the rows in which something shows; a method without a model changes nothing. Nothing of a
+    refit that nobody asked for."""
+    if method == "refit" and not any(method in row["excess"] for row in rows):
+        return []
     found = []
     for row in rows:
         if row["excess"]["nominal"][part] - row["excess"]["floor"][part] >= SHOWS:

@@ -49,9 +49,10 @@ def show(rows, found):
         entry = found["fall"][part]
         _goal(f"a law exists: error {words} falls by {_percent(GOAL[part])} or more",
               entry["flexcomp"]["reached"], SHARE)
-        print(f"       median {_percent(entry['flexcomp']['median'])}; the plain refit: "
-              f"{_of(entry['refit']['reached'])}, median {_percent(entry['refit']['median'])}; "
-              f"no worse than it: {_of(entry['better_than_refit'])}")
+        words = f"; no worse than it: {_of(entry['better_than_refit'])}"
+        for method in ("flexcomp", "refit"):
+            print(f"       {method}: {_of(entry[method]['reached'])}, median "
+                  f"{_percent(entry[method]['median'])}" + (words if method == "refit" else ""))
     _goal("a law exists: one is given, at the right place", found["right_law"], SHARE)
     _goal("beside a catalogue effect: both found", found["both_found"], SHARE)
     print(f"       the catalogue effect by itself: {_of(found['known_found'])}")

@@ -107,14 +107,15 @@ class Match:
         return self.of(path)
 
 
-def measure(tool, case, floors, answers, truth):
-    """Writes errors.json: {method: {part: excess}}, and why a method has none."""
+def measure(tool, case, floors, answers, truth, rivals=True):
+    """Writes errors.json: {method: {part: excess}}, and why a method has none. rivals: with the plain
+    refit."""
     match = Match(tool, case, floors, truth["noise"])
     errors, failures = {"nominal": match.nominal(), "floor": match.floor()}, {}
     learned = answers / "updated_model.yaml"
     with tempfile.TemporaryDirectory() as folder:
         scratch = pathlib.Path(folder)
-        ways = {"refit": lambda: match.refitted(scratch)}
+        ways = {"refit": lambda: match.refitted(scratch)} if rivals else {}
         if learned.is_file():
             # Its URDF is named relative to where the tool was given it.
             ways["flexcomp"] = lambda: match.of(_at_home(learned, case, scratch))
