@@ -17,7 +17,7 @@ POSES, LOADS = 40, 2
 WIDE = np.array([0.6, 0.3, 0.35, 0.8, 0.5, 1.2])  # rad either way
 LEVER = 0.3  # m: the moment of a load over its force
 GROUPS = kinds.GROUPS | {"poses": ("q_meas", "wrench", "xyz")}
-CLEAN = "poses", "torque", "link", "circle", "air", "mixed"  # kinds of clean cases
+CLEAN = "poses", "air", "torque", "circle", "link", "mixed"  # kinds of clean cases
 DRAWS = 200  # of a posture, until it is within the limits
 
 
