@@ -159,6 +159,8 @@ def plant(options):
         planted += found[1]
         planting.write(folder / "planted.json", machines, planted)
     _progress("")
+    if not planted:
+        return code
     print(planting.table(machines, planted))
     for words, holds, numbers in planting.goals_met(machines, planted):
         print(f"{'holds' if holds else 'MISSED'}: {words}: {numbers}")

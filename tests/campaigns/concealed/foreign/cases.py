@@ -80,7 +80,7 @@ class Work:
     """A case on its way: robot, motions, sensors, and what the robot does with some effects."""
 
     def __init__(self, case, folder, attempt):
-        self.case, self._known = case, {}
+        self.case, self._shown = case, {}
         self.rng = rng = np.random.default_rng([*case.seed, attempt])
         self.entries = [menu.MENU[case.foreign]] if case.foreign else []
         self.entries += [catalogue.SINGLE[case.known]] if case.known else []
@@ -112,11 +112,11 @@ class Work:
 
     def run(self, effects, part):
         """Signals of one of the courses."""
-        if (effects, part) not in self._known:
+        if (effects, part) not in self._shown:
             rng = np.random.default_rng([*self.case.seed, PARTS.index(part)])
-            self._known[effects, part] = steady.simulate(self.description, effects,
+            self._shown[effects, part] = steady.simulate(self.description, effects,
                                                          self.courses[part], rng)
-        return self._known[effects, part]
+        return self._shown[effects, part]
 
     def conceal(self, entry):
         """(effect, over the noise): one that stands out of the noise by a drawn ratio."""

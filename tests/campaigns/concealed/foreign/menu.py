@@ -108,18 +108,18 @@ def _by_load(rng, joint, scale, size):
             if number != joint and strongest[number - 1] > 0.2 * strongest.max()]
     driver = int(rng.choice(able)) if able else _another(rng, scale, joint, False)
     return stand.ZeroByLoad(joint, driver=driver,
-                             shift=_sign(rng) * 2e-4 * size / scale.load[driver - 1])
+                            shift=_sign(rng) * 2e-4 * size / scale.load[driver - 1])
 
 
 def _eccentric(rng, joint, scale, size):
     first, second = 1e-4 * size * rng.uniform(0.4, 1, 2)
     return stand.EccentricEncoder(joint, first=first, first_phase=rng.uniform(-np.pi, np.pi),
-                                   second=second, second_phase=rng.uniform(-np.pi, np.pi))
+                                  second=second, second_phase=rng.uniform(-np.pi, np.pi))
 
 
 def _creep(rng, joint, scale, size):
     return stand.Creep(joint, compliance=min(0.3 * size, 0.8) * scale.compliance[joint - 1],
-                        time=rng.uniform(1.5, 5.0))
+                       time=rng.uniform(1.5, 5.0))
 
 
 def _rail(rng, joint, scale, size):
@@ -127,14 +127,14 @@ def _rail(rng, joint, scale, size):
     s = scale.place[:, along]
     half = max(np.ptp(s) / 2, 0.05)
     return stand.BentRail(None, along=along, axis=axis, middle=_within(rng, s, 0.2, 0.8),
-                           bow=2e-4 * size * _sign(rng) / half**2,
-                           skew=3e-5 * size * _sign(rng) / half**3)
+                          bow=2e-4 * size * _sign(rng) / half**2,
+                          skew=3e-5 * size * _sign(rng) / half**3)
 
 
 def _floor(rng, joint, scale, size):
     turned = _within(rng, scale.q[:, 0], 0.3, 0.7) + _sign(rng) * np.pi / 2
     return stand.SoftFloor(None, axis=float(rng.integers(2)), side=turned,
-                            tilt=3e-4 * size * _sign(rng))
+                           tilt=3e-4 * size * _sign(rng))
 
 
 def _saturation(rng, joint, scale, size):
@@ -161,17 +161,13 @@ def _moving(scale):
     return tuple(np.flatnonzero(scale.span > MOVING) + 1)
 
 
-def _carrying(scale):
-    """Joints whose torque is mostly not their friction."""
-    return (2, 3)
-
-
 def _wound(scale):
     windup = scale.load * scale.compliance
     return tuple(np.flatnonzero(windup > 0.1 * windup.max()) + 1)
 
 
 ALL = (1, 2, 3, 4, 5, 6)
+CARRYING = (2, 3)  # whose torque is mostly not friction
 MENU = {
     "hose": Entry(("torque",), _hose, ALL),
     "coupled_cogging": Entry(("torque",), _cogging, _moving),
@@ -181,8 +177,8 @@ MENU = {
     "worn_stretch": Entry(("torque",), _worn, _moving, local=True),
     "driving_friction": Entry(("torque",), _driving, ALL),
     "neighbour_friction": Entry(("torque",), _neighbour, (3, 4, 5, 6), gravity=True),
-    "hot_drive": Entry(("torque",), _hot, _carrying, gravity=True),
-    "zero_by_load": Entry(("poses", "link"), _by_load, (1, 2, 3, 4, 5, 6)),
+    "hot_drive": Entry(("torque",), _hot, CARRYING, gravity=True),
+    "zero_by_load": Entry(("poses", "link"), _by_load, ALL),
     "eccentric_encoder": Entry(("poses", "link"), _eccentric, (1, 2, 3, 4, 5)),
     "creep": Entry(("circle", "mixed"), _creep, _wound),
     "bent_rail": Entry(("poses",), _rail),
