@@ -9,13 +9,12 @@ import tempfile
 import numpy as np
 import yaml
 
-from rivals import contest, recording, refit, residual, simulation
+from rivals import contest, refit, residual, simulation
 
 from . import cases
 
 KEPT = "diagnosis.json", "updated_model.yaml", "report.html"
 JUDGED = "holdout", "untrained"
-CHANNELS = tuple(recording.CHANNELS)
 
 
 def _processor():
