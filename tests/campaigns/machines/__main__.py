@@ -6,7 +6,7 @@ import os
 import pathlib
 import sys
 
-from . import study
+from . import planting, study
 from .plot import NoPicture
 from .registry import MACHINES
 from .study import NoAnswer, Trial
@@ -38,12 +38,20 @@ def arguments():
     parser.add_argument("--tool", type=pathlib.Path, default=SOURCE / "build/release/bin/flexcomp",
                         metavar="FILE", help="the command (default: build/release/bin/flexcomp)")
     parser.add_argument("--pictures", action="store_true", help="draw pictures beside the answers")
+    parser.add_argument("--plant-effects", type=int, metavar="K",
+                        help="plant K known effects into each recording instead, each at "
+                        f"{', '.join(map(str, planting.SIZES))} times the residual that is left, and "
+                        "find them again")
+    parser.add_argument("--seed", type=int, default=0, metavar="S",
+                        help="draws the effects to plant (default 0)")
     options = parser.parse_args()
     for name in options.machines:
         if name not in MACHINES:
             parser.error(f"'{name}' is no machine; there are {', '.join(MACHINES)}")
     if options.data is None:
         parser.error(f"where are the recordings? Say --data DIR or set {VARIABLE}")
+    if options.plant_effects is not None and options.plant_effects < 1 or options.seed < 0:
+        parser.error("--plant-effects needs at least 1, and --seed must not be negative")
     options.data = pathlib.Path(options.data)
     if not options.data.is_dir():
         parser.error(f"{options.data} is no folder")
@@ -129,9 +137,42 @@ def run(name, options):
         return 1
 
 
+def plant(options):
+    """Exit code of all machines with planted effects."""
+    machines, planted, code, folder = [], [], 0, options.out.resolve()
+    for name in options.machines or MACHINES:
+        reader = MACHINES[name].reader
+        absent = _absent(options.data, reader)
+        if absent is not None:
+            print(f"{name}: skipped, its data are not there ({absent})")
+            continue
+        try:
+            experiments = reader.write(options.data / reader.FOLDER, folder / name)
+            found = planting.run(name, experiments, Tool(options.tool.resolve()), folder / name,
+                                 options.plant_effects, options.seed, _progress)
+        except (Damaged, NoAnswer) as error:
+            _progress("")
+            print(f"{name}: {error}", file=sys.stderr)
+            code = max(code, 2 if isinstance(error, Damaged) else 1)
+            continue
+        machines += found[0]
+        planted += found[1]
+        planting.write(folder / "planted.json", machines, planted)
+    _progress("")
+    if not planted:
+        return code
+    print(planting.table(machines, planted))
+    for words, holds, numbers in planting.goals_met(machines, planted):
+        print(f"{'holds' if holds else 'MISSED'}: {words}: {numbers}")
+        code = max(code, 0 if holds else 1)
+    return code
+
+
 def main():
     options = arguments()
     try:
+        if options.plant_effects:
+            return plant(options)
         return max(run(name, options) for name in options.machines or MACHINES)
     except KeyboardInterrupt:
         print("\ninterrupted", file=sys.stderr)

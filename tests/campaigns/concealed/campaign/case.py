@@ -91,7 +91,8 @@ def _groups(rng, case, effects):
     return groups + (("temp_c",) if warm else ())
 
 
-def _scale(kind, description, course, signals):
+def scale_of(kind, description, course, signals):
+    """catalogue.Scale of what the unchanged robot does in a course."""
     load = (signals.q_link - signals.q_meas) / description.column("compliance")
     velocity = getattr(course, "velocity", np.zeros((1, 6)))
     return catalogue.Scale(
@@ -123,7 +124,7 @@ class _Work:
         for course in self.courses.values():
             self._warm(course)
         self.clean = self.run([], "train")
-        self.scale = _scale(case.kind, self.description, self.courses["train"], self.clean)
+        self.scale = scale_of(case.kind, self.description, self.courses["train"], self.clean)
         self.sensors = sensors.draw(self.rng, self.description, self.scale.torque)
         self.effects = []
 
