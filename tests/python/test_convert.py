@@ -234,6 +234,25 @@ class Bag(Conversion):
         (file,) = self.write().glob("*.db3")
         self.assertEqual(3, len(self.converted(file, "--joints", "elbow").time))
 
+    def test_a_file_is_read_without_the_rest_of_its_bag(self):
+        for storage, ending in (("sqlite", "db3"), ("mcap", "mcap")):
+            with self.subTest(storage=storage):
+                self.folder = self.folder / storage
+                self.folder.mkdir()
+                (file,) = self.write(storage).glob(f"*.{ending}")
+                (file.parent / "metadata.yaml").unlink()
+                recording = self.converted(file, "--joints", ",".join(ARM), "--wrench", "/ft")
+                self.assert_close([angle(4), 2 * angle(4)], recording.group("q_meas")[2])
+                self.assert_close([4, 2, 3, 4, 5, 6], recording.group("wrench")[2])
+
+    def test_a_damaged_file_is_refused_by_its_name(self):
+        (file,) = self.write().glob("*.db3")
+        (file.parent / "metadata.yaml").unlink()
+        content = file.read_bytes()
+        for damaged in (content[:len(content) // 2], b"no bag"):
+            file.write_bytes(damaged)
+            self.assert_refused(file, "--joints", "elbow", saying=f"{file.name}: ")
+
     def test_a_folder_that_is_no_bag_is_refused(self):
         self.assert_refused(self.folder, "--joints", "elbow", saying=str(self.folder))
 

@@ -166,7 +166,7 @@ def _at(rows, time, values):
 def _nearest(at, own):
     """Which rows lie nearest to a message."""
     after = numpy.clip(numpy.searchsorted(at, own), 1, len(at) - 1)
-    nearest = numpy.where(own - at[after - 1] < at[after] - own, after - 1, after)
+    nearest = numpy.where(own - at[after - 1] <= at[after] - own, after - 1, after)
     mask = numpy.zeros(len(at), dtype=bool)
     mask[nearest] = True
     return mask

@@ -35,7 +35,7 @@ def _arguments():
 def _convert(options):
     if options.input.suffix == _PARQUET:
         return parquet.convert(options.input, options.out, options.map, options.episode)
-    topics = {topic.option: getattr(options, topic.option) for topic in bags.TOPICS}
+    topics = {topic.option: getattr(options, topic.option.replace("-", "_")) for topic in bags.TOPICS}
     joints = options.joints.split(",") if options.joints else None
     return bags.convert(options.input, options.out, joints, topics)
 

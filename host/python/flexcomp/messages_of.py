@@ -1,10 +1,11 @@
 """Messages of bags and MCAP files, by the packages of those who made the formats."""
 
 import contextlib
+import sqlite3
 
 from .foreign import Unusable, package
 
-_MCAP = ".mcap"
+_MCAP, _SQLITE, _ROS1 = ".mcap", ".db3", ".bag"
 
 
 def topics(source):
@@ -23,14 +24,19 @@ def read(source, names):
 def _opened(source):
     if not source.exists():
         raise Unusable(f"{source}: no such file")
-    has_metadata = (source.parent / "metadata.yaml").is_file()
-    kind = _Mcap if source.suffix == _MCAP and source.is_file() and not has_metadata else _Bag
-    bag = kind(source)
     try:
-        with bag:
+        with _reader_of(source)(source) as bag:
             yield bag
-    except bag.errors as error:
+    except Unusable:
+        raise
+    except Exception as error:  # of a damaged file the packages raise whatever happens to them
         raise Unusable(f"{source}: {' '.join(str(error).split()) or type(error).__name__}") from error
+
+
+def _reader_of(source):
+    """Files of a bag are often handed on without the rest of it."""
+    is_alone = source.is_file() and not (source.parent / "metadata.yaml").is_file()
+    return {_MCAP: _Mcap, _SQLITE: _Sqlite}.get(source.suffix, _Bag) if is_alone else _Bag
 
 
 class _Mcap:
@@ -39,12 +45,15 @@ class _Mcap:
     def __init__(self, source):
         self._reader = package("mcap.reader", "mcap", source)
         self._decoder = package("mcap_ros2.decoder", "mcap-ros2-support", source)
-        self.errors = (package("mcap.exceptions", "mcap", source).McapError,)
         self._source = source
 
     def __enter__(self):
         self._stream = self._source.open("rb")
-        self._mcap = self._reader.make_reader(self._stream, decoder_factories=[self._decoder.DecoderFactory()])
+        try:
+            self._mcap = self._reader.make_reader(self._stream, decoder_factories=[self._decoder.DecoderFactory()])
+        except BaseException:
+            self._stream.close()
+            raise
         return self
 
     def __exit__(self, *_):
@@ -68,8 +77,7 @@ class _Bag:
     def __init__(self, source):
         highlevel = package("rosbags.highlevel", "rosbags", source)
         types = package("rosbags.typesys", "rosbags", source)
-        self.errors = (highlevel.AnyReaderError,)
-        path = source if source.is_dir() or source.suffix == ".bag" else source.parent
+        path = source if source.is_dir() or source.suffix == _ROS1 else source.parent
         # Bags before ROS 2 Iron do not say what their messages look like.
         self._make = lambda: highlevel.AnyReader(
             [path], default_typestore=types.get_typestore(types.Stores.ROS2_HUMBLE))
@@ -89,3 +97,30 @@ class _Bag:
         connections = [each for each in self._bag.connections if each.topic in names]
         for connection, arrival, data in self._bag.messages(connections=connections):
             yield connection.topic, arrival, self._bag.deserialize(data, connection.msgtype)
+
+
+class _Sqlite:
+    """A file of its own: https://github.com/ros2/rosbag2, rosbag2_storage_sqlite3, has its tables. What the messages
+    look like is taken from ROS 2 Humble; those of joints and wrenches are the same in all."""
+
+    def __init__(self, source):
+        types = package("rosbags.typesys", "rosbags", source)
+        self._types = types.get_typestore(types.Stores.ROS2_HUMBLE)
+        self._source = source
+
+    def __enter__(self):
+        self._file = sqlite3.connect(f"{self._source.resolve().as_uri()}?mode=ro", uri=True)
+        return self
+
+    def __exit__(self, *_):
+        self._file.close()
+
+    def topics(self):
+        return dict(self._file.execute("SELECT name, type FROM topics"))
+
+    def read(self, names):
+        kinds = self.topics()
+        for topic, arrival, data in self._file.execute(
+                "SELECT topics.name, timestamp, data FROM messages JOIN topics ON topics.id = topic_id ORDER BY timestamp"):
+            if topic in names:
+                yield topic, arrival, self._types.deserialize_cdr(data, kinds[topic])
