@@ -87,13 +87,19 @@ class XacroSearch : public TiXmlVisitor {
   int line_ = 0;
 };
 
+/// A name for the expanded file, which is not that of the file itself.
+std::string name_of_expanded(const std::filesystem::path& file) {
+  const bool says_xacro = file.extension() == ".xacro" && file.stem().extension() == ".urdf";
+  return says_xacro ? file.stem().string() : file.stem().string() + "_expanded.urdf";
+}
+
 void refuse_xacro(const std::filesystem::path& file, const TiXmlDocument& document) {
   XacroSearch search;
   document.Accept(&search);
   if (!search.found().empty()) {
     throw InputError(fmt::format(
-        "{0}:{1}: xacro is left in it: '{2}'; expand it first: xacro {0} > {3}.urdf", file.string(),
-        search.line(), files::one_line(search.found()), file.stem().stem().string()));
+        "{0}:{1}: xacro is left in it: '{2}'; expand it first: xacro {0} > {3}", file.string(),
+        search.line(), files::one_line(search.found()), name_of_expanded(file)));
   }
 }
 

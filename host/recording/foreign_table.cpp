@@ -151,7 +151,8 @@ class Column {
       }
       digits[mark] = '.';
     }
-    const char* begin = digits.data() + (digits.size() > 1 && digits[0] == '+' ? 1 : 0);
+    const bool has_plus = digits.size() > 1 && digits[0] == '+' && digits[1] != '-';
+    const char* begin = digits.data() + (has_plus ? 1 : 0);
     const char* end = digits.data() + digits.size();
     const auto [read, error] = std::from_chars(begin, end, *number);
     return error == std::errc{} && read == end && std::isfinite(*number);
