@@ -7,11 +7,11 @@ import unittest
 
 from command import Command
 
-RULES = ("--map", "t=Zeit:ms", "--map", "q_cmd_*=A*:deg", "--map", "tau_1=Last A1:%*-750")
+RULES = ("--map", "t=Zeit:ms", "--map", "q_cmd_*=A*:deg", "--map", "tau_*=Last A*:%*-750")
 TABLE = ("Gerät 7\n"
-         "Zeit;Zustand;A1;A2;Last A1\n"
-         "1700000000000;fährt;-90,0;45;50\n"
-         "1700000000012;fährt;-89,5;;50,5\n")
+         "Zeit;Zustand;A1;A2;Last A1;Last A2\n"
+         "1700000000000;fährt;-90,0;45;50;1\n"
+         "1700000000012;fährt;-89,5;;50,5;1\n")
 
 
 class Convert(Command):
@@ -22,7 +22,7 @@ class Convert(Command):
 
     def test_a_table_of_a_controller_becomes_a_recording(self):
         first, second = self.converted()
-        self.assertEqual(["t", "q_cmd_1", "q_cmd_2", "tau_1"], list(first))
+        self.assertEqual(["t", "q_cmd_1", "q_cmd_2", "tau_1", "tau_2"], list(first))
         self.assertEqual((0, 0.012), (float(first["t"]), float(second["t"])))
         self.assertAlmostEqual(-math.pi / 2, float(first["q_cmd_1"]), 12)
         self.assertAlmostEqual(math.radians(-89.5), float(second["q_cmd_1"]), 12)

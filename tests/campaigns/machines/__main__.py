@@ -4,11 +4,13 @@ reached."""
 import argparse
 import os
 import pathlib
+import resource
 import sys
 
 from . import study
 from .plot import NoPicture
 from .registry import MACHINES
+from .rivals import comparison
 from .study import NoAnswer, Trial
 from .tables import Damaged
 from .tool import Tool
@@ -38,6 +40,8 @@ def arguments():
     parser.add_argument("--tool", type=pathlib.Path, default=SOURCE / "build/release/bin/flexcomp",
                         metavar="FILE", help="the command (default: build/release/bin/flexcomp)")
     parser.add_argument("--pictures", action="store_true", help="draw pictures beside the answers")
+    parser.add_argument("--rivals", action="store_true",
+                        help="run other packages on the same torques and write the table of README.md")
     options = parser.parse_args()
     for name in options.machines:
         if name not in MACHINES:
@@ -69,13 +73,36 @@ def diagnose(name, options):
     reader, folder = MACHINES[name].reader, options.out.resolve() / name
     data, tool = options.data / reader.FOLDER, Tool(options.tool.resolve())
     _progress(f"{name}: reading")
-    outcomes = {}
+    outcomes, seconds = {}, {}
     for experiment in reader.write(data, folder):
         _progress(f"{name}: diagnosing {experiment.name}")
+        before = _seconds_of_children()
         outcomes[experiment.name] = tool.diagnose(
             experiment, folder / f"diagnosis_{experiment.name}")
+        seconds[experiment.name] = _seconds_of_children() - before
     _progress("")
-    return Trial(outcomes, tool, data)
+    return Trial(outcomes, tool, data, seconds)
+
+
+def _seconds_of_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def compare(name, trial, folder):
+    """Runs the rivals on a machine's torques, prints the lines of the table, and writes them to the page."""
+    rows = {}
+    for outcome in trial.outcomes.values():
+        units = dict(outcome.groups())
+        if "tau" not in units:
+            print(f"  {outcome.experiment.name}: no torques, which is what the rivals explain")
+            continue
+        label = f"[{name}]({name}/README.md), {outcome.experiment.name}"
+        results = comparison.compare(outcome, trial.seconds[outcome.experiment.name], folder, _progress)
+        rows[label] = comparison.lines_of_table(label, units["tau"], results)
+    _progress("")
+    print("\n".join(line for lines in rows.values() for line in lines))
+    comparison.update_page(rows)
 
 
 def _print_outcome(outcome):
@@ -116,10 +143,12 @@ def run(name, options):
     try:
         trial = diagnose(name, options)
         reached = report(name, trial)
+        if options.rivals:
+            compare(name, trial, options.out.resolve() / name)
         if options.pictures:
             MACHINES[name].pictures.draw(trial, options.out.resolve() / name)
         return 0 if reached else 1
-    except (Damaged, NoPicture) as error:
+    except (Damaged, NoPicture, comparison.NoRivals) as error:
         _progress("")
         print(f"{name}: {error}", file=sys.stderr)
         return 2

@@ -132,11 +132,12 @@ class Outcome:
 @dataclasses.dataclass
 class Trial:
     """Material for a machine's goals and pictures: its outcomes by name, the command that
-    made them, and the folder of the published files."""
+    made them, the folder of the published files, and how many seconds of a processor each took."""
 
     outcomes: dict
     tool: object
     data: pathlib.Path
+    seconds: dict = dataclasses.field(default_factory=dict)
 
 
 @dataclasses.dataclass

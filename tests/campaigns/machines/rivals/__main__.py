@@ -10,7 +10,7 @@ import time
 import numpy as np
 
 from ..tables import write_recording
-from . import motion
+from . import motion, regression
 
 RIVALS = ("regression", "figaroh_identification", "mujoco_sysid")
 
@@ -24,11 +24,14 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, required=True)
     options = parser.parse_args()
     rival = importlib.import_module(f"{__package__}.{options.rival}")
-    training, held_out = [motion.read(path) for path in options.recording], motion.read(options.holdout)
+    nominal = motion.nominal(options.model)
+    cutoff = regression.best_cutoff(nominal, options.recording)
+    training = [motion.read(path, cutoff) for path in options.recording]
+    held_out = motion.read(options.holdout, cutoff)
     start = time.process_time()
-    torque, missing = rival.predict(motion.nominal(options.model), training, held_out)
+    torque, missing = rival.predict(nominal, training, held_out)
     write_recording(options.out, held_out.time, tau=torque)
-    json.dump({"seconds": time.process_time() - start, "missing": missing}, sys.stdout)
+    json.dump({"seconds": time.process_time() - start, "cutoff": cutoff, "missing": missing}, sys.stdout)
     return 0 if np.isfinite(torque).all() else 1
 
 

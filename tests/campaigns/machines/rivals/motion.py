@@ -9,14 +9,14 @@ from scipy import signal
 
 from ..tables import columns_of, read_recording
 
-CUTOFF = 8.0  # Hz, of the angles
-ORDER = 4
+ORDER = 4  # of the Butterworth filter, run both ways
+EDGE = 0.25  # s at either end, where the filter is not itself
 
 
 @dataclasses.dataclass
 class Motion:
-    """time (n,) s; angle, speed, acceleration (n, joints), low-passed; raw (n, joints), not; torque
-    (n, joints) N·m. For joints that slide m and N."""
+    """time (n,) s; angle, speed, acceleration (n, joints), low-passed at a cut-off (Hz); raw (n, joints),
+    not; torque (n, joints) N·m. For joints that slide m and N."""
 
     time: np.ndarray
     angle: np.ndarray
@@ -24,6 +24,12 @@ class Motion:
     acceleration: np.ndarray
     torque: np.ndarray
     raw: np.ndarray
+    cutoff: float
+
+    @property
+    def inner(self):
+        """Which rows (n,) are away from the ends."""
+        return (self.time >= self.time[0] + EDGE) & (self.time <= self.time[-1] - EDGE)
 
     @property
     def rate(self):
@@ -39,24 +45,27 @@ class Motion:
         """Values (n, k) of the rows, at other times (m,) -> (m, k)."""
         return np.column_stack([np.interp(time, self.time, column) for column in values.T])
 
-    def every(self, step):
-        return Motion(*(getattr(self, field.name)[::step] for field in dataclasses.fields(self)))
+    def rows(self, chosen):
+        """A motion of the chosen rows only: a mask or a slice."""
+        arrays = {field.name: getattr(self, field.name)[chosen] for field in dataclasses.fields(self)
+                  if field.name != "cutoff"}
+        return dataclasses.replace(self, **arrays)
 
 
-def read(path):
+def read(path, cutoff):
     recording = read_recording(path)
     time = recording["t"]
     raw, torque = (np.column_stack([recording[name] for name in columns_of(recording, group)])
                    for group in ("q_meas", "tau"))
     even = np.arange(time[0], time[-1], np.median(np.diff(time)))
     angle = np.column_stack([np.interp(even, time, column) for column in raw.T])
-    numerator, denominator = signal.butter(ORDER, 2 * CUTOFF * np.median(np.diff(time)))
+    numerator, denominator = signal.butter(ORDER, 2 * cutoff * np.median(np.diff(time)))
     angle = signal.filtfilt(numerator, denominator, angle, axis=0)
     speed = np.gradient(angle, even, axis=0)
     smooth = (angle, speed, np.gradient(speed, even, axis=0))
     at_rows = [np.column_stack([np.interp(time, even, column) for column in values.T])
                for values in smooth]
-    return Motion(time, *at_rows, torque, raw)
+    return Motion(time, *at_rows, torque, raw, cutoff)
 
 
 @dataclasses.dataclass
