@@ -106,7 +106,7 @@ class _AlongMotions:
 def _transform(spec, parameters):
     transform = sysid.SignalTransform()
     for joint in spec.joints:
-        transform.bias(f"{joint.name}_torque", parameters[f"{joint.name}_bias"])
+        transform.bias(f"{joint.name}_torque", parameters[f"{joint.name}_bias"], target="predicted")
     return transform
 
 

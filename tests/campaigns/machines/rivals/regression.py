@@ -6,6 +6,7 @@ import pinocchio
 from . import motion
 
 CUTOFFS = (5.0, 8.0, 12.0, 20.0, 40.0)  # Hz
+LARGEST_SHARE = 1 / 3  # of the rate, that a cut-off may be
 CHECKED_PART = 0.25  # of each recording, the last of it, to choose one by
 
 
@@ -37,7 +38,9 @@ def predict(nominal, training, held_out):
 
 def best_cutoff(nominal, paths):
     """Of CUTOFFS the one with which regression predicts best the last part of what it may learn from."""
-    return min((cutoff for cutoff in CUTOFFS), key=lambda cutoff: _error(nominal, paths, cutoff))
+    rate = min(motion.read(path, CUTOFFS[0]).rate for path in paths)
+    usable = [cutoff for cutoff in CUTOFFS if cutoff < LARGEST_SHARE * rate]
+    return min(usable, key=lambda cutoff: _error(nominal, paths, cutoff))
 
 
 def _error(nominal, paths, cutoff):
