@@ -156,7 +156,8 @@ class Mcap(Conversion):
         self.assertAlmostEqual(8, rows[4][0], delta=1e-9)
 
     def test_a_gap_of_a_topic_stays_missing(self):
-        file = self.write(*self.states(*range(0, 41, 2)), *(("/ft", t, wrench(t)) for t in (*range(0, 11, 2), 30, 32, 40)))
+        forces = [("/ft", after, wrench(after)) for after in (*range(0, 11, 2), 30, 32, 40)]
+        file = self.write(*self.states(*range(0, 41, 2)), *forces)
         rows = self.converted(file, "--joints", ",".join(ARM), "--wrench", "/ft").group("wrench")
         self.assertFalse(math.isnan(rows[5][0]))
         self.assertTrue(all(math.isnan(row[0]) for row in rows[6:15]))
@@ -309,7 +310,7 @@ class Parquet(Conversion):
 
     def test_what_cannot_be_followed_is_told(self):
         file = self.write()
-        self.assert_refused(file, saying="Say it with --map; it has observation.state[0], observation.state[1], action[0]")
+        self.assert_refused(file, saying="Say it with --map; it has observation.state[0], observation.state[1]")
         self.assert_refused(file, "--map", "t=time", saying="has no column 'time'")
         file.write_bytes(b"PAR1 no table PAR1")
         self.assert_refused(file, *self.RULES, saying="episode_000000.parquet: ")

@@ -179,7 +179,8 @@ def _told(out, table, count, chosen, there, logs):
     for option in ("wrench", "position"):
         if option in chosen:
             frame = logs[chosen[option]][0][1].header.frame_id
-            lines.append(f"{chosen[option]} is in frame '{frame}', and was taken as it is: flexcomp wants the base frame")
+            lines.append(f"{chosen[option]} is in frame '{frame}', and was taken as it is: "
+                         "flexcomp wants the base frame")
     others = sorted(set(there) - set(chosen.values()))
     if others:
         lines.append(f"left out: {', '.join(others)}")

@@ -1,8 +1,9 @@
-"""Recordings from where other programs keep them: ROS 2 and ROS 1 bags, MCAP, Parquet (LeRobot).
+r"""Recordings from where other programs keep them: ROS 2 and ROS 1 bags, MCAP, Parquet (LeRobot).
 
     python3 -m flexcomp.convert run.mcap --joints a1,a2,a3,a4,a5,a6 --out run.csv
     python3 -m flexcomp.convert bag/ --joints a1,a2,a3,a4,a5,a6 --wrench /ft --out run.csv
-    python3 -m flexcomp.convert episode.parquet --map t=timestamp --map 'q_meas_*=observation.state[*]:deg' --out run.csv
+    python3 -m flexcomp.convert episode.parquet --map t=timestamp --map 'q_meas_*=observation.state[*]:deg' \
+      --out run.csv
 
 Tables of text are read by the command: flexcomp convert --help."""
 
@@ -43,7 +44,7 @@ def _convert(options):
 def main():
     try:
         print(_convert(_arguments()))
-    except (Unusable, commands.CommandError, OSError) as error:
+    except (Unusable, commands.CommandError, OSError, ValueError) as error:
         print(f"flexcomp.convert: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

@@ -120,7 +120,8 @@ class _Sqlite:
 
     def read(self, names):
         kinds = self.topics()
-        for topic, arrival, data in self._file.execute(
-                "SELECT topics.name, timestamp, data FROM messages JOIN topics ON topics.id = topic_id ORDER BY timestamp"):
+        rows = self._file.execute("SELECT topics.name, timestamp, data FROM messages"
+                                  " JOIN topics ON topics.id = topic_id ORDER BY timestamp")
+        for topic, arrival, data in rows:
             if topic in names:
                 yield topic, arrival, self._types.deserialize_cdr(data, kinds[topic])

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import math
 import pathlib
 
 import numpy as np
@@ -99,7 +100,8 @@ def parse(text):
 @dataclasses.dataclass
 class Outcome:
     """An experiment's answer, and its held-out recording as measured and as simulated with the
-    model before and after: {column: (n,)}. updated_model: a path."""
+    model before and after: {column: (n,)}. updated_model: a path; seconds: of a processor, or
+    not-a-number where nobody measured them."""
 
     experiment: Experiment
     answer: Answer
@@ -107,6 +109,7 @@ class Outcome:
     measured: dict
     before: dict
     after: dict
+    seconds: float = math.nan
 
     def errors(self, simulated, group):
         """Measured less simulated, held out: (n, columns of the group), not-a-number where
@@ -132,12 +135,11 @@ class Outcome:
 @dataclasses.dataclass
 class Trial:
     """Material for a machine's goals and pictures: its outcomes by name, the command that
-    made them, the folder of the published files, and how many seconds of a processor each took."""
+    made them, and the folder of the published files."""
 
     outcomes: dict
     tool: object
     data: pathlib.Path
-    seconds: dict = dataclasses.field(default_factory=dict)
 
 
 @dataclasses.dataclass

@@ -364,6 +364,12 @@ class Command(Scratch):
             self.assert_refused(done, saying)
             self.assertEqual(1, done.stderr.count("\n"), done.stderr)
 
+    def test_answers_that_are_there_are_kept(self):
+        self.make("unisa_panda")
+        first = self.run_command("unisa_panda", answer="perfect")
+        self.assertEqual(first.stdout, self.run_command("unisa_panda", "--keep", answer="absent").stdout)
+        self.assertEqual(1, self.run_command("unisa_panda", answer="absent").returncode)
+
     def test_a_tool_without_an_answer_reaches_nothing(self):
         self.make("friction_damper")
         for answer, saying in (("absent", "an internal fault"), ("broken", "diagnosis.json")):
@@ -425,7 +431,7 @@ print(json.dumps({"seconds": 2.5, "missing": "a | line"}))
         return study.Outcome(experiment, answer, experiment.model, measured, half, blind)
 
     def test_all_are_judged_by_the_same_rows_and_a_failure_is_told(self):
-        results = comparison.compare(self.outcome(), 3.0, self.folder, lambda text: None)
+        results = comparison.compare(self.outcome(), self.folder, lambda text: None)
         torques = np.arange(1.0, 7.0)
         errors = [study.rms(torques / 2), 0.0, 1.0, 1.0, None]
         self.assertEqual(["as modelled", "flexcomp", *comparison.RIVALS.values()],
@@ -464,7 +470,7 @@ print(json.dumps({"seconds": 2.5, "missing": "a | line"}))
     def test_without_their_python_one_line_says_so(self):
         os.environ[comparison.PYTHON] = str(self.folder / "none")
         with self.assertRaisesRegex(comparison.NoRivals, "names no Python"):
-            comparison.compare(self.outcome(), 3.0, self.folder, lambda text: None)
+            comparison.compare(self.outcome(), self.folder, lambda text: None)
 
 
 @unittest.skipUnless(DATA, "FLEXCOMP_MACHINE_DATA is not set: no real recordings are read")

@@ -3,6 +3,7 @@
 import ast
 import dataclasses
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -88,12 +89,13 @@ def _run(rival, experiment, folder):
     return Result(RIVALS[rival], None, said["seconds"], lines, said["missing"]), out
 
 
-def compare(outcome, seconds, folder, show):
-    """Results of flexcomp and of all rivals on an experiment with torques. `seconds`: flexcomp's."""
+def compare(outcome, folder, show):
+    """Results of flexcomp and of all rivals on an experiment with torques."""
     rows = _judged(outcome.measured, outcome.after)
     found = study.names(outcome.answer.findings)
     results = [Result("as modelled", _rms(outcome.measured, outcome.before, rows), 0.0, 0, ""),
-               Result("flexcomp", _rms(outcome.measured, outcome.after, rows), seconds, 1, found)]
+               Result("flexcomp", _rms(outcome.measured, outcome.after, rows), outcome.seconds, 1,
+                      found)]
     for rival in RIVALS:
         show(f"{outcome.experiment.name}: {RIVALS[rival]}")
         result, path = _run(rival, outcome.experiment, folder)
@@ -112,7 +114,8 @@ def lines_of_table(name, unit, results):
     lines = []
     for result in results:
         error = "–" if result.error is None else f"{result.error:.4g} {unit}"
-        lines.append(f"| {name} | {result.method} | {error} | {result.seconds:.1f} s | {result.lines} | "
+        seconds = "–" if math.isnan(result.seconds) else f"{result.seconds:.1f} s"
+        lines.append(f"| {name} | {result.method} | {error} | {seconds} | {result.lines} | "
                      f"{_shortened(result.missing) or 'nothing'} |")
     return lines
 
