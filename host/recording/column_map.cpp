@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -156,6 +157,15 @@ int joints_of(const std::vector<Source>& sources) {
   return joints;
 }
 
+/// A number that was finite and is none any more in SI units is a slip of a unit or factor.
+void refuse_infinity(const NumberTable& table, const std::string& column, std::size_t row,
+                     double value) {
+  if (std::isinf(value)) {
+    throw InputError(fmt::format("{}:{}: column '{}' is beyond all numbers in its unit", table.file,
+                                 table.line(row), column));
+  }
+}
+
 /// In a recording's columns and units.
 NumberTable converted(const NumberTable& raw, const std::vector<Source>& sources) {
   NumberTable table;
@@ -174,6 +184,7 @@ NumberTable converted(const NumberTable& raw, const std::vector<Source>& sources
     for (std::size_t i = 0; i < sources.size(); ++i) {
       const double start = sources[i].target == "t" ? raw.rows.front()[i] : 0;
       row[places[i]] += sources[i].scale.factor * (numbers[i] - start) + sources[i].scale.offset;
+      refuse_infinity(raw, sources[i].target, table.rows.size(), row[places[i]]);
     }
     table.rows.push_back(std::move(row));
   }

@@ -185,6 +185,8 @@ void units_that_do_not_fit_are_refused() {
 }
 
 void what_is_no_recording_is_refused_with_its_line() {
+  expect_refusal("a.txt:3: column 'tau_1' is beyond all numbers in its unit", "t,m\n0,1\n1,1e300\n",
+                 {"t=t", "tau_1=m:*1e9"});
   expect_refusal("a.txt:1: column 't' is missing", "t,m\n0,1\n", {"tau_1=m"});
   expect_refusal("a.txt:3: column 't': time must increase, found 0 after 0", "t,m\n3,1\n3,1\n",
                  {"t=t", "tau_1=m"});
