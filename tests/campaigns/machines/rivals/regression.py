@@ -5,7 +5,7 @@ import pinocchio
 
 from . import motion
 
-CUTOFFS = (5.0, 8.0, 12.0, 20.0, 40.0)  # Hz
+CUTOFFS = (5.0, 8.0, 12.0, 20.0, 40.0, 80.0)  # Hz
 LARGEST_SHARE = 1 / 3  # of the rate, that a cut-off may be
 CHECKED_PART = 0.25  # of each recording, the last of it, to choose one by
 
