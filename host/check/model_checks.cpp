@@ -87,26 +87,12 @@ Checks check_gravity(const model::Robot& robot) {
   return checks;
 }
 
-/// Who mills has a tool: its tip is seldom where the last joint turns.
-Checks check_tool(const model::Robot& robot) {
-  constexpr double kNoLength = 1e-6;  // m
-  if (robot.elastic.tool.position.norm() > kNoLength) {
-    return {};
-  }
-  return {said_of_model(
-      Severity::note, "tool.missing", robot,
-      fmt::format("tool_link: '{}' lies in the frame of the last joint: the TCP is not on a tool",
-                  robot.tool_link),
-      "name the tool's link, or add tool: {xyz: …, rpy: …}, unless this is meant")};
-}
-
 }  // namespace
 
 Checks check_model(const model::Robot& robot) {
   Checks checks = check_springs(robot);
   add(check_structure(robot), &checks);
   add(check_gravity(robot), &checks);
-  add(check_tool(robot), &checks);
   const effects::MachineSize size = effects::size_of(robot);
   if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
     checks.push_back(

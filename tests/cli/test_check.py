@@ -68,11 +68,6 @@ class Check(Command):
         self.assertEqual(["gravity.missing"], self.wrong("--model", model))
         self.check("--model", self.robot("gravity: [0, 0, 0]\n", "gravity: [0, 0, -9.81]\n" + payload), exit_code=0)
 
-    def test_a_tcp_without_a_tool_is_noted(self):
-        (note,) = self.check("--model", self.robot("tool_link: tool0", "tool_link: link_6"), exit_code=0)
-        self.assertEqual(("note", "tool.missing"), (note["severity"], note["name"]))
-        self.assertEqual([], self.check("--model", KR270, exit_code=0))
-
     def test_what_goes_together_is_in_order(self):
         recording, table = self.recorded(), self.table()
         config = self.folder / "node.toml"
