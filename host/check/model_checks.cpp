@@ -66,20 +66,33 @@ Checks check_structure(const model::Robot& robot) {
   return checks;
 }
 
-}  // namespace
-
-Checks check_model(const model::Robot& robot) {
+Checks check_gravity(const model::Robot& robot) {
   constexpr double kLeastGravity = 9.7;  // m/s², on earth
   constexpr double kMostGravity = 9.9;
-  Checks checks = check_springs(robot);
-  add(check_structure(robot), &checks);
   const double gravity = robot.elastic.gravity.norm();
+  Checks checks;
   if (gravity > 0 && (gravity < kLeastGravity || gravity > kMostGravity)) {
     checks.push_back(
         said_of_model(Severity::warning, "gravity.size", robot,
                       fmt::format("gravity: {:g} m/s² is not that of the earth", gravity),
                       "give gravity in m/s², 9.81 in all, or zero to leave weight out"));
   }
+  if (gravity == 0 && robot.elastic.payload_mass > 0) {
+    checks.push_back(
+        said_of_model(Severity::warning, "gravity.missing", robot,
+                      fmt::format("payload.mass: {:g} kg have no weight, because gravity is zero",
+                                  robot.elastic.payload_mass),
+                      "set gravity to [0, 0, -9.81], in the base frame, or leave the payload out"));
+  }
+  return checks;
+}
+
+}  // namespace
+
+Checks check_model(const model::Robot& robot) {
+  Checks checks = check_springs(robot);
+  add(check_structure(robot), &checks);
+  add(check_gravity(robot), &checks);
   const effects::MachineSize size = effects::size_of(robot);
   if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
     checks.push_back(

@@ -6,7 +6,9 @@
 
 #include "cli/command.hpp"
 #include "error.hpp"
+#include "files/one_line.hpp"
 #include "recording/clock_alignment.hpp"
+#include "recording/column_map.hpp"
 
 namespace flexcomp::cli {
 namespace {
@@ -16,6 +18,8 @@ using recording::LoggedMessage;
 struct ConvertOptions {
   std::vector<std::string> inputs;
   std::string out;
+  std::vector<std::string> rules;
+  recording::ForeignLayout layout;
   std::string interface = "can0";
   double start = 0;
   bool fd = false;
@@ -36,8 +40,17 @@ Format format_of(const std::string& file) {
   if (extension == ".lcm" || extension == ".lcmlog") {
     return Format::lcm;
   }
+  for (const char* other : {".mcap", ".db3", ".bag", ".parquet"}) {
+    if (extension == other) {
+      throw InputError(
+          fmt::format("{0}: the Python package reads it: python3 -m flexcomp.convert "
+                      "{0} --help",
+                      file));
+    }
+  }
   throw InputError(
-      file + ": expected a name that ends in .csv, .log (candump -L) or .lcmlog (lcm-logger)");
+      file +
+      ": expected a name that ends in .csv, .log (candump -L) or .lcmlog (lcm-logger), or --map");
 }
 
 std::vector<LoggedMessage> read_log(const std::string& file, recording::DecodingCounts* counts) {
@@ -127,11 +140,55 @@ void write_log(const ConvertOptions& options, const std::vector<LoggedMessage>& 
   }
 }
 
-int csv_to_log(const ConvertOptions& options) {
-  const recording::Recording rows = recording::read_recording(options.inputs[0]);
+/// A recording's rows as a log of a bus.
+int rows_to_log(const ConvertOptions& options, const recording::Recording& rows) {
   write_log(options, to_messages(rows, std::llround(1e9 * options.start)));
   print(options, static_cast<std::size_t>(rows.size()), {}, {}, groups_without_message(rows));
   return kDone;
+}
+
+void print_mapped(const ConvertOptions& options, const recording::Mapped& mapped) {
+  if (options.json) {
+    const nlohmann::ordered_json json = {{"rows", mapped.recording.size()},
+                                         {"left_out", mapped.left_out}};
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
+  }
+  fmt::print("{}: {} rows\n", options.out, mapped.recording.size());
+  if (!mapped.left_out.empty()) {
+    constexpr std::size_t kLongest = 400;
+    fmt::print("left out, because no rule names it: {}\n",
+               files::one_line(fmt::format("{}", fmt::join(mapped.left_out, ", ")), kLongest));
+  }
+}
+
+int foreign_to_csv(const ConvertOptions& options, const recording::Mapped& mapped) {
+  recording::write_recording(options.out, mapped.recording);
+  print_mapped(options, mapped);
+  return kDone;
+}
+
+[[noreturn]] void ask_for_rules(const ConvertOptions& options) {
+  const recording::ForeignTable table(options.inputs[0], options.layout);
+  constexpr std::size_t kLongest = 400;
+  throw InputError(
+      fmt::format("{}: which column is which? Say it with --map, as in --map t=time:ms --map "
+                  "'q_meas_*=joint*:deg'; it has {}",
+                  options.inputs[0],
+                  files::one_line(fmt::format("{}", fmt::join(table.columns(), ", ")), kLongest)));
+}
+
+int from_rows(const ConvertOptions& options) {
+  const bool to_csv = format_of(options.out) == Format::csv;
+  if (options.rules.empty()) {
+    if (to_csv) {
+      ask_for_rules(options);
+    }
+    return rows_to_log(options, recording::read_recording(options.inputs[0]));
+  }
+  const recording::Mapped mapped = recording::map_columns(
+      recording::ForeignTable(options.inputs[0], options.layout), options.rules);
+  return to_csv ? foreign_to_csv(options, mapped) : rows_to_log(options, mapped.recording);
 }
 
 int log_to_log(const ConvertOptions& options) {
@@ -144,20 +201,20 @@ int log_to_log(const ConvertOptions& options) {
 }
 
 int run(const ConvertOptions& options) {
-  const bool from_csv = format_of(options.inputs[0]) == Format::csv;
-  if (from_csv && options.inputs.size() > 1) {
+  const auto is_csv = [](const std::string& file) { return format_of(file) == Format::csv; };
+  const bool has_rows = !options.rules.empty() || is_csv(options.inputs[0]);
+  if (has_rows && options.inputs.size() > 1) {
     throw InputError("expected one recording, or logs of buses");
   }
+  if (has_rows) {
+    return from_rows(options);
+  }
   for (const std::string& input : options.inputs) {
-    if ((format_of(input) == Format::csv) != from_csv) {
+    if (is_csv(input)) {
       throw InputError(input + ": expected logs of buses only, or one recording");
     }
   }
-  const bool to_csv = format_of(options.out) == Format::csv;
-  if (from_csv && to_csv) {
-    throw InputError(options.out + ": expected a name that ends in .log or .lcmlog");
-  }
-  return from_csv ? csv_to_log(options) : to_csv ? log_to_csv(options) : log_to_log(options);
+  return is_csv(options.out) ? log_to_csv(options) : log_to_log(options);
 }
 
 }  // namespace
@@ -171,9 +228,26 @@ void add_convert(CLI::App* app, Action* action) {
       "setpoint, with the wrench, joints and position that came before it. Several logs of one "
       "run:\n"
       "their clocks are aligned by the setpoints that all have seen.\n"
-      "Example: flexcomp convert can.log force.lcmlog --out run.csv");
-  command->add_option("inputs", options->inputs, "a recording, or logs")->required();
+      "Example: flexcomp convert can.log force.lcmlog --out run.csv\n"
+      "A table that others wrote becomes a recording by rules, one a column, or with * one for "
+      "all\n"
+      "joints; separator and decimal comma are found.\n"
+      "Example: flexcomp convert axes.txt --map t=Time:ms --map 'q_meas_*=A*_pos:deg' --out "
+      "run.csv\n"
+      "ROS bags, MCAP and Parquet: python3 -m flexcomp.convert");
+  command->add_option("inputs", options->inputs, "a recording, a table of others, or logs")
+      ->required();
   command->add_option("--out", options->out, "file to write")->required();
+  command
+      ->add_option(
+          "--map", options->rules,
+          "COLUMN=NAME:UNIT, a column of the recording from one of the table; :UNIT*FACTOR "
+          "scales; no unit is SI")
+      ->allow_extra_args(false);
+  command->add_option("--header-line", options->layout.header_line, "line of the table's names")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--first-row", options->layout.first_row,
+                      "line of the table's first row, where it is not the next");
   command->add_flag("--corrected", options->corrected,
                     "q_cmd is the corrected setpoint, not the one before correction");
   command->add_option("--interface", options->interface, "name to write into a candump log");

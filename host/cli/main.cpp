@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "build_info.hpp"
 #include "cli/command.hpp"
@@ -48,7 +50,17 @@ int run(const Action& action) {
   }
 }
 
-int parse_and_run(int argc, char** argv) {
+/// The words of the command line; `help X` is `X --help`.
+std::vector<const char*> words_of(int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc > 1 && words[1] == std::string("help")) {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
+  return words;
+}
+
+int parse_and_run(const std::vector<const char*>& words) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
       "  flexcomp check …         what is wrong or suspicious in model, path, table or "
@@ -78,7 +90,9 @@ int parse_and_run(int argc, char** argv) {
       "  flexcomp configure …     a configuration file for flexcompd\n"
       "  flexcomp node …          arm it, disarm it, send it a table\n"
       "  flexcomp plant …         the bending robot in the cut, for hardware-in-the-loop tests\n"
-      "  flexcomp convert …       logs of candump and lcm-logger to recordings, and back\n"
+      "  flexcomp convert …       logs of candump and lcm-logger to recordings, and back; tables "
+      "of\n"
+      "                           other programs to recordings\n"
       "  flexcomp diagnose …      where a recording and the model differ, and why\n\n"
       "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not "
       "hold,\n"
@@ -109,13 +123,15 @@ int parse_and_run(int argc, char** argv) {
   flexcomp::cli::add_plant(&app, &action);
   flexcomp::cli::add_convert(&app, &action);
   flexcomp::cli::add_diagnose(&app, &action);
-  const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked_for).empty()) {
-    complain(fmt::format("unknown command '{}' (see --help)", argv[1]));
+  const auto is_asked_for = [&](const CLI::App* command) {
+    return command->get_name() == words[1];
+  };
+  if (words.size() > 1 && words[1][0] != '-' && app.get_subcommands(is_asked_for).empty()) {
+    complain(fmt::format("unknown command '{}' (see --help)", words[1]));
     return flexcomp::cli::kUnusableInput;
   }
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       return app.exit(error);
@@ -132,7 +148,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, end_cleanly);
   std::signal(SIGTERM, end_cleanly);
   try {
-    return parse_and_run(argc, argv);
+    return parse_and_run(words_of(argc, argv));
   } catch (...) {
     std::fputs("flexcomp: internal fault\n", stderr);
     return flexcomp::cli::kInternalFault;

@@ -56,6 +56,53 @@ void refuse_endless_nesting(const std::filesystem::path& file, const std::string
   }
 }
 
+/// Finds the first element of xacro, or the first value that xacro would compute.
+class XacroSearch : public TiXmlVisitor {
+ public:
+  bool VisitEnter(const TiXmlElement& element, const TiXmlAttribute* attribute) override {
+    if (element.ValueStr().rfind("xacro:", 0) == 0) {
+      take(element, "<" + element.ValueStr() + ">");
+    }
+    for (; attribute != nullptr; attribute = attribute->Next()) {
+      if (attribute->ValueStr().find("${") != std::string::npos ||
+          attribute->ValueStr().find("$(") != std::string::npos) {
+        take(element, attribute->ValueStr());
+      }
+    }
+    return found_.empty();
+  }
+
+  const std::string& found() const { return found_; }
+  int line() const { return line_; }
+
+ private:
+  void take(const TiXmlElement& element, const std::string& found) {
+    if (found_.empty()) {
+      found_ = found;
+      line_ = element.Row();
+    }
+  }
+
+  std::string found_;
+  int line_ = 0;
+};
+
+/// A name for the expanded file, which is not that of the file itself.
+std::string name_of_expanded(const std::filesystem::path& file) {
+  const bool says_xacro = file.extension() == ".xacro" && file.stem().extension() == ".urdf";
+  return says_xacro ? file.stem().string() : file.stem().string() + "_expanded.urdf";
+}
+
+void refuse_xacro(const std::filesystem::path& file, const TiXmlDocument& document) {
+  XacroSearch search;
+  document.Accept(&search);
+  if (!search.found().empty()) {
+    throw InputError(fmt::format(
+        "{0}:{1}: xacro is left in it: '{2}'; expand it first: xacro {0} > {3}", file.string(),
+        search.line(), files::one_line(search.found()), name_of_expanded(file)));
+  }
+}
+
 /// urdfdom parses again, tells no line, and takes for zero or leaves out what it cannot read.
 void refuse_what_urdfdom_cannot_read(const std::filesystem::path& file, const std::string& text) {
   TiXmlDocument document;
@@ -64,6 +111,7 @@ void refuse_what_urdfdom_cannot_read(const std::filesystem::path& file, const st
     throw InputError(fmt::format("{}:{}: not valid XML: {}", file.string(), document.ErrorRow(),
                                  document.ErrorDesc()));
   }
+  refuse_xacro(file, document);
   refuse_unreadable_values(file.string(), document);
 }
 

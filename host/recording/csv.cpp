@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -13,21 +12,10 @@
 #include "error.hpp"
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
+#include "recording/lines.hpp"
 
 namespace flexcomp::recording {
 namespace {
-
-/// Longest line that is looked at: a recording's has some hundred characters, and one of a gigabyte
-/// without a line end is no table.
-constexpr std::size_t kLongestLine = 1 << 16;
-
-std::string_view trimmed(std::string_view cell) {
-  const auto begin = cell.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) {
-    return {};
-  }
-  return cell.substr(begin, cell.find_last_not_of(" \t") - begin + 1);
-}
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> cells;
@@ -41,47 +29,6 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-/// Hands out a text's lines without their ends.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (rest_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-      rest_.remove_prefix(kByteOrderMark.size());
-    }
-  }
-
-  /// Next line that is not blank; false at the end.
-  bool next(std::string_view* line) {
-    while (!rest_.empty()) {
-      const std::size_t end = rest_.find('\n');
-      *line = rest_.substr(0, end);
-      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-      ++number_;
-      if (!line->empty() && line->back() == '\r') {
-        line->remove_suffix(1);
-      }
-      if (!trimmed(*line).empty()) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  std::size_t number() const { return number_; }
-
- private:
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
-
-void refuse_long_line(const std::string& file, const Lines& lines, std::string_view line) {
-  if (line.size() > kLongestLine) {
-    throw InputError(fmt::format("{}:{}: the line has {} characters; expected at most {}", file,
-                                 lines.number(), line.size(), kLongestLine));
-  }
-}
-
 std::vector<std::string> read_header(const std::string& file, Lines* lines) {
   std::string_view line;
   if (!lines->next(&line)) {
@@ -90,7 +37,7 @@ std::vector<std::string> read_header(const std::string& file, Lines* lines) {
   if (lines->number() != 1) {
     throw InputError(fmt::format("{}:1: the line is blank; expected the columns' names", file));
   }
-  refuse_long_line(file, *lines, line);
+  refuse_long_line(file, lines->number(), line);
   std::vector<std::string> columns;
   std::set<std::string_view> names;
   for (const std::string_view name : split(line)) {
@@ -115,7 +62,7 @@ NumberTable read_csv(const std::filesystem::path& path) {
   table.columns = read_header(table.file, &lines);
   std::string_view line;
   while (lines.next(&line)) {
-    refuse_long_line(table.file, lines, line);
+    refuse_long_line(table.file, lines.number(), line);
     const std::vector<std::string_view> cells = split(line);
     if (cells.size() != table.columns.size()) {
       throw InputError(fmt::format("{}:{}: expected {} cells as in the header, found {}",

@@ -56,6 +56,18 @@ class Check(Command):
         self.run_well("table", "--model", KR270, "--path", self.path, "--tolerance", "1e-5", "--out", table)
         return table
 
+    def robot(self, before, after):
+        """A copy of the KR 270's description with one change."""
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")
+        self.assertIn(before, text)
+        return self.file("robot.yaml", text.replace(before, after))
+
+    def test_a_payload_without_weight_is_told(self):
+        payload = "payload: {mass: 120, com: [0, 0, 0.15]}\n"
+        model = self.robot("gravity: [0, 0, 0]\n", "gravity: [0, 0, 0]\n" + payload)
+        self.assertEqual(["gravity.missing"], self.wrong("--model", model))
+        self.check("--model", self.robot("gravity: [0, 0, 0]\n", "gravity: [0, 0, -9.81]\n" + payload), exit_code=0)
+
     def test_what_goes_together_is_in_order(self):
         recording, table = self.recorded(), self.table()
         config = self.folder / "node.toml"

@@ -283,6 +283,10 @@ void a_urdf_value_that_cannot_be_read_is_refused_with_its_line() {
       {{"rpy='0.1 -0.4 1.1'", "rpy='0 -90 0'"},
        in_joint + "<origin>: rpy: expected radians, found -90, more than a whole turn; are these "},
       {{"</robot>", "</robot>\n<robot name='two'/>"}, "arm.urdf:50: <robot>: appears twice"},
+      {{"<link name='base'/>", "<link name='base'/><xacro:include filename='a'/>"},
+       "arm.urdf:2: xacro is left in it: '<xacro:include>'; expand it first: xacro "},
+      {{"rpy='0.1 -0.4 1.1'", "rpy='0 ${pi / 2} 0'"},
+       "arm.urdf:4: xacro is left in it: '0 ${pi / 2} 0'; expand it first: xacro "},
   };
   for (const char* name : {"lower", "upper", "effort", "velocity"}) {
     const std::string written = limit.substr(limit.find(name));

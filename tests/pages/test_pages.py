@@ -15,15 +15,19 @@ BUILD = pathlib.Path(os.environ["FLEXCOMP_BUILD"])
 PROGRAMS = pathlib.Path(os.environ["FLEXCOMP_BIN"])
 PAGES = pages.all_pages(SOURCE)
 NAMED_FILE = re.compile(r"`((?:firmware|host|include|tests|tools)/[\w./-]+)`")
-COMMAND = re.compile(r"(?:^|[\s`(>])(flexcompd?)((?: [a-z][a-z-]*)*)([^`|&>\n]*(?:\\\n[^`|&>\n]*)*)")
+COMMAND = re.compile(r"(?:^|[\s`(>])(flexcomp\.convert|flexcompd?)((?: [a-z][a-z-]*)*)([^`|&>\n]*(?:\\\n[^`|&>\n]*)*)")
+MODULE = "flexcomp.convert"
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 README_LINES = 150
 TUTORIAL = SOURCE / "host" / "README.md"
 
 
 def help_of(*words):
-    return subprocess.run([PROGRAMS / words[0], *words[1:], "--help"], capture_output=True, text=True,
-                          check=False).stdout
+    program = [PROGRAMS / words[0]]
+    if words[0] == MODULE:
+        program = [SOURCE / "build" / "third_party" / "python" / "bin" / "python", "-m", MODULE]
+    return subprocess.run([*program, *words[1:], "--help"], capture_output=True, text=True, check=False,
+                          env=os.environ | {"PYTHONPATH": str(BUILD / "python")}).stdout
 
 
 class Commands:

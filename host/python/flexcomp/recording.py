@@ -1,5 +1,6 @@
 """Recordings as pandas frames."""
 
+import os
 import pathlib
 import tempfile
 
@@ -43,7 +44,13 @@ class Recording:
         return self.frame[self.groups[name]].to_numpy()
 
     def write(self, file):
-        self.frame.to_csv(file, index=False)
+        """Whole or not at all."""
+        part = pathlib.Path(f"{file}.{os.getpid()}.part")
+        try:
+            self.frame.to_csv(part, index=False)
+            os.replace(part, file)
+        finally:
+            part.unlink(missing_ok=True)
 
 
 def _check(frame, name):

@@ -9,6 +9,7 @@ import sys
 from . import planting, study
 from .plot import NoPicture
 from .registry import MACHINES
+from .rivals import comparison
 from .study import NoAnswer, Trial
 from .tables import Damaged
 from .tool import Tool
@@ -44,6 +45,10 @@ def arguments():
                         "find them again")
     parser.add_argument("--seed", type=int, default=0, metavar="S",
                         help="draws the effects to plant (default 0)")
+    parser.add_argument("--keep", action="store_true",
+                        help="take the answers that are in --out already")
+    parser.add_argument("--rivals", action="store_true",
+                        help="run other packages on the same torques and write the table of README.md")
     options = parser.parse_args()
     for name in options.machines:
         if name not in MACHINES:
@@ -80,10 +85,27 @@ def diagnose(name, options):
     outcomes = {}
     for experiment in reader.write(data, folder):
         _progress(f"{name}: diagnosing {experiment.name}")
-        outcomes[experiment.name] = tool.diagnose(
-            experiment, folder / f"diagnosis_{experiment.name}")
+        place = folder / f"diagnosis_{experiment.name}"
+        known = tool.recall(experiment, place) if options.keep else None
+        outcomes[experiment.name] = known or tool.diagnose(experiment, place)
     _progress("")
     return Trial(outcomes, tool, data)
+
+
+def compare(name, trial, folder):
+    """Runs the rivals on a machine's torques, prints the lines of the table, and writes them to the page."""
+    rows = {}
+    for outcome in trial.outcomes.values():
+        units = dict(outcome.groups())
+        if "tau" not in units:
+            print(f"  {outcome.experiment.name}: no torques, which is what the rivals explain")
+            continue
+        label = f"[{name}]({name}/README.md), {outcome.experiment.name}"
+        results = comparison.compare(outcome, folder, _progress)
+        rows[label] = comparison.lines_of_table(label, units["tau"], results)
+    _progress("")
+    print("\n".join(line for lines in rows.values() for line in lines))
+    comparison.update_page(rows)
 
 
 def _print_outcome(outcome):
@@ -124,10 +146,12 @@ def run(name, options):
     try:
         trial = diagnose(name, options)
         reached = report(name, trial)
+        if options.rivals:
+            compare(name, trial, options.out.resolve() / name)
         if options.pictures:
             MACHINES[name].pictures.draw(trial, options.out.resolve() / name)
         return 0 if reached else 1
-    except (Damaged, NoPicture) as error:
+    except (Damaged, NoPicture, comparison.NoRivals) as error:
         _progress("")
         print(f"{name}: {error}", file=sys.stderr)
         return 2

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import math
 import pathlib
 
 import numpy as np
@@ -99,7 +100,8 @@ def parse(text):
 @dataclasses.dataclass
 class Outcome:
     """An experiment's answer, and its held-out recording as measured and as simulated with the
-    model before and after: {column: (n,)}. updated_model: a path."""
+    model before and after: {column: (n,)}. updated_model: a path; seconds: of a processor, or
+    not-a-number where nobody measured them."""
 
     experiment: Experiment
     answer: Answer
@@ -107,6 +109,7 @@ class Outcome:
     measured: dict
     before: dict
     after: dict
+    seconds: float = math.nan
 
     def errors(self, simulated, group):
         """Measured less simulated, held out: (n, columns of the group), not-a-number where

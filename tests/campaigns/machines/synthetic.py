@@ -139,6 +139,23 @@ def friction_damper(folder):
             "actuator1_lb": 0 * time, "actuator2_lb": 0 * time})
 
 
+def _joint_states(path, joints, rate):
+    """Torques of 1 N·m and up. Returns the angles (n, joints)."""
+    time = np.arange(0, 4, 1 / rate)
+    angles = swing(time, joints)
+    write_csv(path, {"t": time, **numbered("q_meas_{}", angles),
+                     **numbered("tau_{}", np.tile(np.arange(1.0, joints + 1), (len(time), 1)))})
+    return angles
+
+
+def unisa_ur10(folder):
+    return _joint_states(folder / "ur10_exciting_trajectory.csv", 6, 125)
+
+
+def unisa_panda(folder):
+    return _joint_states(folder / "panda_exciting_trajectory.csv", 7, 30)
+
+
 UR5_LINKS = ((0, 89.159, 90), (-425, 0, 0), (-392.25, 0, 0), (0, 109.15, 90), (0, 94.65, -90),
              (0, 82.3, 0))
 

@@ -22,6 +22,7 @@ from machines.franka_panda import reader as panda  # noqa: E402
 from machines.hilti_jaibot import reader as jaibot, tilt  # noqa: E402
 from machines.kuka_kr300 import counterbalance, link_encoders, reader as kr300  # noqa: E402
 from machines.registry import MACHINES  # noqa: E402
+from machines.rivals import comparison  # noqa: E402
 
 DATA = os.environ.get("FLEXCOMP_MACHINE_DATA")
 
@@ -226,6 +227,24 @@ class Readers(Scratch):
         np.testing.assert_allclose(np.degrees(held_out["q_cmd_3"][:50]), grid[150:200, 2],
                                    atol=1e-9)
 
+    def test_ur10_has_the_published_kinematics(self):
+        (experiment,), angles = self.written("unisa_ur10")
+        links = ((0, 0.1273, 90), (-0.612, 0, 0), (-0.5723, 0, 0), (0, 0.163941, 90),
+                 (0, 0.1157, -90), (0, 0.0922, 0))
+        matrix = np.eye(4)
+        for angle, (length, offset, twist) in zip(angles[7], links):
+            matrix = matrix @ synthetic.dh(angle, length, offset, np.radians(twist))
+        np.testing.assert_allclose(tcp(experiment.model, angles[7:8])[0], matrix[:3, 3], atol=1e-9)
+
+    def test_what_follows_on_the_first_part_of_a_motion_is_held_out(self):
+        for name in ("unisa_ur10", "unisa_panda"):
+            (experiment,), angles = self.written(name)
+            parts = [tables.read_recording(path) for path in (*experiment.recordings, experiment.holdout)]
+            self.assertAlmostEqual(0.7, len(parts[0]["t"]) / len(angles), delta=0.01)
+            found = np.vstack([group(part, "q_meas") for part in parts])
+            np.testing.assert_allclose(found, angles, atol=1e-9)
+            self.assertEqual(2.0, parts[1]["tau_2"][0])
+
     def test_jaibot_is_brought_from_the_stations_frame_to_its_own(self):
         experiments, arm = self.written("hilti_jaibot")
         self.assertEqual(["flat", "pallet"], [experiment.name for experiment in experiments])
@@ -321,6 +340,8 @@ class Command(Scratch):
             "franka_panda": ("panda_exciting_1kHz.csv", "tau_Nm_7", "tau", "no column 'tau_Nm_7'"),
             "staubli_tx40": ("tx40_mdh_modified.urdf", "</robot>", "", "no robot description"),
             "hilti_jaibot": ("trailblazer.urdf", "</robot>", "", "no robot description"),
+            "unisa_ur10": ("ur10_exciting_trajectory.csv", "tau_6", "tau", "no column 'tau_6'"),
+            "unisa_panda": ("panda_exciting_trajectory.csv", "\n0.03", "\n-0.03", "does not grow"),
         }
         for name, (file, before, after, saying) in damages.items():
             with self.subTest(name):
@@ -343,6 +364,12 @@ class Command(Scratch):
             self.assert_refused(done, saying)
             self.assertEqual(1, done.stderr.count("\n"), done.stderr)
 
+    def test_answers_that_are_there_are_kept(self):
+        self.make("unisa_panda")
+        first = self.run_command("unisa_panda", answer="perfect")
+        self.assertEqual(first.stdout, self.run_command("unisa_panda", "--keep", answer="absent").stdout)
+        self.assertEqual(1, self.run_command("unisa_panda", answer="absent").returncode)
+
     def test_a_tool_without_an_answer_reaches_nothing(self):
         self.make("friction_damper")
         for answer, saying in (("absent", "an internal fault"), ("broken", "diagnosis.json")):
@@ -364,6 +391,86 @@ class Command(Scratch):
         self.assert_refused(self.run_command(data=False), "FLEXCOMP_MACHINE_DATA")
         self.data.rmdir()
         self.assert_refused(self.run_command(), "is no folder")
+
+
+class Rivals(Scratch):
+    """The comparison around rivals, with a stand-in that predicts 1 N·m too much, or fails."""
+
+    STAND_IN = """import csv, json, pathlib, sys
+words = sys.argv[1:]
+if "mujoco_sysid" in words:
+    sys.exit("a reason")
+rows = list(csv.reader(pathlib.Path(words[words.index("--holdout") + 1]).read_text().splitlines()))
+torque = [place for place, name in enumerate(rows[0]) if name.startswith("tau")]
+with pathlib.Path(words[words.index("--out") + 1]).open("w", newline="") as file:
+    writer = csv.writer(file)
+    writer.writerow(["t"] + [rows[0][place] for place in torque])
+    writer.writerows([row[0], *(float(row[place]) + 1 for place in torque)] for row in rows[1:])
+print(json.dumps({"seconds": 2.5, "missing": "a | line"}))
+"""
+
+    def setUp(self):
+        super().setUp()
+        program = self.folder / "rivals"
+        (self.folder / "stand_in.py").write_text(self.STAND_IN)
+        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{self.folder}/stand_in.py" "$@"\n')
+        program.chmod(0o755)
+        before = os.environ.get(comparison.PYTHON)
+        os.environ[comparison.PYTHON] = str(program)
+        self.addCleanup(lambda: os.environ.pop(comparison.PYTHON) if before is None
+                        else os.environ.__setitem__(comparison.PYTHON, before))
+
+    def outcome(self):
+        (experiment,), _ = self.written("unisa_ur10")
+        measured = tables.read_recording(experiment.holdout)
+        known = {name: values for name, values in measured.items() if name[0] in "t"}
+        half = {name: values / 2 if name != "t" else values for name, values in known.items()}
+        blind = {name: np.where(measured["t"] > 3.5, np.nan, values) if name != "t" else values
+                 for name, values in known.items()}
+        answer = study.Answer("explained", [study.Finding("coulomb_friction", 2, {}, "")], "", [])
+        return study.Outcome(experiment, answer, experiment.model, measured, half, blind)
+
+    def test_all_are_judged_by_the_same_rows_and_a_failure_is_told(self):
+        results = comparison.compare(self.outcome(), self.folder, lambda text: None)
+        torques = np.arange(1.0, 7.0)
+        errors = [study.rms(torques / 2), 0.0, 1.0, 1.0, None]
+        self.assertEqual(["as modelled", "flexcomp", *comparison.RIVALS.values()],
+                         [result.method for result in results])
+        for wanted, result in zip(errors, results):
+            self.assertEqual(wanted is None, result.error is None)
+            self.assertAlmostEqual(wanted or 0, result.error or 0, 9)
+        self.assertEqual("coulomb_friction of joint 2", results[1].missing)
+        self.assertEqual("failed: a reason", results[-1].missing)
+
+    def test_rows_away_from_the_ends_count_where_flexcomp_says_something(self):
+        outcome = self.outcome()
+        time = outcome.measured["t"]
+        chosen = time[comparison._judged(outcome.measured, outcome.after)]
+        self.assertAlmostEqual(time[0] + comparison.EDGE, chosen[0], delta=0.009)
+        self.assertAlmostEqual(3.5, chosen[-1], delta=0.009)
+
+    def test_the_table_keeps_what_was_not_run(self):
+        page = self.folder / "README.md"
+        page.write_text("\n".join(["before", comparison.BEGIN, *comparison.HEADER, "| a | old |",
+                                   "| b | old |", comparison.END, "after"]))
+        comparison.update_page({"b": ["| b | new |", "| b | newer |"], "c": ["| c | new |"]}, page)
+        self.assertEqual(["before", comparison.BEGIN, *comparison.HEADER, "| a | old |",
+                          "| b | new |", "| b | newer |", "| c | new |", comparison.END, "after"],
+                         page.read_text().splitlines())
+
+    def test_bars_do_not_break_the_table(self):
+        (line,) = comparison.lines_of_table("a", "N", [comparison.Result("m", 1.0, 2.5, 3, "a | line")])
+        self.assertEqual("| a | m | 1 N | 2.5 s | 3 | a / line |", line)
+
+    def test_lines_are_those_of_code(self):
+        file = self.folder / "a.py"
+        file.write_text('"""A text\nof two lines."""\n\n# Why.\nx = [\n    1,\n]  # here\n')
+        self.assertEqual(3, comparison.lines_of_code(file))
+
+    def test_without_their_python_one_line_says_so(self):
+        os.environ[comparison.PYTHON] = str(self.folder / "none")
+        with self.assertRaisesRegex(comparison.NoRivals, "names no Python"):
+            comparison.compare(self.outcome(), self.folder, lambda text: None)
 
 
 @unittest.skipUnless(DATA, "FLEXCOMP_MACHINE_DATA is not set: no real recordings are read")

@@ -1,12 +1,17 @@
 """Runs the flexcomp command."""
 
 import dataclasses
+import math
 import pathlib
+import resource
 import shutil
 import subprocess
 
 from .study import NoAnswer, Outcome, parse
 from .tables import read_recording
+
+UPDATED, BEFORE, AFTER = "updated_model.yaml", "holdout_before.csv", "holdout_after.csv"
+SECONDS = "seconds"
 
 
 @dataclasses.dataclass
@@ -32,10 +37,25 @@ class Tool:
         words = ["--model", experiment.model]
         for recording in experiment.recordings:
             words += ["--recording", recording]
+        before = _seconds_of_children()
         self._run("diagnose", *words, "--holdout", experiment.holdout, "--out", folder)
-        answer = parse((folder / "diagnosis.json").read_text())
-        updated = folder / "updated_model.yaml"
-        return Outcome(
-            experiment, answer, updated, read_recording(experiment.holdout),
-            self.simulate(experiment.model, experiment.holdout, folder / "holdout_before.csv"),
-            self.simulate(updated, experiment.holdout, folder / "holdout_after.csv"))
+        seconds = _seconds_of_children() - before
+        self.simulate(experiment.model, experiment.holdout, folder / BEFORE)
+        self.simulate(folder / UPDATED, experiment.holdout, folder / AFTER)
+        (folder / SECONDS).write_text(f"{seconds:.2f}\n")
+        return self.recall(experiment, folder)
+
+    def recall(self, experiment, folder):
+        """The outcome that a folder holds, or None."""
+        if not (folder / AFTER).is_file():
+            return None
+        seconds = float((folder / SECONDS).read_text()) if (folder / SECONDS).is_file() else math.nan
+        return Outcome(experiment, parse((folder / "diagnosis.json").read_text()), folder / UPDATED,
+                       read_recording(experiment.holdout), read_recording(folder / BEFORE),
+                       read_recording(folder / AFTER), seconds)
+
+
+def _seconds_of_children():
+    """Of a processor, of the processes that this one started."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime

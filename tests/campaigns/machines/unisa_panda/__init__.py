@@ -1,0 +1,3 @@
+"""Another Franka Emika Panda."""
+
+from . import goals, pictures, reader  # noqa: F401

@@ -1,0 +1,3 @@
+"""Universal Robots UR10."""
+
+from . import goals, pictures, reader  # noqa: F401
