@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <tuple>
-#include <utility>
 
 #include "messages/e2e.hpp"
 
@@ -25,13 +24,18 @@ std::uint32_t digest(const CanFrame& frame) {
 /// The same of a set of classic frames, a word at a time: this is on the way of every setpoint.
 std::uint32_t digest(const std::uint8_t* parts, std::size_t count) {
   std::uint32_t hash = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    std::array<std::uint32_t, 2> words{};
-    std::memcpy(words.data(), parts + 8 * i, 8);
-    hash = (hash << 7 | hash >> 25) ^ words[0];
-    hash = (hash << 7 | hash >> 25) ^ words[1];
+  for (const std::uint8_t* at = parts; at < parts + 8 * count; at += sizeof hash) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, at, sizeof word);
+    hash = (hash << 7 | hash >> 25) ^ word;
   }
   return hash;
+}
+
+bool is_intact(const CanFrame& frame, const FrameLayout& layout) {
+  return layout.parts > 1 ? frame.data[0] == classic_checksum(layout.crc_of_identifier,
+                                                              frame.data.data())
+                          : is_intact(frame);
 }
 
 /// Which counters a group has.
@@ -47,18 +51,10 @@ constexpr std::array<Stream, kFrameGroups> streams_of(const std::tuple<Formats..
 
 constexpr std::array<Stream, kFrameGroups> kStreams = streams_of(can::Formats());
 
-/// The message in the payloads of its frames, which lie one after the other.
-template <typename Format, typename... Frames>
-Message unpack_frames(const std::uint8_t* payloads, const can::FrameSet<Frames...>& /*format*/) {
-  const std::tuple<typename Frames::Raw...> raws{
-      Frames::unpack(std::exchange(payloads, payloads + Frames::kSize))...};
-  return std::apply(Format::unpack, raws);
-}
-
-// All in one function, on the way of every setpoint: some instructions less.
+// All in one function, on the way of every message: some instructions less.
 template <typename Format>
 [[gnu::flatten]] Message unpack(const std::uint8_t* payloads) {
-  return unpack_frames<Format>(payloads, Format());
+  return can::unpack<Format>(payloads);
 }
 
 using Unpack = Message (*)(const std::uint8_t* payloads);
@@ -80,30 +76,35 @@ CanDecoder::CanDecoder(std::uint32_t tolerated) {
 }
 
 Message CanDecoder::decode(const CanFrame& frame, std::int64_t now) {
+  return message(take(frame, now));
+}
+
+Message CanDecoder::message(const WholeMessage& whole) {
+  return whole.payloads != nullptr ? kUnpack[static_cast<std::size_t>(whole.group)](whole.payloads)
+                                   : Message();
+}
+
+WholeMessage CanDecoder::take(const CanFrame& frame, std::int64_t now) {
   const FrameLayout* layout = find_layout(frame.id);
   if (layout == nullptr) {
     ++foreign_frames_;
     return {};
   }
-  if (frame.size != layout->size || frame.fd != layout->fd || !is_intact(frame)) {
+  if (frame.size != layout->size || frame.fd != layout->fd || !is_intact(frame, *layout)) {
     ++monitor(layout->group).counters.corrupt;
     return {};
   }
-  if (!complete(*layout, frame, now)) {
-    return {};
+  if (layout->parts > 1) {
+    return {layout->group, add_part(*layout, frame, now)};
   }
-  const auto group = static_cast<std::size_t>(layout->group);
-  return kUnpack[group](layout->parts == 1 ? frame.data.data() : sets_[group].parts.data());
+  const bool is_used =
+      monitor(layout->group).accept(counter_of(frame), digest(frame), now);
+  return {layout->group, is_used ? frame.data.data() : nullptr};
 }
 
-bool CanDecoder::complete(const FrameLayout& layout, const CanFrame& frame, std::int64_t now) {
-  if (layout.parts > 1) {
-    return add_part(layout, frame, now);
-  }
-  return monitor(layout.group).accept(counter_of(frame), digest(frame), now);
-}
-
-bool CanDecoder::add_part(const FrameLayout& layout, const CanFrame& frame, std::int64_t now) {
+/// The payloads of a set that this part makes whole, or null.
+const std::uint8_t* CanDecoder::add_part(const FrameLayout& layout, const CanFrame& frame,
+                                         std::int64_t now) {
   SequenceMonitor& stream = monitor(layout.group);
   Set& set = sets_[static_cast<std::size_t>(layout.group)];
   const std::uint32_t counter = counter_of(frame);
@@ -111,12 +112,12 @@ bool CanDecoder::add_part(const FrameLayout& layout, const CanFrame& frame, std:
   const std::size_t place = std::size_t{8} * layout.part;
 
   if (stream.is_repetition(counter)) {
-    const bool same =
-        std::equal(frame.data.begin(), frame.data.begin() + 8, set.accepted.begin() + place);
+    const bool same = std::equal(frame.data.begin(), frame.data.begin() + 8,
+                                 set.payloads[1 - set.next].begin() + place);
     if (counts || !same) {
       stream.drop_repetition(same, now);
     }
-    return false;
+    return nullptr;
   }
   if (set.received != 0 && counter != set.counter) {
     const bool older = ((counter - set.counter) & (kClassicCounter - 1)) > kClassicCounter / 2;
@@ -124,23 +125,24 @@ bool CanDecoder::add_part(const FrameLayout& layout, const CanFrame& frame, std:
       if (counts) {
         stream.drop_late();
       }
-      return false;
+      return nullptr;
     }
     ++stream.counters.incomplete;
     set.received = 0;
   }
   set.counter = counter;
-  std::memcpy(set.parts.data() + place, frame.data.data(), 8);
+  std::uint8_t* const payloads = set.payloads[set.next].data();
+  std::memcpy(payloads + place, frame.data.data(), 8);
   set.received |= 1U << layout.part;
   if (set.received != (1U << layout.parts) - 1U) {
-    return false;
+    return nullptr;
   }
   set.received = 0;
-  if (!stream.accept(counter, digest(set.parts.data(), layout.parts), now)) {
-    return false;
+  if (!stream.accept(counter, digest(payloads, layout.parts), now)) {
+    return nullptr;
   }
-  std::copy_n(set.parts.begin(), 8 * layout.parts, set.accepted.begin());
-  return true;
+  set.next = 1 - set.next;
+  return payloads;
 }
 
 }  // namespace flexcomp

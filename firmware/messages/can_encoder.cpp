@@ -15,7 +15,12 @@ template <typename Frame>
   frame->id = Frame::kId;
   frame->size = Frame::kSize;
   frame->fd = Frame::kFd;
-  protect(frame);
+  if constexpr (Frame::kSize == 8) {
+    constexpr std::uint8_t kStart = crc8_of_identifier(Frame::kId);
+    frame->data[0] = classic_checksum(kStart, frame->data.data());
+  } else {
+    protect(frame);
+  }
 }
 
 template <typename Format, typename Content, typename... Frames>

@@ -32,6 +32,7 @@ struct FrameLayout {
   FrameGroup group;
   std::uint8_t part;   ///< place in its group, from 0
   std::uint8_t parts;  ///< frames in the group
+  std::uint8_t crc_of_identifier;  ///< classic: what the checksum goes on from
 };
 
 /// The layout of a frame by its identifier; null for one that is not ours, and for the frames

@@ -14,12 +14,31 @@ StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
 }
 
 bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
-  const Message message = decoder_.decode(frame, now);
-  if (std::holds_alternative<std::monostate>(message)) {
+  const WholeMessage whole = decoder_.take(frame, now);
+  if (whole.payloads == nullptr) {
     return false;  // most frames are a part of a message
   }
-  const bool is_used = node->receive(message, frame.fd ? Source::can_fd : Source::can_classic, now);
-  return is_used && std::holds_alternative<SetpointMessage>(message);
+  // What comes every cycle goes its own way, and is not made a `Message` of.
+  if (whole.group == kClassicGroup<SetpointMessage>) {
+    return node->receive(can::unpack<can::Classic<SetpointMessage>>(whole.payloads),
+                         Source::can_classic, now);
+  }
+  if (whole.group == kClassicGroup<WrenchMessage>) {
+    node->receive(can::unpack<can::Classic<WrenchMessage>>(whole.payloads), Source::can_classic,
+                  now);
+    return false;
+  }
+  if (whole.group == kFdGroup<SetpointMessage>) {
+    return node->receive(can::unpack<can::Fd<SetpointMessage>>(whole.payloads), Source::can_fd,
+                         now);
+  }
+  if (whole.group == kFdGroup<WrenchMessage>) {
+    node->receive(can::unpack<can::Fd<WrenchMessage>>(whole.payloads), Source::can_fd, now);
+    return false;
+  }
+  const Source source = frame.fd ? Source::can_fd : Source::can_classic;
+  node->receive(CanDecoder::message(whole), source, now);
+  return false;
 }
 
 LinkState CanLink::state() const {

@@ -170,28 +170,38 @@ bool Node::next_message(Message* message) {
 }
 
 bool Node::receive(const Message& message, Source source, std::int64_t now) {
-  if ((std::holds_alternative<SetpointMessage>(message) && !setpoint_source_.admit(source, now)) ||
-      (std::holds_alternative<WrenchMessage>(message) && !wrench_source_.admit(source, now))) {
-    return false;
+  if (const auto* setpoint = std::get_if<SetpointMessage>(&message)) {
+    return receive(*setpoint, source, now);
   }
-  std::visit([&](const auto& content) { receive_one(content, now); }, message);
+  if (const auto* wrench = std::get_if<WrenchMessage>(&message)) {
+    return receive(*wrench, source, now);
+  }
+  std::visit([&](const auto& content) { receive_one(content); }, message);
   return true;
 }
 
-void Node::receive_one(const SetpointMessage& message, std::int64_t now) {
+bool Node::receive(const SetpointMessage& message, Source source, std::int64_t now) {
+  if (!setpoint_source_.admit(source, now)) {
+    return false;
+  }
   setpoint_moved_ = !has_setpoint_ || message.q != setpoint_.q;
   setpoint_ = message;
   has_setpoint_ = true;
   setpoint_time_ = made_at(message.timestamp, &setpoint_delay_, now);
+  return true;
 }
 
-void Node::receive_one(const WrenchMessage& message, std::int64_t now) {
+bool Node::receive(const WrenchMessage& message, Source source, std::int64_t now) {
+  if (!wrench_source_.admit(source, now)) {
+    return false;
+  }
   const std::int64_t made = made_at(message.timestamp, &wrench_delay_, now);
   if (wrench_monitor_.accept(message, now)) {
     wrench_ = message;
     has_wrench_ = true;
     wrench_time_ = made;
   }
+  return true;
 }
 
 /// When a message received `now` was made, in our time.
@@ -199,12 +209,12 @@ std::int64_t Node::made_at(std::int64_t timestamp, TransportDelay* delay, std::i
   return config_.use_timestamps ? now - delay->observe(timestamp, now) : now;
 }
 
-void Node::receive_one(const IdentityMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const IdentityMessage& message) {
   identity_ = message;
   has_identity_ = true;
 }
 
-void Node::receive_one(const CommandMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const CommandMessage& message) {
   std::uint8_t answer = number(Result::bad_argument);
   switch (message.command) {
     case Command::arm:
@@ -254,31 +264,31 @@ std::uint8_t Node::arm() {
   return result == Result::no_table && table_was_refused ? table_result_ : number(result);
 }
 
-void Node::receive_one(const TransferBeginMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const TransferBeginMessage& message) {
   reply(TransferStage::begin, store_.begin(message));
 }
 
-void Node::receive_one(const TransferDataMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const TransferDataMessage& message) {
   const Reply result = store_.add(message);
   if (result != Reply::ok) {
     reply(TransferStage::data, result);
   }
 }
 
-void Node::receive_one(const TransferEndMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const TransferEndMessage& message) {
   const Reply result = store_.end(message);
   if (result != Reply::ok) {
     reply(TransferStage::end, result);
   }
 }
 
-void Node::receive_one(const CorrectedMessage& /*message*/, std::int64_t /*now*/) {
+void Node::receive_one(const CorrectedMessage& /*message*/) {
   sticky_ |= kOtherNode;
 }
 
 /// Ignores what others say to each other.
 template <typename Other>
-void Node::receive_one(const Other& /*message*/, std::int64_t /*now*/) {}
+void Node::receive_one(const Other& /*message*/) {}
 
 void Node::reply(TransferStage stage, Reply result) {
   post(TransferReplyMessage{stage, number(result), store_.words_received()});

@@ -82,6 +82,9 @@ class Node {
 
   /// False if it is not used: a setpoint or wrench of another source than the one that sends them.
   bool receive(const Message& message, Source source, std::int64_t now);
+  /// The same of the two that come every cycle.
+  bool receive(const SetpointMessage& message, Source source, std::int64_t now);
+  bool receive(const WrenchMessage& message, Source source, std::int64_t now);
   void set_link(const LinkState& link) { link_ = link; }
 
   /// True once after a reset was asked for: who moves messages then forgets conflicts.
@@ -117,16 +120,14 @@ class Node {
   std::uint64_t statistic(std::uint8_t name, bool* exists) const;
 
  private:
-  void receive_one(const SetpointMessage& message, std::int64_t now);
-  void receive_one(const WrenchMessage& message, std::int64_t now);
-  void receive_one(const IdentityMessage& message, std::int64_t now);
-  void receive_one(const CommandMessage& message, std::int64_t now);
-  void receive_one(const TransferBeginMessage& message, std::int64_t now);
-  void receive_one(const TransferDataMessage& message, std::int64_t now);
-  void receive_one(const TransferEndMessage& message, std::int64_t now);
-  void receive_one(const CorrectedMessage& message, std::int64_t now);
+  void receive_one(const IdentityMessage& message);
+  void receive_one(const CommandMessage& message);
+  void receive_one(const TransferBeginMessage& message);
+  void receive_one(const TransferDataMessage& message);
+  void receive_one(const TransferEndMessage& message);
+  void receive_one(const CorrectedMessage& message);
   template <typename Other>
-  void receive_one(const Other& message, std::int64_t now);
+  void receive_one(const Other& message);
 
   std::int64_t made_at(std::int64_t timestamp, TransportDelay* delay, std::int64_t now) const;
   std::uint8_t arm();

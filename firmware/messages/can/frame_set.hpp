@@ -1,14 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
-#include "flexcomp_can.h"
+#include "flexcomp_can_words.hpp"
 #include "messages/messages.hpp"
 
 /// The files beside this one say for each message what it holds, in the words below. They take what
-/// cantools generates from flexcomp.dbc; checksums and counters are not their business.
+/// cantools and words_of_dbc.py generate from flexcomp.dbc; checksums and counters are not their
+/// business.
 namespace flexcomp::can {
 
 /// The frames of a message on classic CAN, and how they are packed and unpacked. Specialised for
@@ -26,24 +31,30 @@ template <typename Content>
 struct Fd;
 
 /// A frame of flexcomp.dbc.
-template <typename RawStruct, std::uint32_t Id, std::uint8_t Size, auto Pack, auto Unpack>
+template <typename RawStruct, std::uint32_t Id, std::uint8_t Size>
 struct Frame {
   using Raw = RawStruct;
   static constexpr std::uint32_t kId = Id;
   static constexpr std::uint8_t kSize = Size;
   static constexpr bool kFd = Size > 8;  // none of flexcomp.dbc is FD and shorter
 
-  static void pack(const Raw& raw, std::uint8_t* data) { Pack(data, &raw, Size); }
+  /// Of a processor whose words begin with their low byte, as all are that this runs on.
+  static void pack(const Raw& raw, std::uint8_t* data) {
+    std::array<std::uint32_t, Size / sizeof(std::uint32_t)> words;
+    Words<Raw>::pack(raw, words.data());
+    std::memcpy(data, words.data(), Size);
+  }
   static Raw unpack(const std::uint8_t* data) {
+    std::array<std::uint32_t, Size / sizeof(std::uint32_t)> words;
+    std::memcpy(words.data(), data, Size);
     Raw raw{};
-    Unpack(&raw, data, Size);
+    Words<Raw>::unpack(words.data(), &raw);
     return raw;
   }
 };
 
-#define DBC_FRAME(NAME, name)                                                                  \
-  Frame<flexcomp_can_##name##_t, FLEXCOMP_CAN_##NAME##_FRAME_ID, FLEXCOMP_CAN_##NAME##_LENGTH, \
-        flexcomp_can_##name##_pack, flexcomp_can_##name##_unpack>
+#define DBC_FRAME(NAME, name) \
+  Frame<flexcomp_can_##name##_t, FLEXCOMP_CAN_##NAME##_FRAME_ID, FLEXCOMP_CAN_##NAME##_LENGTH>
 
 /// Those that make up a message, in order; what holds where a message says nothing else.
 template <typename... Frames>
@@ -63,6 +74,19 @@ struct FrameSet {
     return true;
   }
 };
+
+template <typename Format, typename... Frames>
+auto unpack(const std::uint8_t* payloads, const FrameSet<Frames...>& /*format*/) {
+  const std::tuple<typename Frames::Raw...> raws{
+      Frames::unpack(std::exchange(payloads, payloads + Frames::kSize))...};
+  return std::apply(Format::unpack, raws);
+}
+
+/// The message in the payloads of its frames, which lie one after the other.
+template <typename Format>
+auto unpack(const std::uint8_t* payloads) {
+  return unpack<Format>(payloads, Format());
+}
 
 /// A scaled signal of `Bits` in a classic frame, between its raw value and physical units. A value
 /// that is NaN or does not fit never wraps around: a signed signal then takes its most negative raw
