@@ -103,7 +103,9 @@ Result Compensator<Scalar, Joints>::arm() {
   if (state_ != State::off || good_ticks_ < config_.ready_ticks) {
     return Result::not_ready;
   }
-  locate<Scalar, Joints>(table_, setpoint_, &cursor_);
+  if (track<Scalar, Joints>(table_, setpoint_, &cursor_) > Scalar(0)) {
+    locate<Scalar, Joints>(table_, setpoint_, &cursor_);
+  }
   fade_ = 0;
   bad_excess_ = 0;
   aim_.setZero();
@@ -283,8 +285,13 @@ FLEXCOMP_AS_ONE auto Compensator<Scalar, Joints>::tick(const Input& input) -> Ou
   if ((status & (kWrenchNotFinite | kWrenchOutOfRange)) == 0) {
     filter(input.wrench);
   }
-  if ((status & kFaultBits) == 0 && (is_correcting() || state_ == State::holding)) {
-    status |= aim(&output);
+  if ((status & kFaultBits) == 0) {
+    if (is_correcting() || state_ == State::holding) {
+      status |= aim(&output);
+    } else if (state_ == State::off && table_.is_open()) {
+      // Where it is on the program when it is armed, it is known where.
+      track<Scalar, Joints>(table_, setpoint_, &cursor_);
+    }
   }
   const std::uint32_t faults = status & kFaultBits;
   good_ticks_ =

@@ -48,6 +48,30 @@ template <typename Scalar, typename L>
   return L::choose(is_near, distance, L::apply(braking_step<Scalar>, distance, change));
 }
 
+/// Is no limit near: is the target within the largest value, and the way to it within the largest
+/// step, what braking can take back and the largest change? Not where the target is no number.
+template <typename Scalar, typename L, typename Lane = typename L::Lane>
+[[gnu::always_inline]] inline bool is_ordinary(Lane largest_value, Lane largest_step,
+                                               Lane largest_change, Lane target, Lane way,
+                                               Lane last_step) {
+  const Lane length = L::magnitude(way);
+  const Lane planned = largest_change * kPlanned<Scalar>;
+#ifdef __ARM_FEATURE_NUMERIC_MAXMIN
+  // One branch: the sign of a difference is exact, and with such a target none of them is a number.
+  const Lane beyond =
+      L::larger(L::larger(length - planned, length - largest_step),
+                L::larger(L::magnitude(target) - largest_value,
+                          L::larger((last_step - largest_change) - way,
+                                    way - (last_step + largest_change))));
+  return L::all(beyond <= Scalar(0));
+#else
+  return L::all(length <= planned) &&
+         L::all(L::both(
+             L::both(length <= largest_step, L::magnitude(target) <= largest_value),
+             L::both(way >= last_step - largest_change, way <= last_step + largest_change)));
+#endif
+}
+
 /// One period of one number, or of four side by side.
 template <typename Scalar, typename L, typename Lane = typename L::Lane>
 [[gnu::always_inline]] inline Advance<L> advance(Lane largest_value, Lane largest_step,
@@ -60,11 +84,8 @@ template <typename Scalar, typename L, typename Lane = typename L::Lane>
   };
   // Ordinary machining: no limit is near, and all that follows would come to this.
   const Lane way = target - value;
-  const Lane length = L::magnitude(way);
-  if (L::all(length <= largest_change * kPlanned<Scalar>) &&
-      L::all(
-          L::both(L::both(length <= largest_step, L::magnitude(target) <= largest_value),
-                  L::both(way >= last_step - largest_change, way <= last_step + largest_change)))) {
+  if (is_ordinary<Scalar, L>(largest_value, largest_step, largest_change, target, way,
+                             last_step)) {
     constexpr typename L::Truth kNone{};
     return {target, way, kNone, kNone};
   }

@@ -25,6 +25,11 @@ struct OneByOne {
 
   static Lane magnitude(Lane a) { return std::abs(a); }
   static Lane choose(Truth where, Lane a, Lane b) { return where ? a : b; }
+#ifdef __ARM_FEATURE_NUMERIC_MAXMIN
+  /// The larger of two numbers in one instruction, of one and what is none the one.
+  static float larger(float a, float b) { return __builtin_fmaxf(a, b); }
+  static double larger(double a, double b) { return __builtin_fmax(a, b); }
+#endif
   static Truth both(Truth a, Truth b) { return a && b; }
   static Truth either(Truth a, Truth b) { return a || b; }
   static bool all(Truth truth) { return truth; }

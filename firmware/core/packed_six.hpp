@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lanes.hpp"
+#include "load_six.hpp"
 
 namespace flexcomp {
 
@@ -24,13 +25,29 @@ class PackedSix {
   using Numbers = Eigen::Matrix<Scalar, 6, 1>;
 
   PackedSix() = default;
-  explicit PackedSix(const Numbers& numbers) {
-    each([&](std::size_t i) { lanes_[i] = L::load(numbers.data(), i); });
+  [[gnu::always_inline]] explicit PackedSix(const Numbers& numbers) {
+    if constexpr (std::is_same_v<Lane, float>) {
+      load_six<2>(numbers.data(), lanes_);
+    } else {
+      each([&](std::size_t i) { lanes_[i] = L::load(numbers.data(), i); });
+    }
   }
 
   /// The numbers of a table's record.
-  static PackedSix read(const float* floats) {
-    return of([&](std::size_t i) { return L::load(floats, i); });
+  template <int Bank = 0>
+  [[gnu::always_inline]] static PackedSix read(const float* floats) {
+    if constexpr (std::is_same_v<Lane, float>) {
+      PackedSix six;
+      load_six<Bank>(floats, six.lanes_);
+      return six;
+    } else {
+      return of([&](std::size_t i) { return L::load(floats, i); });
+    }
+  }
+  /// from + t (to - from), of two records.
+  static PackedSix blend(const float* from, const float* to, Scalar t) {
+    PackedSix a = read(from);  // not const: GCC would keep it in memory
+    return a + t * (read<1>(to) - a);
   }
 
   Numbers numbers() const {

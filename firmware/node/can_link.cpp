@@ -43,16 +43,20 @@ bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
 
 LinkState CanLink::state() const {
   LinkState state;
+  report(&state);
+  return state;
+}
+
+void CanLink::report(LinkState* state) const {
   const SequenceMonitor& setpoint = decoder_.monitor(kClassicGroup<SetpointMessage>);
   const SequenceMonitor& setpoint_fd = decoder_.monitor(kFdGroup<SetpointMessage>);
   const SequenceMonitor& wrench = decoder_.monitor(kClassicGroup<WrenchMessage>);
   const SequenceMonitor& wrench_fd = decoder_.monitor(kFdGroup<WrenchMessage>);
-  state.setpoint_conflict = setpoint.has_conflict() || setpoint_fd.has_conflict();
-  state.wrench_conflict = wrench.has_conflict() || wrench_fd.has_conflict();
-  state.setpoint = setpoint.counters + setpoint_fd.counters;
-  state.wrench = wrench.counters + wrench_fd.counters;
-  state.foreign_frames = decoder_.foreign_frames();
-  return state;
+  state->setpoint_conflict = setpoint.has_conflict() || setpoint_fd.has_conflict();
+  state->wrench_conflict = wrench.has_conflict() || wrench_fd.has_conflict();
+  state->setpoint = setpoint.counters + setpoint_fd.counters;
+  state->wrench = wrench.counters + wrench_fd.counters;
+  state->foreign_frames = decoder_.foreign_frames();
 }
 
 void CanLink::forget_conflicts() {

@@ -23,6 +23,8 @@ class CanLink {
 
   /// Counters and conflicts of the streams. Node::take_reset asks to forget conflicts.
   LinkState state() const;
+  /// The same, into what is there: what else it says stays.
+  void report(LinkState* state) const;
   void forget_conflicts();
 
  private:

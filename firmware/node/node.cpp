@@ -331,7 +331,7 @@ std::uint16_t Node::judge(std::int64_t now) {
 
 Node::Core::Input Node::input(std::int64_t now) const {
   constexpr float kNever = std::numeric_limits<float>::infinity();
-  Core::Input input{};
+  Core::Input input;  // not zeroed: every field is set
   input.setpoint = to_core(setpoint_.q);
   input.setpoint_age = has_setpoint_ ? seconds(now - setpoint_time_) : kNever;
   std::transform(wrench_.wrench.begin(), wrench_.wrench.end(), input.wrench.data(),

@@ -86,6 +86,8 @@ class Node {
   bool receive(const SetpointMessage& message, Source source, std::int64_t now);
   bool receive(const WrenchMessage& message, Source source, std::int64_t now);
   void set_link(const LinkState& link) { link_ = link; }
+  /// To set it where it stands, without a copy.
+  LinkState* link_state() { return &link_; }
 
   /// True once after a reset was asked for: who moves messages then forgets conflicts.
   bool take_reset() { return std::exchange(reset_requested_, false); }

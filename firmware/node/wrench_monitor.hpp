@@ -36,7 +36,8 @@ class WrenchMonitor {
   std::uint32_t implausible_samples() const { return implausible_samples_; }
 
  private:
-  bool is_plausible(const std::array<double, 6>& wrench, std::int64_t now) const;
+  double largest_change(const std::array<double, 6>& wrench, std::size_t first) const;
+  bool is_plausible(double force_change, double moment_change, std::int64_t now) const;
 
   WrenchMonitorConfig config_;
   std::array<double, 6> last_{};

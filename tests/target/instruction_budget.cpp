@@ -312,7 +312,7 @@ class WholeTick {
     });
     CorrectedMessage corrected;
     parts.tick = counter_.count([&] {
-      bus_.node.set_link(bus_.link.state());
+      bus_.link.report(bus_.node.link_state());
       corrected = bus_.node.tick(bus_.now);
     });
     parts.encode = counter_.count([&] {

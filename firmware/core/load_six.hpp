@@ -1,0 +1,42 @@
+#pragma once
+
+namespace flexcomp {
+
+/// Six floats that follow each other, by one instruction on a Cortex-M7, whose compiler takes one
+/// for each. It fills registers in a row, so that they are named here: `Bank` is 0, 1 or 2, for
+/// sixes that are wanted at the same time.
+#if defined(__ARM_ARCH_7EM__) && defined(__ARM_FP)
+#define FLEXCOMP_LOAD_SIX(A, B, C, D, E, F)                          \
+  register float a asm(A);                                           \
+  register float b asm(B);                                           \
+  register float c asm(C);                                           \
+  register float d asm(D);                                           \
+  register float e asm(E);                                           \
+  register float f asm(F);                                           \
+  asm("vldmia %6, {" A "-" F "}"                                     \
+      : "=t"(a), "=t"(b), "=t"(c), "=t"(d), "=t"(e), "=t"(f)         \
+      : "r"(from), "m"(*reinterpret_cast<const float(*)[6]>(from))); \
+  const float p = a, q = b, r = c, s = d, t = e, u = f;              \
+  to[0] = p, to[1] = q, to[2] = r, to[3] = s, to[4] = t, to[5] = u
+
+template <int Bank>
+[[gnu::always_inline]] inline void load_six(const float* from, float (&to)[6]) {
+  if constexpr (Bank == 0) {
+    FLEXCOMP_LOAD_SIX("s16", "s17", "s18", "s19", "s20", "s21");
+  } else if constexpr (Bank == 1) {
+    FLEXCOMP_LOAD_SIX("s22", "s23", "s24", "s25", "s26", "s27");
+  } else {
+    FLEXCOMP_LOAD_SIX("s8", "s9", "s10", "s11", "s12", "s13");
+  }
+}
+#undef FLEXCOMP_LOAD_SIX
+#else
+template <int Bank>
+[[gnu::always_inline]] inline void load_six(const float* from, float (&to)[6]) {
+  for (int i = 0; i < 6; ++i) {
+    to[i] = from[i];
+  }
+}
+#endif
+
+}  // namespace flexcomp
