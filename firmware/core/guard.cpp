@@ -56,13 +56,12 @@ template <typename Scalar, typename L, typename Lane = typename L::Lane>
                                                Lane last_step) {
   const Lane length = L::magnitude(way);
   const Lane planned = largest_change * kPlanned<Scalar>;
-#ifdef __ARM_FEATURE_NUMERIC_MAXMIN
+#ifdef FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
   // One branch: the sign of a difference is exact, and with such a target none of them is a number.
-  const Lane beyond =
-      L::larger(L::larger(length - planned, length - largest_step),
-                L::larger(L::magnitude(target) - largest_value,
-                          L::larger((last_step - largest_change) - way,
-                                    way - (last_step + largest_change))));
+  const Lane beyond = L::larger(
+      L::larger(length - planned, length - largest_step),
+      L::larger(L::magnitude(target) - largest_value,
+                L::larger((last_step - largest_change) - way, way - (last_step + largest_change))));
   return L::all(beyond <= Scalar(0));
 #else
   return L::all(length <= planned) &&
@@ -84,8 +83,7 @@ template <typename Scalar, typename L, typename Lane = typename L::Lane>
   };
   // Ordinary machining: no limit is near, and all that follows would come to this.
   const Lane way = target - value;
-  if (is_ordinary<Scalar, L>(largest_value, largest_step, largest_change, target, way,
-                             last_step)) {
+  if (is_ordinary<Scalar, L>(largest_value, largest_step, largest_change, target, way, last_step)) {
     constexpr typename L::Truth kNone{};
     return {target, way, kNone, kNone};
   }

@@ -2,9 +2,9 @@
 
 namespace flexcomp {
 
-/// Six floats that follow each other, by one instruction on a Cortex-M7, whose compiler takes one
-/// for each. It fills registers in a row, so that they are named here: `Bank` is 0, 1 or 2, for
-/// sixes that are wanted at the same time.
+/// Six floats that follow each other, by one instruction on a Cortex-M7, whose compiler takes six.
+/// It fills registers in a row, so that they are named here: `Bank` is 0, 1 or 2, for sixes that
+/// are wanted at the same time.
 #if defined(__ARM_ARCH_7EM__) && defined(__ARM_FP)
 #define FLEXCOMP_LOAD_SIX(A, B, C, D, E, F)                          \
   register float a asm(A);                                           \
@@ -30,9 +30,28 @@ template <int Bank>
   }
 }
 #undef FLEXCOMP_LOAD_SIX
+
+/// The other way, from the registers of bank 2.
+[[gnu::always_inline]] inline void store_six(const float (&from)[6], float* to) {
+  register float a asm("s8") = from[0];
+  register float b asm("s9") = from[1];
+  register float c asm("s10") = from[2];
+  register float d asm("s11") = from[3];
+  register float e asm("s12") = from[4];
+  register float f asm("s13") = from[5];
+  asm("vstmia %1, {s8-s13}"
+      : "=m"(*reinterpret_cast<float(*)[6]>(to))
+      : "r"(to), "t"(a), "t"(b), "t"(c), "t"(d), "t"(e), "t"(f));
+}
 #else
 template <int Bank>
 [[gnu::always_inline]] inline void load_six(const float* from, float (&to)[6]) {
+  for (int i = 0; i < 6; ++i) {
+    to[i] = from[i];
+  }
+}
+
+inline void store_six(const float (&from)[6], float* to) {
   for (int i = 0; i < 6; ++i) {
     to[i] = from[i];
   }

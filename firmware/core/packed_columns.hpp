@@ -17,8 +17,8 @@ class PackedColumns {
     return PackedColumns(from, to, t);
   }
 
-  /// f(Aᵀ b), and A f(Aᵀ b). `f` maps a lane of the six, by its number, to one. One column after the
-  /// other: none has to wait in memory for the second product.
+  /// f(Aᵀ b), and A f(Aᵀ b). `f` maps a lane of the six, by its number, to one. One column after
+  /// the other: none has to wait in memory for the second product.
   template <typename Function>
   Six product_of(const Six& b, const Function& f, Six* mapped) const {
     Six sum;

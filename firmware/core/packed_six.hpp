@@ -25,12 +25,18 @@ class PackedSix {
   using Numbers = Eigen::Matrix<Scalar, 6, 1>;
 
   PackedSix() = default;
-  [[gnu::always_inline]] explicit PackedSix(const Numbers& numbers) {
+  [[gnu::always_inline]] explicit PackedSix(const Numbers& numbers) : PackedSix(read<2>(numbers)) {}
+
+  /// The same, from another bank of registers (load_six.hpp).
+  template <int Bank>
+  [[gnu::always_inline]] static PackedSix read(const Numbers& numbers) {
+    PackedSix six;
     if constexpr (std::is_same_v<Lane, float>) {
-      load_six<2>(numbers.data(), lanes_);
+      load_six<Bank>(numbers.data(), six.lanes_);
     } else {
-      each([&](std::size_t i) { lanes_[i] = L::load(numbers.data(), i); });
+      each([&](std::size_t i) { six.lanes_[i] = L::load(numbers.data(), i); });
     }
+    return six;
   }
 
   /// The numbers of a table's record.
@@ -54,6 +60,15 @@ class PackedSix {
     Numbers numbers;
     each([&](std::size_t i) { L::store(lanes_[i], i, numbers.data()); });
     return numbers;
+  }
+
+  /// The same, into what is there.
+  [[gnu::always_inline]] void store(Numbers* numbers) const {
+    if constexpr (std::is_same_v<Lane, float>) {
+      store_six(lanes_, numbers->data());
+    } else {
+      each([&](std::size_t i) { L::store(lanes_[i], i, numbers->data()); });
+    }
   }
 
   friend PackedSix operator+(const PackedSix& a, const PackedSix& b) {

@@ -379,9 +379,8 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
     return L::load(spring, lane) * torque + L::load(cubic, lane) * torque * (torque * torque);
   };
   Six windup;
-  Six deflection =
-      PackedColumns<Scalar>::blend(from + kPath.jacobian, to + kPath.jacobian, find.t)
-          .product_of(Six(wrench), windup_of, &windup);
+  Six deflection = PackedColumns<Scalar>::blend(from + kPath.jacobian, to + kPath.jacobian, find.t)
+                       .product_of(Six(wrench), windup_of, &windup);
   TableResponse<Scalar, Joints> response;
   response.deflection = deflection.numbers();
   response.correction = (-windup).numbers();
@@ -433,7 +432,7 @@ void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCurso
   template TableResponse<Scalar, Joints> respond_on_path(                                    \
       const Table&, const JointVector<Scalar, Joints>&, const Wrench<Scalar>&, TableCursor*, \
       Scalar*);                                                                              \
-  template Scalar track(const Table&, const JointVector<Scalar, Joints>&, TableCursor*);        \
+  template Scalar track(const Table&, const JointVector<Scalar, Joints>&, TableCursor*);     \
   template void locate(const Table&, const JointVector<Scalar, Joints>&, TableCursor*);
 // NOLINTEND(bugprone-macro-parentheses)
 FLEXCOMP_INSTANTIATE(FLEXCOMP_PATH_CHART)

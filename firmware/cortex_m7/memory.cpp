@@ -10,8 +10,8 @@ struct Words4 {
   std::uint32_t word[4];
 };
 
-/// Where it lies at no multiple of its size: the processor loads and stores words anywhere, but only
-/// one at a time.
+/// Where it lies at no multiple of its size: the processor loads and stores words anywhere, but
+/// only one at a time.
 struct [[gnu::packed]] WordAnywhere {
   std::uint32_t word;
 };

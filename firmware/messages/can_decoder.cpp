@@ -33,9 +33,9 @@ std::uint32_t digest(const std::uint8_t* parts, std::size_t count) {
 }
 
 bool is_intact(const CanFrame& frame, const FrameLayout& layout) {
-  return layout.parts > 1 ? frame.data[0] == classic_checksum(layout.crc_of_identifier,
-                                                              frame.data.data())
-                          : is_intact(frame);
+  return layout.parts > 1
+             ? frame.data[0] == classic_checksum(layout.crc_of_identifier, frame.data.data())
+             : is_intact(frame);
 }
 
 /// Which counters a group has.
@@ -97,8 +97,7 @@ WholeMessage CanDecoder::take(const CanFrame& frame, std::int64_t now) {
   if (layout->parts > 1) {
     return {layout->group, add_part(*layout, frame, now)};
   }
-  const bool is_used =
-      monitor(layout->group).accept(counter_of(frame), digest(frame), now);
+  const bool is_used = monitor(layout->group).accept(counter_of(frame), digest(frame), now);
   return {layout->group, is_used ? frame.data.data() : nullptr};
 }
 

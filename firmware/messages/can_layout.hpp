@@ -30,8 +30,8 @@ struct FrameLayout {
   std::uint8_t size;
   bool fd;
   FrameGroup group;
-  std::uint8_t part;   ///< place in its group, from 0
-  std::uint8_t parts;  ///< frames in the group
+  std::uint8_t part;               ///< place in its group, from 0
+  std::uint8_t parts;              ///< frames in the group
   std::uint8_t crc_of_identifier;  ///< classic: what the checksum goes on from
 };
 

@@ -46,7 +46,17 @@ constexpr std::uint8_t crc8_of_identifier(std::uint32_t id) {
   return kCrc8[low ^ (id >> 8 & 0xFFU)];
 }
 
-/// The checksum of a classic frame of 8 bytes, as nearly all are.
+/// The checksum of a classic frame of 8 bytes, as nearly all are, given as two words.
+inline std::uint8_t classic_checksum(std::uint8_t crc_of_identifier, std::uint32_t first,
+                                     std::uint32_t second) {
+  std::uint32_t crc = kCrc8[crc_of_identifier ^ (first >> 8 & 0xFFU)];
+  crc = kCrc8[crc ^ (first >> 16 & 0xFFU)];
+  crc = kCrc8[crc ^ first >> 24];
+  crc = kCrc8[(crc ^ second) & 0xFFU];
+  crc = kCrc8[crc ^ (second >> 8 & 0xFFU)];
+  crc = kCrc8[crc ^ (second >> 16 & 0xFFU)];
+  return static_cast<std::uint8_t>(~kCrc8[crc ^ second >> 24]);
+}
 inline std::uint8_t classic_checksum(std::uint8_t crc_of_identifier, const std::uint8_t* data) {
   std::uint8_t crc = crc_of_identifier;
 #pragma GCC unroll 7

@@ -15,9 +15,12 @@ StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
 
 bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
   const WholeMessage whole = decoder_.take(frame, now);
-  if (whole.payloads == nullptr) {
-    return false;  // most frames are a part of a message
-  }
+  // Most frames are a part of a message.
+  return whole.payloads != nullptr && deliver(whole, frame.fd, node, now);
+}
+
+[[gnu::noinline]] bool CanLink::deliver(const WholeMessage& whole, bool fd, Node* node,
+                                        std::int64_t now) {
   // What comes every cycle goes its own way, and is not made a `Message` of.
   if (whole.group == kClassicGroup<SetpointMessage>) {
     return node->receive(can::unpack<can::Classic<SetpointMessage>>(whole.payloads),
@@ -36,7 +39,7 @@ bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
     node->receive(can::unpack<can::Fd<WrenchMessage>>(whole.payloads), Source::can_fd, now);
     return false;
   }
-  const Source source = frame.fd ? Source::can_fd : Source::can_classic;
+  const Source source = fd ? Source::can_fd : Source::can_classic;
   node->receive(CanDecoder::message(whole), source, now);
   return false;
 }

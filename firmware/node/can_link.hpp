@@ -28,6 +28,8 @@ class CanLink {
   void forget_conflicts();
 
  private:
+  static bool deliver(const WholeMessage& whole, bool fd, Node* node, std::int64_t now);
+
   CanDecoder decoder_;
   CanEncoder encoder_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "node/node_settings.hpp"
 #include "node/seconds.hpp"
@@ -136,37 +137,47 @@ void Node::announce(std::uint16_t code, std::uint32_t detail) {
   post(FaultMessage{code, true, detail});
 }
 
-void Node::post(const Message& message) {
-  if (!has_room(message)) {
+template <typename SomeMessage>
+void Node::post(const SomeMessage& message) {
+  if (!has_room<SomeMessage>()) {
     return;  // nobody takes them: the oldest are the ones that explain how it began
   }
   queue_[(queue_begin_ + queue_size_++) % kQueue] = message;
 }
 
 /// Few answers wait: else whoever asks much would crowd out what the node says by itself.
-bool Node::has_room(const Message& message) const {
+template <typename SomeMessage>
+bool Node::has_room() const {
   constexpr std::size_t kMostAnswers = 8;  // of a kind
+  constexpr bool kIsAnswer = std::is_same_v<SomeMessage, CommandReplyMessage> ||
+                             std::is_same_v<SomeMessage, TransferReplyMessage>;
   if (queue_size_ == kQueue) {
     return false;
   }
-  const bool is_answer = std::holds_alternative<CommandReplyMessage>(message) ||
-                         std::holds_alternative<TransferReplyMessage>(message);
   std::size_t alike = 0;
-  for (std::size_t i = 0; is_answer && i < queue_size_; ++i) {
+  for (std::size_t i = 0; kIsAnswer && i < queue_size_; ++i) {
     const Message& waiting = queue_[(queue_begin_ + i) % kQueue];
-    alike += waiting.index() == message.index() ? 1U : 0U;
+    alike += std::holds_alternative<SomeMessage>(waiting) ? 1U : 0U;
   }
   return alike < kMostAnswers;
 }
 
 bool Node::next_message(Message* message) {
-  if (queue_size_ == 0) {
-    return false;
+  const Message* const next = next_message();
+  if (next != nullptr) {
+    *message = *next;
   }
-  *message = queue_[queue_begin_];
+  return next != nullptr;
+}
+
+const Message* Node::next_message() {
+  if (queue_size_ == 0) {
+    return nullptr;
+  }
+  const Message* const next = &queue_[queue_begin_];
   queue_begin_ = (queue_begin_ + 1) % kQueue;
   --queue_size_;
-  return true;
+  return next;
 }
 
 bool Node::receive(const Message& message, Source source, std::int64_t now) {
@@ -282,9 +293,7 @@ void Node::receive_one(const TransferEndMessage& message) {
   }
 }
 
-void Node::receive_one(const CorrectedMessage& /*message*/) {
-  sticky_ |= kOtherNode;
-}
+void Node::receive_one(const CorrectedMessage& /*message*/) { sticky_ |= kOtherNode; }
 
 /// Ignores what others say to each other.
 template <typename Other>
@@ -397,9 +406,13 @@ void Node::announce_refusals(std::int64_t now) {
 void Node::announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
                             std::uint32_t* inhibited) {
   const std::uint32_t changed = (bits ^ *announced) & ~*inhibited;
-  if (changed == 0) {
-    return;
+  if (changed != 0) {
+    announce_each(bits, changed, announced, base, inhibited);
   }
+}
+
+void Node::announce_each(std::uint32_t bits, std::uint32_t changed, std::uint32_t* announced,
+                         std::uint16_t base, std::uint32_t* inhibited) {
   for (std::uint16_t i = 0; i < 16; ++i) {
     const std::uint32_t bit = 1U << i;
     if ((changed & bit) != 0 && queue_size_ < kQueue) {

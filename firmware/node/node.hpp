@@ -103,6 +103,8 @@ class Node {
   /// replies to commands and eight to transfers wait at a time, and more are not given, so that
   /// heartbeats and faults have room however much is asked.
   bool next_message(Message* message);
+  /// The same where it stands, until the node is asked for anything else; null if there is none.
+  const Message* next_message();
 
   /// Tells the bus of an event: a code of node_status.hpp and what belongs to it.
   void announce(std::uint16_t code, std::uint32_t detail);
@@ -136,8 +138,10 @@ class Node {
   Result put_to_use(const Table& table);
   void end_transfer(std::uint8_t result, std::size_t size);
   void reply(TransferStage stage, Reply result);
-  void post(const Message& message);
-  bool has_room(const Message& message) const;
+  template <typename SomeMessage>
+  void post(const SomeMessage& message);
+  template <typename SomeMessage>
+  bool has_room() const;
   Core::Input input(std::int64_t now) const;
   std::uint16_t judge(std::int64_t now);
   void check_period(std::int64_t now);
@@ -145,6 +149,8 @@ class Node {
   void announce_refusals(std::int64_t now);
   void announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
                         std::uint32_t* inhibited);
+  void announce_each(std::uint32_t bits, std::uint32_t changed, std::uint32_t* announced,
+                     std::uint16_t base, std::uint32_t* inhibited);
   void beat(const Core::Output& output);
 
   NodeConfig config_;

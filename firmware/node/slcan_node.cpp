@@ -11,7 +11,7 @@ namespace flexcomp {
 namespace {
 
 constexpr std::size_t kBytesAStep = 1024;
-constexpr int kMessagesATick = 4;  // beside the corrected setpoint
+constexpr int kMessagesATick = 2;  // beside the corrected setpoint
 constexpr std::uint32_t kLinesToRecover = 64;
 constexpr std::uint8_t kDone = '\r';
 constexpr std::uint8_t kError = '\a';
@@ -136,9 +136,10 @@ void SlcanNode::tick(std::int64_t now) {
   if (trial_.has_run() && counter_in_use_ > counter_run_.load(std::memory_order_relaxed)) {
     counter_run_.store(counter_in_use_, std::memory_order_relaxed);
   }
-  Message message;
-  for (int i = 0; i < kMessagesATick && node_.next_message(&message); ++i) {
-    send(message);
+  for (int i = 0; i < kMessagesATick; ++i) {
+    if (const Message* const message = node_.next_message()) {
+      send(*message);
+    }
   }
 }
 

@@ -199,8 +199,8 @@ struct TableResponse {
 template <typename Scalar, int Joints>
 void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
 
-/// Moves the cursor as a look-up does, without reading what is there; returns `outside` of it (rad).
-/// For who will look up later and is on the program already. Grid tables need no cursor: 0.
+/// Moves the cursor as a look-up does, without reading what is there; returns `outside` of it
+/// (rad). For who will look up later and is on the program already. Grid tables need no cursor: 0.
 template <typename Scalar, int Joints>
 Scalar track(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
 

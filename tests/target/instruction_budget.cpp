@@ -317,9 +317,10 @@ class WholeTick {
     });
     parts.encode = counter_.count([&] {
       encoder_.encode(corrected);
-      Message message;
-      for (int i = 0; i < 4 && bus_.node.next_message(&message); ++i) {
-        encoder_.encode(message);
+      for (int i = 0; i < 2; ++i) {
+        if (const Message* const message = bus_.node.next_message()) {
+          encoder_.encode(*message);
+        }
       }
     });
     return parts;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -39,13 +38,14 @@ struct Frame {
   static constexpr bool kFd = Size > 8;  // none of flexcomp.dbc is FD and shorter
 
   /// Of a processor whose words begin with their low byte, as all are that this runs on.
-  static void pack(const Raw& raw, std::uint8_t* data) {
-    std::array<std::uint32_t, Size / sizeof(std::uint32_t)> words;
+  using Payload = std::array<std::uint32_t, Size / sizeof(std::uint32_t)>;
+  static Payload pack(const Raw& raw) {
+    Payload words;
     Words<Raw>::pack(raw, words.data());
-    std::memcpy(data, words.data(), Size);
+    return words;
   }
   static Raw unpack(const std::uint8_t* data) {
-    std::array<std::uint32_t, Size / sizeof(std::uint32_t)> words;
+    Payload words;
     std::memcpy(words.data(), data, Size);
     Raw raw{};
     Words<Raw>::unpack(words.data(), &raw);
@@ -75,11 +75,15 @@ struct FrameSet {
   }
 };
 
+template <typename Format, typename... Frames, std::size_t... Place>
+auto unpack(const std::uint8_t* payloads, const FrameSet<Frames...>& /*format*/,
+            std::index_sequence<Place...> /*places*/) {
+  return Format::unpack(Frames::unpack(payloads + 8 * Place)...);
+}
+
 template <typename Format, typename... Frames>
-auto unpack(const std::uint8_t* payloads, const FrameSet<Frames...>& /*format*/) {
-  const std::tuple<typename Frames::Raw...> raws{
-      Frames::unpack(std::exchange(payloads, payloads + Frames::kSize))...};
-  return std::apply(Format::unpack, raws);
+auto unpack(const std::uint8_t* payloads, const FrameSet<Frames...>& format) {
+  return unpack<Format>(payloads, format, std::index_sequence_for<Frames...>());
 }
 
 /// The message in the payloads of its frames, which lie one after the other.
