@@ -24,10 +24,10 @@ class PackedColumns {
     Six sum;
 #pragma GCC unroll 6
     for (std::size_t i = 0; i < 6; ++i) {
-      const Six column = Six::blend(from_ + 6 * i, to_ + 6 * i, t_);
+      Six column = Six::blend(from_ + 6 * i, to_ + 6 * i, t_);
       const Lane factor = f(i, column.dot(b));
       mapped->lanes_[i] = factor;
-      sum = sum + factor * column;
+      sum = i > 0 ? sum + factor * column : factor * column;
     }
     return sum;
   }

@@ -112,7 +112,7 @@ class PackedSix {
     each([&](std::size_t i) {
       if (i > 0) {
         const Lane magnitude = L::magnitude(lanes_[i]);
-        largest = L::choose(magnitude > largest, magnitude, largest);
+        largest = larger(magnitude, largest);
         sum += magnitude;
       }
     });
@@ -134,6 +134,14 @@ class PackedSix {
 #endif
 
  private:
+  /// Of two magnitudes; where one is not a number, either.
+  [[gnu::always_inline]] static Lane larger(Lane a, Lane b) {
+#ifdef FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
+    return L::larger(a, b);
+#else
+    return L::choose(a > b, a, b);
+#endif
+  }
   template <typename Visit, std::size_t... I>
   [[gnu::always_inline]] static void each(const Visit& visit, std::index_sequence<I...> /*all*/) {
     (visit(I), ...);

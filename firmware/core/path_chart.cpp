@@ -382,8 +382,8 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
   Six deflection = PackedColumns<Scalar>::blend(from + kPath.jacobian, to + kPath.jacobian, find.t)
                        .product_of(Six(wrench), windup_of, &windup);
   TableResponse<Scalar, Joints> response;
-  response.deflection = deflection.numbers();
-  response.correction = (-windup).numbers();
+  deflection.store(&response.deflection);
+  (-windup).store(&response.correction);
   if (table.has_structure()) {
     add_structure<Scalar, Joints>(from, to, record_layout(table), find.t, wrench, &response);
   }

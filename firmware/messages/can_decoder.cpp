@@ -39,17 +39,18 @@ bool is_intact(const CanFrame& frame, const FrameLayout& layout) {
 }
 
 /// Which counters a group has.
-struct Stream {
+struct Counting {
   std::uint32_t modulus;
   bool may_restart;
 };
 
 template <typename... Formats>
-constexpr std::array<Stream, kFrameGroups> streams_of(const std::tuple<Formats...>& /*formats*/) {
+constexpr std::array<Counting, kFrameGroups> countings_of(
+    const std::tuple<Formats...>& /*formats*/) {
   return {{{Formats::kFd ? kFdCounter : kClassicCounter, Formats::kMayRestart}...}};
 }
 
-constexpr std::array<Stream, kFrameGroups> kStreams = streams_of(can::Formats());
+constexpr std::array<Counting, kFrameGroups> kCountings = countings_of(can::Formats());
 
 // All in one function, on the way of every message: some instructions less.
 template <typename Format>
@@ -70,8 +71,8 @@ constexpr std::array<Unpack, kFrameGroups> kUnpack = unpacks_of(can::Formats());
 
 CanDecoder::CanDecoder(std::uint32_t tolerated) {
   for (std::size_t group = 0; group < kFrameGroups; ++group) {
-    monitors_[group] =
-        SequenceMonitor(kStreams[group].modulus, tolerated, kStreams[group].may_restart);
+    streams_[group].monitor =
+        SequenceMonitor(kCountings[group].modulus, tolerated, kCountings[group].may_restart);
   }
 }
 
@@ -90,23 +91,24 @@ WholeMessage CanDecoder::take(const CanFrame& frame, std::int64_t now) {
     ++foreign_frames_;
     return {};
   }
+  Stream& stream = streams_[static_cast<std::size_t>(layout->group)];
   if (frame.size != layout->size || frame.fd != layout->fd || !is_intact(frame, *layout)) {
-    ++monitor(layout->group).counters.corrupt;
+    ++stream.monitor.counters.corrupt;
     return {};
   }
   if (layout->parts > 1) {
-    return {layout->group, add_part(*layout, frame, now)};
+    return {layout->group, add_part(*layout, frame, now, &stream)};
   }
-  const bool is_used = monitor(layout->group).accept(counter_of(frame), digest(frame), now);
+  const bool is_used = stream.monitor.accept(counter_of(frame), digest(frame), now);
   return {layout->group, is_used ? frame.data.data() : nullptr};
 }
 
 /// The payloads of a set that this part makes whole, or null.
 const std::uint8_t* CanDecoder::add_part(const FrameLayout& layout, const CanFrame& frame,
-                                         std::int64_t now) {
-  SequenceMonitor& stream = monitor(layout.group);
-  Set& set = sets_[static_cast<std::size_t>(layout.group)];
-  const std::uint32_t counter = counter_of(frame);
+                                         std::int64_t now, Stream* whole) {
+  SequenceMonitor& stream = whole->monitor;
+  Set& set = whole->set;
+  const std::uint32_t counter = frame.data[1] & (kClassicCounter - 1);
   const bool counts = layout.part == 0;  // a set that is dropped is dropped once
   const std::size_t place = std::size_t{8} * layout.part;
 
@@ -132,8 +134,8 @@ const std::uint8_t* CanDecoder::add_part(const FrameLayout& layout, const CanFra
   set.counter = counter;
   std::uint8_t* const payloads = set.payloads[set.next].data();
   std::memcpy(payloads + place, frame.data.data(), 8);
-  set.received |= 1U << layout.part;
-  if (set.received != (1U << layout.parts) - 1U) {
+  set.received |= layout.part_bit;
+  if (set.received != layout.all_parts) {
     return nullptr;
   }
   set.received = 0;

@@ -30,9 +30,11 @@ class CanDecoder {
   WholeMessage take(const CanFrame& frame, std::int64_t now);
   static Message message(const WholeMessage& whole);
 
-  SequenceMonitor& monitor(FrameGroup group) { return monitors_[static_cast<std::size_t>(group)]; }
+  SequenceMonitor& monitor(FrameGroup group) {
+    return streams_[static_cast<std::size_t>(group)].monitor;
+  }
   const SequenceMonitor& monitor(FrameGroup group) const {
-    return monitors_[static_cast<std::size_t>(group)];
+    return streams_[static_cast<std::size_t>(group)].monitor;
   }
 
   /// Frames with an identifier that is not in flexcomp.dbc.
@@ -51,10 +53,15 @@ class CanDecoder {
   };
   static_assert(kMaxFrameParts <= 8, "a bit a part");
 
-  const std::uint8_t* add_part(const FrameLayout& layout, const CanFrame& frame, std::int64_t now);
+  struct Stream {
+    SequenceMonitor monitor;
+    Set set;
+  };
 
-  std::array<SequenceMonitor, kFrameGroups> monitors_;
-  std::array<Set, kFrameGroups> sets_{};
+  static const std::uint8_t* add_part(const FrameLayout& layout, const CanFrame& frame,
+                                      std::int64_t now, Stream* stream);
+
+  std::array<Stream, kFrameGroups> streams_;
   std::uint32_t foreign_frames_ = 0;
 };
 

@@ -23,8 +23,9 @@ std::uint8_t number(Result result) { return static_cast<std::uint8_t>(result); }
 
 std::uint8_t number(Reply reply) { return static_cast<std::uint8_t>(reply); }
 
-JointVector<float, 6> to_core(const JointAngles& q) {
-  return Eigen::Map<const JointVector<double, 6>>(q.data()).cast<float>();
+/// Joint angles, or a wrench.
+JointVector<float, 6> to_core(const std::array<double, 6>& numbers) {
+  return Eigen::Map<const JointVector<double, 6>>(numbers.data()).cast<float>();
 }
 
 JointAngles from_core(const JointVector<float, 6>& angles) {
@@ -343,8 +344,7 @@ Node::Core::Input Node::input(std::int64_t now) const {
   Core::Input input;  // not zeroed: every field is set
   input.setpoint = to_core(setpoint_.q);
   input.setpoint_age = has_setpoint_ ? seconds(now - setpoint_time_) : kNever;
-  std::transform(wrench_.wrench.begin(), wrench_.wrench.end(), input.wrench.data(),
-                 [](double x) { return static_cast<float>(x); });
+  input.wrench = to_core(wrench_.wrench);
   input.wrench_age = has_wrench_ ? seconds(now - wrench_time_) : kNever;
   if (!has_setpoint_) {
     input.setpoint.setConstant(std::numeric_limits<float>::quiet_NaN());
@@ -403,8 +403,10 @@ void Node::announce_refusals(std::int64_t now) {
 
 /// Posts what began or ended, a bit at most once between two heartbeats: a fault that flickers must
 /// not fill the bus. What the queue has no room for is posted later.
-void Node::announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
-                            std::uint32_t* inhibited) {
+[[gnu::always_inline]] inline void Node::announce_changes(std::uint32_t bits,
+                                                          std::uint32_t* announced,
+                                                          std::uint16_t base,
+                                                          std::uint32_t* inhibited) {
   const std::uint32_t changed = (bits ^ *announced) & ~*inhibited;
   if (changed != 0) {
     announce_each(bits, changed, announced, base, inhibited);

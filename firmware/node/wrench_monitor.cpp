@@ -26,13 +26,8 @@ bool WrenchMonitor::accept(const WrenchMessage& message, std::int64_t now) {
     return false;
   }
   // A number that is not finite goes on to the compensator, which names it, but measures no change.
-  std::array<double, 6> wrench = message.wrench;
-  const bool finite = are_finite(wrench);
-  if (!finite) {
-    for (std::size_t i = 0; i < wrench.size(); ++i) {
-      wrench[i] = std::isfinite(wrench[i]) ? wrench[i] : last_[i];
-    }
-  }
+  const bool finite = are_finite(message.wrench);
+  const std::array<double, 6>& wrench = finite ? message.wrench : finite_part(message.wrench);
   const double force_change = largest_change(wrench, 0);
   const double moment_change = largest_change(wrench, 3);
   implausible_ = has_last_ && !is_plausible(force_change, moment_change, now);
@@ -49,6 +44,15 @@ bool WrenchMonitor::accept(const WrenchMessage& message, std::int64_t now) {
   has_last_ = true;
   used_at_ = now;
   return true;
+}
+
+/// With what was last in the place of what is not finite.
+[[gnu::noinline]] const std::array<double, 6>& WrenchMonitor::finite_part(
+    const std::array<double, 6>& wrench) {
+  for (std::size_t i = 0; i < wrench.size(); ++i) {
+    finite_[i] = std::isfinite(wrench[i]) ? wrench[i] : last_[i];
+  }
+  return finite_;
 }
 
 /// Of the force (`first` 0) or the moment (3).
