@@ -12,19 +12,11 @@ namespace {
 constexpr std::uint32_t kClassicCounter = 16;
 constexpr std::uint32_t kFdCounter = 256;
 
-/// FNV-1a: tells contents apart, no more.
-std::uint32_t digest(const CanFrame& frame) {
-  std::uint32_t hash = 2166136261U;
-  for (std::size_t i = 0; i < frame.size; ++i) {
-    hash = (hash ^ frame.data[i]) * 16777619U;
-  }
-  return hash;
-}
-
-/// The same of a set of classic frames, a word at a time: this is on the way of every setpoint.
-std::uint32_t digest(const std::uint8_t* parts, std::size_t count) {
+/// Tells contents apart, no more. A word at a time: this is on the way of every setpoint. `size`:
+/// whole words.
+std::uint32_t digest(const std::uint8_t* payloads, std::size_t size) {
   std::uint32_t hash = 0;
-  for (const std::uint8_t* at = parts; at < parts + 8 * count; at += sizeof hash) {
+  for (const std::uint8_t* at = payloads; at < payloads + size; at += sizeof hash) {
     std::uint32_t word = 0;
     std::memcpy(&word, at, sizeof word);
     hash = (hash << 7 | hash >> 25) ^ word;
@@ -99,7 +91,8 @@ WholeMessage CanDecoder::take(const CanFrame& frame, std::int64_t now) {
   if (layout->parts > 1) {
     return {layout->group, add_part(*layout, frame, now, &stream)};
   }
-  const bool is_used = stream.monitor.accept(counter_of(frame), digest(frame), now);
+  const bool is_used =
+      stream.monitor.accept(counter_of(frame), digest(frame.data.data(), frame.size), now);
   return {layout->group, is_used ? frame.data.data() : nullptr};
 }
 
@@ -139,7 +132,7 @@ const std::uint8_t* CanDecoder::add_part(const FrameLayout& layout, const CanFra
     return nullptr;
   }
   set.received = 0;
-  if (!stream.accept(counter, digest(payloads, layout.parts), now)) {
+  if (!stream.accept(counter, digest(payloads, std::size_t{8} * layout.parts), now)) {
     return nullptr;
   }
   set.next = 1 - set.next;

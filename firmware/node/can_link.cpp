@@ -13,6 +13,21 @@ StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
           a.incomplete + b.incomplete};
 }
 
+namespace {
+
+/// Of both formats of a stream, one of which is idle as a rule.
+void add_up(const SequenceMonitor& a, const SequenceMonitor& b, StreamCounters* sum) {
+  if (!b.has_counted()) {
+    *sum = a.counters;
+  } else if (!a.has_counted()) {
+    *sum = b.counters;
+  } else {
+    *sum = a.counters + b.counters;
+  }
+}
+
+}  // namespace
+
 bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
   const WholeMessage whole = decoder_.take(frame, now);
   // Most frames are a part of a message.
@@ -57,8 +72,8 @@ void CanLink::report(LinkState* state) const {
   const SequenceMonitor& wrench_fd = decoder_.monitor(kFdGroup<WrenchMessage>);
   state->setpoint_conflict = setpoint.has_conflict() || setpoint_fd.has_conflict();
   state->wrench_conflict = wrench.has_conflict() || wrench_fd.has_conflict();
-  state->setpoint = setpoint.counters + setpoint_fd.counters;
-  state->wrench = wrench.counters + wrench_fd.counters;
+  add_up(setpoint, setpoint_fd, &state->setpoint);
+  add_up(wrench, wrench_fd, &state->wrench);
   state->foreign_frames = decoder_.foreign_frames();
 }
 

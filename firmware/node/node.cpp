@@ -28,7 +28,8 @@ JointVector<float, 6> to_core(const std::array<double, 6>& numbers) {
   return Eigen::Map<const JointVector<double, 6>>(numbers.data()).cast<float>();
 }
 
-JointAngles from_core(const JointVector<float, 6>& angles) {
+template <typename Angles>
+JointAngles from_core(const Angles& angles) {
   return {angles[0], angles[1], angles[2], angles[3], angles[4], angles[5]};
 }
 

@@ -9,6 +9,7 @@
 
 #include "flexcomp_can_words.hpp"
 #include "messages/messages.hpp"
+#include "messages/microseconds.hpp"
 
 /// The files beside this one say for each message what it holds, in the words below. They take what
 /// cantools and words_of_dbc.py generate from flexcomp.dbc; checksums and counters are not their
@@ -137,7 +138,7 @@ inline float single(double value) { return static_cast<float>(value); }
 
 /// The low 32 bits of the sender's clock in µs; wraps after 71 min.
 inline std::uint32_t to_microseconds(std::int64_t nanoseconds) {
-  return static_cast<std::uint32_t>(nanoseconds / 1000);
+  return low_microseconds(nanoseconds);
 }
 
 inline std::int64_t from_microseconds(std::uint32_t time) { return std::int64_t{1000} * time; }
