@@ -267,7 +267,9 @@ std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
   using Six = PackedSix<Scalar>;
   const bool correcting = state_ != State::off && state_ != State::latched;
   Six aim = correcting ? fade_ * Six(aim_) : Six();
-  output->correction = guards_.advance(aim.numbers());
+  Angles targets;
+  aim.store(&targets);
+  output->correction = guards_.advance(targets);
   if (state_ == State::fading_out && fade_ == Scalar(0) && guards_.is_at_rest_at_zero()) {
     state_ = latched_faults_ != 0 ? State::latched : State::off;
   }

@@ -24,6 +24,9 @@ std::uint32_t digest(const std::uint8_t* payloads, std::size_t size) {
   return hash;
 }
 
+/// A set that is dropped is dropped once.
+bool is_counted(const FrameLayout& layout) { return layout.part == 0; }
+
 bool is_intact(const CanFrame& frame, const FrameLayout& layout) {
   return layout.parts > 1
              ? frame.data[0] == classic_checksum(layout.crc_of_identifier, frame.data.data())
@@ -102,31 +105,16 @@ const std::uint8_t* CanDecoder::add_part(const FrameLayout& layout, const CanFra
   SequenceMonitor& stream = whole->monitor;
   Set& set = whole->set;
   const std::uint32_t counter = frame.data[1] & (kClassicCounter - 1);
-  const bool counts = layout.part == 0;  // a set that is dropped is dropped once
-  const std::size_t place = std::size_t{8} * layout.part;
-
   if (stream.is_repetition(counter)) {
-    const bool same = std::equal(frame.data.begin(), frame.data.begin() + 8,
-                                 set.payloads[1 - set.next].begin() + place);
-    if (counts || !same) {
-      stream.drop_repetition(same, now);
-    }
+    drop_repeated_part(layout, frame, now, whole);
     return nullptr;
   }
-  if (set.received != 0 && counter != set.counter) {
-    const bool older = ((counter - set.counter) & (kClassicCounter - 1)) > kClassicCounter / 2;
-    if (older && stream.is_behind(counter)) {
-      if (counts) {
-        stream.drop_late();
-      }
-      return nullptr;
-    }
-    ++stream.counters.incomplete;
-    set.received = 0;
+  if (set.received != 0 && counter != set.counter && !begins_anew(layout, counter, whole)) {
+    return nullptr;
   }
   set.counter = counter;
   std::uint8_t* const payloads = set.payloads[set.next].data();
-  std::memcpy(payloads + place, frame.data.data(), 8);
+  std::memcpy(payloads + std::size_t{8} * layout.part, frame.data.data(), 8);
   set.received |= layout.part_bit;
   if (set.received != layout.all_parts) {
     return nullptr;
@@ -137,6 +125,36 @@ const std::uint8_t* CanDecoder::add_part(const FrameLayout& layout, const CanFra
   }
   set.next = 1 - set.next;
   return payloads;
+}
+
+// These two stand by themselves, so that they take no registers from what happens every time.
+
+[[gnu::noinline]] void CanDecoder::drop_repeated_part(const FrameLayout& layout,
+                                                      const CanFrame& frame, std::int64_t now,
+                                                      Stream* whole) {
+  const Set& set = whole->set;
+  const bool same = std::equal(frame.data.begin(), frame.data.begin() + 8,
+                               set.payloads[1 - set.next].begin() + std::size_t{8} * layout.part);
+  if (is_counted(layout) || !same) {
+    whole->monitor.drop_repetition(same, now);
+  }
+}
+
+/// Does a part with another counter than those that wait begin the next set? Else it is late.
+[[gnu::noinline]] bool CanDecoder::begins_anew(const FrameLayout& layout, std::uint32_t counter,
+                                               Stream* whole) {
+  Set& set = whole->set;
+  SequenceMonitor& stream = whole->monitor;
+  const bool older = ((counter - set.counter) & (kClassicCounter - 1)) > kClassicCounter / 2;
+  if (older && stream.is_behind(counter)) {
+    if (is_counted(layout)) {
+      stream.drop_late();
+    }
+    return false;
+  }
+  ++stream.counters.incomplete;
+  set.received = 0;
+  return true;
 }
 
 }  // namespace flexcomp
