@@ -99,8 +99,12 @@ struct SixGuards {
   for (std::size_t i = 0; i < 6; ++i) {
     way[i] = target[i] - a[i];
     const float length = L::magnitude(way[i]);
-    sum += length;
-    beyond = L::larger(beyond, length - b[i] * kPlanned<float>);
+    const float too_far = length - b[i] * kPlanned<float>;
+    sum = i > 0 ? sum + length : length;
+    beyond = i > 0 ? L::larger(beyond, too_far) : too_far;
+  }
+  if (!(beyond <= 0)) {
+    return false;  // as a rule where it is not ordinary: no more is lost than this
   }
   load_six<0>(guards.step, a);
 #pragma GCC unroll 6

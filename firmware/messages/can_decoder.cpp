@@ -28,9 +28,8 @@ std::uint32_t digest(const std::uint8_t* payloads, std::size_t size) {
 bool is_counted(const FrameLayout& layout) { return layout.part == 0; }
 
 bool is_intact(const CanFrame& frame, const FrameLayout& layout) {
-  return layout.parts > 1
-             ? frame.data[0] == classic_checksum(layout.crc_of_identifier, frame.data.data())
-             : is_intact(frame);
+  return layout.parts > 1 ? is_classic_intact(layout.crc_of_identifier, frame.data.data())
+                          : is_intact(frame);
 }
 
 /// Which counters a group has.

@@ -58,8 +58,8 @@ class CanDecoder {
     Set set;
   };
 
-  static void drop_repeated_part(const FrameLayout& layout, const CanFrame& frame,
-                                 std::int64_t now, Stream* whole);
+  static void drop_repeated_part(const FrameLayout& layout, const CanFrame& frame, std::int64_t now,
+                                 Stream* whole);
   static bool begins_anew(const FrameLayout& layout, std::uint32_t counter, Stream* whole);
   static const std::uint8_t* add_part(const FrameLayout& layout, const CanFrame& frame,
                                       std::int64_t now, Stream* stream);

@@ -10,17 +10,12 @@ constexpr std::size_t kFdChecksumBytes = 2;
 
 using Crc16Tables = std::array<std::array<std::uint16_t, 256>, 4>;
 
-std::uint8_t checksum_of_any_size(const CanFrame& frame) {
+std::uint8_t checksum_of_classic(const CanFrame& frame) {
   std::uint8_t crc = crc8_of_identifier(frame.id);
   for (std::size_t i = kClassicChecksumBytes; i < frame.size; ++i) {
     crc = kCrc8[crc ^ frame.data[i]];
   }
   return static_cast<std::uint8_t>(~crc);
-}
-
-std::uint8_t checksum_of_classic(const CanFrame& frame) {
-  return frame.size == 8 ? classic_checksum(crc8_of_identifier(frame.id), frame.data.data())
-                         : checksum_of_any_size(frame);
 }
 
 constexpr std::uint16_t swapped(unsigned value) {
@@ -94,7 +89,10 @@ bool is_intact(const CanFrame& frame) {
     return frame.size > kFdChecksumBytes &&
            (frame.data[0] | frame.data[1] << 8) == checksum_of_fd(frame);
   }
-  return frame.size > kClassicChecksumBytes && frame.size <= 8 &&
+  if (frame.size == 8) {
+    return is_classic_intact(crc8_of_identifier(frame.id), frame.data.data());
+  }
+  return frame.size > kClassicChecksumBytes && frame.size < 8 &&
          frame.data[0] == checksum_of_classic(frame);
 }
 

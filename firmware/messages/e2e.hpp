@@ -57,13 +57,14 @@ inline std::uint8_t classic_checksum(std::uint8_t crc_of_identifier, std::uint32
   crc = kCrc8[crc ^ (second >> 16 & 0xFFU)];
   return static_cast<std::uint8_t>(~kCrc8[crc ^ second >> 24]);
 }
-inline std::uint8_t classic_checksum(std::uint8_t crc_of_identifier, const std::uint8_t* data) {
+/// Does it fit the frame's first byte, which it stands in?
+inline bool is_classic_intact(std::uint8_t crc_of_identifier, const std::uint8_t* data) {
   std::uint8_t crc = crc_of_identifier;
 #pragma GCC unroll 7
   for (std::size_t i = 1; i < 8; ++i) {
     crc = kCrc8[crc ^ data[i]];
   }
-  return static_cast<std::uint8_t>(~crc);
+  return (crc ^ data[0]) == 0xFF;  // a checksum is the CRC inverted
 }
 
 }  // namespace flexcomp
