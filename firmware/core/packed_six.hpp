@@ -16,6 +16,9 @@ class PackedColumns;
 
 /// Six numbers, of a joint vector, a twist or a wrench, as a tick computes with them: in vector
 /// registers where the processor has them.
+///
+/// Those on the way of a tick are not `const`: what is constant and filled in place GCC 12 keeps in
+/// memory.
 template <typename Scalar>
 class PackedSix {
   using L = Lanes<Scalar>;
@@ -52,7 +55,7 @@ class PackedSix {
   }
   /// from + t (to - from), of two records.
   static PackedSix blend(const float* from, const float* to, Scalar t) {
-    PackedSix a = read(from);  // not const: GCC would keep it in memory
+    PackedSix a = read(from);
     return a + t * (read<1>(to) - a);
   }
 
@@ -134,7 +137,7 @@ class PackedSix {
 #endif
 
  private:
-  /// Of two magnitudes; where one is not a number, either.
+  /// The larger of two magnitudes; where one is not a number, either.
   [[gnu::always_inline]] static Lane larger(Lane a, Lane b) {
 #ifdef FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
     return L::larger(a, b);

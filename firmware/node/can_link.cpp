@@ -15,7 +15,7 @@ StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
 
 namespace {
 
-/// Of both formats of a stream, one of which is idle as a rule.
+/// Counts both formats of a stream together; one of them is idle as a rule.
 void add_up(const SequenceMonitor& a, const SequenceMonitor& b, StreamCounters* sum) {
   if (!b.has_counted()) {
     *sum = a.counters;
@@ -36,7 +36,7 @@ bool CanLink::receive(const CanFrame& frame, Node* node, std::int64_t now) {
 
 [[gnu::noinline]] bool CanLink::deliver(const WholeMessage& whole, bool fd, Node* node,
                                         std::int64_t now) {
-  // What comes every cycle goes its own way, and is not made a `Message` of.
+  // Setpoints and wrenches come every cycle: they go their own way, and are not made a `Message`.
   if (whole.group == kClassicGroup<SetpointMessage>) {
     return node->receive(can::unpack<can::Classic<SetpointMessage>>(whole.payloads),
                          Source::can_classic, now);

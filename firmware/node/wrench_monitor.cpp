@@ -55,7 +55,7 @@ bool WrenchMonitor::accept(const WrenchMessage& message, std::int64_t now) {
   return finite_;
 }
 
-/// Of the force (`first` 0) or the moment (3).
+/// The largest of the force (`first` 0) or of the moment (3).
 double WrenchMonitor::largest_change(const std::array<double, 6>& wrench, std::size_t first) const {
   const auto change = [&](std::size_t i) { return std::fabs(wrench[i] - last_[i]); };
   return std::max(std::max(change(first), change(first + 1)), change(first + 2));

@@ -138,7 +138,7 @@ void clocks_may_wrap() {
 void microseconds_are_those_of_a_division() {
   std::mt19937_64 random(1);
   for (int i = 0; i < 1'000'000; ++i) {
-    // Of every size, and about the ends of the digits.
+    // They are of every size, and about the ends of the digits.
     const auto any = static_cast<std::int64_t>(random()) >> (random() % 64);
     const std::int64_t near = (std::int64_t{1} << (random() % 63)) + i % 3 - 1;
     for (const std::int64_t time : {any, near, -near, 1000 * (any / 1000)}) {

@@ -38,7 +38,7 @@ struct Frame {
   static constexpr std::uint8_t kSize = Size;
   static constexpr bool kFd = Size > 8;  // none of flexcomp.dbc is FD and shorter
 
-  /// Of a processor whose words begin with their low byte, as all are that this runs on.
+  /// For processors whose words begin with their low byte, as all do that this runs on.
   using Payload = std::array<std::uint32_t, Size / sizeof(std::uint32_t)>;
   static Payload pack(const Raw& raw) {
     Payload words;
