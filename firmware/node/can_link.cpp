@@ -16,7 +16,8 @@ StreamCounters operator+(const StreamCounters& a, const StreamCounters& b) {
 namespace {
 
 /// Counts both formats of a stream together; one of them is idle as a rule.
-void add_up(const SequenceMonitor& a, const SequenceMonitor& b, StreamCounters* sum) {
+[[gnu::always_inline]] inline void add_up(const SequenceMonitor& a, const SequenceMonitor& b,
+                                          StreamCounters* sum) {
   if (!b.has_counted()) {
     *sum = a.counters;
   } else if (!a.has_counted()) {

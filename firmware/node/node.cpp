@@ -416,15 +416,15 @@ void Node::announce_refusals(std::int64_t now) {
 
 void Node::announce_each(std::uint32_t bits, std::uint32_t changed, std::uint32_t* announced,
                          std::uint16_t base, std::uint32_t* inhibited) {
-  for (std::uint16_t i = 0; i < 16; ++i) {
-    const std::uint32_t bit = 1U << i;
-    if ((changed & bit) != 0 && queue_size_ < kQueue) {
-      const bool began = (bits & bit) != 0;
-      post(FaultMessage{static_cast<std::uint16_t>(base + i), began, 0});
-      faults_ += began ? 1U : 0U;
-      *announced ^= bit;
-      *inhibited |= bit;
-    }
+  for (std::uint32_t left = changed & 0xFFFFU; left != 0 && queue_size_ < kQueue;
+       left &= left - 1U) {
+    const int place = __builtin_ctz(left);
+    const std::uint32_t bit = 1U << place;
+    const bool began = (bits & bit) != 0;
+    post(FaultMessage{static_cast<std::uint16_t>(base + place), began, 0});
+    faults_ += began ? 1U : 0U;
+    *announced ^= bit;
+    *inhibited |= bit;
   }
 }
 
