@@ -103,7 +103,9 @@ Result Compensator<Scalar, Joints>::arm() {
   if (state_ != State::off || good_ticks_ < config_.ready_ticks) {
     return Result::not_ready;
   }
-  locate<Scalar, Joints>(table_, setpoint_, &cursor_);
+  if (track<Scalar, Joints>(table_, setpoint_, &cursor_) > Scalar(0)) {
+    locate<Scalar, Joints>(table_, setpoint_, &cursor_);
+  }
   fade_ = 0;
   bad_excess_ = 0;
   aim_.setZero();
@@ -133,19 +135,19 @@ std::uint32_t Compensator<Scalar, Joints>::check_setpoint(const Input& input) co
   using Six = PackedSix<Scalar>;
   std::uint32_t faults =
       bit_if(!is_fresh(input.setpoint_age, config_.setpoint_age_limit), kSetpointStale);
-  const Six q(input.setpoint);
+  Six q(input.setpoint);
   if (!q.is_finite()) {
     return faults | kSetpointNotFinite;
   }
   if (table_.is_open()) {
-    const bool inside =
-        q.is_within(Six::read(table_.header().joint_lower), Six::read(table_.header().joint_upper));
+    const bool inside = q.is_within(Six::read(table_.header().joint_lower),
+                                    Six::template read<1>(table_.header().joint_upper));
     faults |= bit_if(!inside, kSetpointOutOfRange);
   }
   if (has_setpoint_) {
     // The last setpoint may have been old when it was used: that much more time has passed.
-    const Six reach = (config_.period + setpoint_age_) * Six(config_.joint_speed);
-    const Six step = q - Six(setpoint_);
+    Six step = q - Six::template read<1>(setpoint_);
+    Six reach = (config_.period + setpoint_age_) * Six::template read<0>(config_.joint_speed);
     faults |= bit_if(!step.is_within(-reach, reach), kSetpointJump);
   }
   return faults;
@@ -178,7 +180,7 @@ void Compensator<Scalar, Joints>::take_setpoint(const Input& input, std::uint32_
   if (usable) {
     // Written as the look-up reads it, in vector registers: what was written number by number would
     // have to leave the processor's store buffer first.
-    setpoint_ = PackedSix<Scalar>(input.setpoint).numbers();
+    PackedSix<Scalar>(input.setpoint).store(&setpoint_);
     has_setpoint_ = true;
   }
   const bool known_age =
@@ -190,8 +192,8 @@ template <typename Scalar, int Joints>
 void Compensator<Scalar, Joints>::filter(const Wrench<Scalar>& wrench) {
   using Six = PackedSix<Scalar>;
   if (has_wrench_) {
-    const Six last(wrench_);
-    wrench_ = (last + filter_share_ * (Six(wrench) - last)).numbers();
+    Six last = Six::template read<0>(wrench_);
+    (last + filter_share_ * (Six(wrench) - last)).store(&wrench_);
   } else {
     wrench_ = wrench;
     has_wrench_ = true;
@@ -223,7 +225,7 @@ std::uint32_t Compensator<Scalar, Joints>::aim(Output* output) {
     remarks |= kDeflectionLimited;
   }
   output->deflection = response.deflection;
-  aim_ = (scale * Six(response.correction)).numbers();
+  (scale * Six(response.correction)).store(&aim_);
   return remarks;
 }
 
@@ -264,8 +266,10 @@ template <typename Scalar, int Joints>
 std::uint32_t Compensator<Scalar, Joints>::move(Output* output) {
   using Six = PackedSix<Scalar>;
   const bool correcting = state_ != State::off && state_ != State::latched;
-  const Six aim = correcting ? fade_ * Six(aim_) : Six();
-  output->correction = guards_.advance(aim.numbers());
+  Six aim = correcting ? fade_ * Six(aim_) : Six();
+  Angles targets;
+  aim.store(&targets);
+  output->correction = guards_.advance(targets);
   if (state_ == State::fading_out && fade_ == Scalar(0) && guards_.is_at_rest_at_zero()) {
     state_ = latched_faults_ != 0 ? State::latched : State::off;
   }
@@ -283,8 +287,13 @@ FLEXCOMP_AS_ONE auto Compensator<Scalar, Joints>::tick(const Input& input) -> Ou
   if ((status & (kWrenchNotFinite | kWrenchOutOfRange)) == 0) {
     filter(input.wrench);
   }
-  if ((status & kFaultBits) == 0 && (is_correcting() || state_ == State::holding)) {
-    status |= aim(&output);
+  if ((status & kFaultBits) == 0) {
+    if (is_correcting() || state_ == State::holding) {
+      status |= aim(&output);
+    } else if (state_ == State::off && table_.is_open()) {
+      // Where it is on the program when it is armed, it is known where.
+      track<Scalar, Joints>(table_, setpoint_, &cursor_);
+    }
   }
   const std::uint32_t faults = status & kFaultBits;
   good_ticks_ =
@@ -292,7 +301,7 @@ FLEXCOMP_AS_ONE auto Compensator<Scalar, Joints>::tick(const Input& input) -> Ou
   change_state(faults);
   fade();
   status |= move(&output);
-  output.setpoint = (Six(setpoint_) + Six(output.correction)).numbers();
+  (Six::template read<0>(setpoint_) + Six(output.correction)).store(&output.setpoint);
   output.status = status | bit_if(!has_setpoint_, kNoSetpoint);
   output.latched_faults = latched_faults_;
   output.state = state_;

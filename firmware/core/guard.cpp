@@ -7,6 +7,7 @@
 #include "checked_number.hpp"
 #include "instantiate.hpp"
 #include "lanes.hpp"
+#include "load_six.hpp"
 
 namespace flexcomp {
 namespace {
@@ -48,8 +49,88 @@ template <typename Scalar, typename L>
   return L::choose(is_near, distance, L::apply(braking_step<Scalar>, distance, change));
 }
 
-/// One period of one number, or of four side by side.
+/// Is no limit near: is the target within the largest value, and the way to it within the largest
+/// step, what braking can take back and the largest change? Not where the target is no number.
 template <typename Scalar, typename L, typename Lane = typename L::Lane>
+[[gnu::always_inline]] inline bool is_ordinary(Lane largest_value, Lane largest_step,
+                                               Lane largest_change, Lane target, Lane way,
+                                               Lane last_step) {
+  const Lane length = L::magnitude(way);
+  const Lane planned = largest_change * kPlanned<Scalar>;
+#ifdef FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
+  // One branch: the sign of a difference is exact, and with such a target none of them is a number.
+  const Lane beyond = L::larger(
+      L::larger(length - planned, length - largest_step),
+      L::larger(L::magnitude(target) - largest_value,
+                L::larger((last_step - largest_change) - way, way - (last_step + largest_change))));
+  return L::all(beyond <= Scalar(0));
+#else
+  return L::all(length <= planned) &&
+         L::all(L::both(
+             L::both(length <= largest_step, L::magnitude(target) <= largest_value),
+             L::both(way >= last_step - largest_change, way <= last_step + largest_change)));
+#endif
+}
+
+#ifdef FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
+#define FLEXCOMP_SIX_GUARDS
+
+/// Where six guards stand, in the order of `JointGuards`.
+struct SixGuards {
+  const float* largest_value;
+  const float* largest_step;
+  const float* largest_change;
+  float* value;
+  float* step;
+};
+
+/// `is_ordinary` of six joints with one branch: the sign of a difference is exact. If so moves them
+/// all there.
+[[gnu::always_inline]] inline bool take_ordinary_steps(const SixGuards& guards,
+                                                       const float* targets) {
+  using L = OneByOne<float>;
+  float target[6], way[6], a[6], b[6];
+  load_six<2>(targets, target);
+  load_six<0>(guards.value, a);
+  load_six<1>(guards.largest_change, b);
+  float beyond = 0;
+  float sum = 0;  // not a number if a target is none
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < 6; ++i) {
+    way[i] = target[i] - a[i];
+    const float length = L::magnitude(way[i]);
+    const float too_far = length - b[i] * kPlanned<float>;
+    sum = i > 0 ? sum + length : length;
+    beyond = i > 0 ? L::larger(beyond, too_far) : too_far;
+  }
+  if (!(beyond <= 0)) {
+    return false;  // as a rule where it is not ordinary: no more is lost than this
+  }
+  load_six<0>(guards.step, a);
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < 6; ++i) {
+    beyond = L::larger(beyond, (a[i] - b[i]) - way[i]);
+    beyond = L::larger(beyond, way[i] - (a[i] + b[i]));
+  }
+  load_six<0>(guards.largest_step, a);
+  load_six<1>(guards.largest_value, b);
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < 6; ++i) {
+    beyond = L::larger(beyond, L::magnitude(way[i]) - a[i]);
+    beyond = L::larger(beyond, L::magnitude(target[i]) - b[i]);
+  }
+  if (!(beyond <= 0) || std::isnan(sum)) {
+    return false;
+  }
+  store_six(target, guards.value);
+  store_six(way, guards.step);
+  return true;
+}
+#endif
+
+/// One period of one number, or of four side by side. `Ordinary`: whether nothing but that is
+/// looked for first.
+template <typename Scalar, typename L, bool Ordinary = true, typename Lane = typename L::Lane>
 [[gnu::always_inline]] inline Advance<L> advance(Lane largest_value, Lane largest_step,
                                                  Lane largest_change, Lane target, Lane value,
                                                  Lane last_step) {
@@ -60,11 +141,8 @@ template <typename Scalar, typename L, typename Lane = typename L::Lane>
   };
   // Ordinary machining: no limit is near, and all that follows would come to this.
   const Lane way = target - value;
-  const Lane length = L::magnitude(way);
-  if (L::all(length <= largest_change * kPlanned<Scalar>) &&
-      L::all(
-          L::both(L::both(length <= largest_step, L::magnitude(target) <= largest_value),
-                  L::both(way >= last_step - largest_change, way <= last_step + largest_change)))) {
+  if (Ordinary &&
+      is_ordinary<Scalar, L>(largest_value, largest_step, largest_change, target, way, last_step)) {
     constexpr typename L::Truth kNone{};
     return {target, way, kNone, kNone};
   }
@@ -139,11 +217,25 @@ template <typename Scalar, int Joints>
 JointVector<Scalar, Joints> JointGuards<Scalar, Joints>::advance(const Angles& targets) {
   using L = std::conditional_t<Joints == 6, Lanes<Scalar>, OneByOne<Scalar>>;
   constexpr std::size_t kLanes = Joints == 6 ? L::kCount : static_cast<std::size_t>(Joints);
+#ifdef FLEXCOMP_SIX_GUARDS
+  constexpr bool kAtOnce = std::is_same_v<Scalar, float> && Joints == 6;
+  if constexpr (kAtOnce) {
+    if (take_ordinary_steps({largest_value_.data(), largest_step_.data(), largest_change_.data(),
+                             value_.data(), step_.data()},
+                            targets.data())) {
+      limited_by_value_ = false;
+      limited_by_rate_ = false;
+      return targets;
+    }
+  }
+#else
+  constexpr bool kAtOnce = false;
+#endif
   typename L::Truth limited_by_value{};
   typename L::Truth limited_by_rate{};
   Angles values;
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const auto next = flexcomp::advance<Scalar, L>(
+    const auto next = flexcomp::advance<Scalar, L, !kAtOnce>(
         L::load(largest_value_.data(), i), L::load(largest_step_.data(), i),
         L::load(largest_change_.data(), i), L::load(targets.data(), i), L::load(value_.data(), i),
         L::load(step_.data(), i));

@@ -6,6 +6,10 @@
 #include <cstring>
 #include <type_traits>
 
+#if defined(__ARM_ARCH_7EM__) && defined(__ARM_FP) && (__ARM_FP & 8) != 0  // a Cortex-M7
+#define FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
+#endif
+
 namespace flexcomp {
 
 /// Numbers one by one. An algorithm that is written for a `Lane`, with the operators of C++ and the
@@ -25,6 +29,11 @@ struct OneByOne {
 
   static Lane magnitude(Lane a) { return std::abs(a); }
   static Lane choose(Truth where, Lane a, Lane b) { return where ? a : b; }
+#ifdef FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
+  /// The larger of two numbers in one instruction, of one and what is none the one.
+  static float larger(float a, float b) { return __builtin_fmaxf(a, b); }
+  static double larger(double a, double b) { return __builtin_fmax(a, b); }
+#endif
   static Truth both(Truth a, Truth b) { return a && b; }
   static Truth either(Truth a, Truth b) { return a || b; }
   static bool all(Truth truth) { return truth; }

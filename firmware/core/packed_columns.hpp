@@ -4,46 +4,40 @@
 
 namespace flexcomp {
 
-/// Six columns of six numbers, of a geometric Jacobian, as a tick computes with them: in vector
-/// registers where the processor has them.
+/// A matrix A of six columns of six numbers, a geometric Jacobian between those of two tables'
+/// records, as a tick computes with it: in vector registers where the processor has them.
 template <typename Scalar>
 class PackedColumns {
   using Six = PackedSix<Scalar>;
+  using Lane = typename Lanes<Scalar>::Lane;
 
  public:
-  /// from + t (to - from), of two tables' records: column after column.
+  /// from + t (to - from), column after column.
   static PackedColumns blend(const float* from, const float* to, Scalar t) {
-    PackedColumns columns;
-#pragma GCC unroll 6
-    for (std::size_t i = 0; i < 6; ++i) {
-      const Six a = Six::read(from + 6 * i);
-      columns.columns_[i] = a + t * (Six::read(to + 6 * i) - a);
-    }
-    return columns;
+    return PackedColumns(from, to, t);
   }
 
-  /// Aᵀ b.
-  Six transposed_times(const Six& b) const {
-    typename Six::Numbers dots;
-#pragma GCC unroll 6
-    for (std::size_t i = 0; i < 6; ++i) {
-      dots.data()[i] = columns_[i].dot(b);
-    }
-    return Six(dots);
-  }
-  /// A b.
-  Six times(const Six& b) const {
-    const typename Six::Numbers factors = b.numbers();
+  /// f(Aᵀ b), and A f(Aᵀ b). `f` maps a lane of the six, by its number, to one. One column after
+  /// the other: none has to wait in memory for the second product.
+  template <typename Function>
+  Six product_of(const Six& b, const Function& f, Six* mapped) const {
     Six sum;
 #pragma GCC unroll 6
     for (std::size_t i = 0; i < 6; ++i) {
-      sum = sum + factors.data()[i] * columns_[i];
+      Six column = Six::blend(from_ + 6 * i, to_ + 6 * i, t_);
+      const Lane factor = f(i, column.dot(b));
+      mapped->lanes_[i] = factor;
+      sum = i > 0 ? sum + factor * column : factor * column;
     }
     return sum;
   }
 
  private:
-  std::array<Six, 6> columns_;
+  PackedColumns(const float* from, const float* to, Scalar t) : from_(from), to_(to), t_(t) {}
+
+  const float* from_;
+  const float* to_;
+  Scalar t_;
 };
 
 #ifdef FLEXCOMP_VECTOR_REGISTERS
@@ -68,6 +62,16 @@ class PackedColumns<float> {
     return columns;
   }
 
+  template <typename Function>
+  Six product_of(const Six& b, const Function& f, Six* mapped) const {
+    const Six product = transposed_times(b);
+    mapped->lanes_[0] = f(0, product.lanes_[0]);
+    mapped->lanes_[1] = f(1, product.lanes_[1]);
+    return times(*mapped);
+  }
+
+ private:
+  /// Aᵀ b.
   Six transposed_times(const Six& b) const {
     const Four b_first = b.lanes_[0], b_last = b.lanes_[1];
     const Four middle = __builtin_shufflevector(b_last, b_first, 0, 1, 4, 5);
@@ -86,6 +90,7 @@ class PackedColumns<float> {
                         __builtin_shufflevector(ef, none, 1, 3, 5, 7);
     return product;
   }
+  /// A b.
   Six times(const Six& b) const {
     const Four f = b.lanes_[0], g = b.lanes_[1];
     const Four first = f[0] * fours_[0] + f[2] * fours_[3] + g[0] * fours_[6];
@@ -101,7 +106,6 @@ class PackedColumns<float> {
     return product;
   }
 
- private:
   std::array<Four, 9> fours_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lanes.hpp"
+#include "load_six.hpp"
 
 namespace flexcomp {
 
@@ -15,6 +16,9 @@ class PackedColumns;
 
 /// Six numbers, of a joint vector, a twist or a wrench, as a tick computes with them: in vector
 /// registers where the processor has them.
+///
+/// Those on the way of a tick are not `const`: what is constant and filled in place GCC 12 keeps in
+/// memory.
 template <typename Scalar>
 class PackedSix {
   using L = Lanes<Scalar>;
@@ -24,19 +28,50 @@ class PackedSix {
   using Numbers = Eigen::Matrix<Scalar, 6, 1>;
 
   PackedSix() = default;
-  explicit PackedSix(const Numbers& numbers) {
-    each([&](std::size_t i) { lanes_[i] = L::load(numbers.data(), i); });
+  [[gnu::always_inline]] explicit PackedSix(const Numbers& numbers) : PackedSix(read<2>(numbers)) {}
+
+  /// The same, from another bank of registers (load_six.hpp).
+  template <int Bank>
+  [[gnu::always_inline]] static PackedSix read(const Numbers& numbers) {
+    PackedSix six;
+    if constexpr (std::is_same_v<Lane, float>) {
+      load_six<Bank>(numbers.data(), six.lanes_);
+    } else {
+      each([&](std::size_t i) { six.lanes_[i] = L::load(numbers.data(), i); });
+    }
+    return six;
   }
 
   /// The numbers of a table's record.
-  static PackedSix read(const float* floats) {
-    return of([&](std::size_t i) { return L::load(floats, i); });
+  template <int Bank = 0>
+  [[gnu::always_inline]] static PackedSix read(const float* floats) {
+    if constexpr (std::is_same_v<Lane, float>) {
+      PackedSix six;
+      load_six<Bank>(floats, six.lanes_);
+      return six;
+    } else {
+      return of([&](std::size_t i) { return L::load(floats, i); });
+    }
+  }
+  /// from + t (to - from), of two records.
+  static PackedSix blend(const float* from, const float* to, Scalar t) {
+    PackedSix a = read(from);
+    return a + t * (read<1>(to) - a);
   }
 
   Numbers numbers() const {
     Numbers numbers;
     each([&](std::size_t i) { L::store(lanes_[i], i, numbers.data()); });
     return numbers;
+  }
+
+  /// The same, into what is there.
+  [[gnu::always_inline]] void store(Numbers* numbers) const {
+    if constexpr (std::is_same_v<Lane, float>) {
+      store_six(lanes_, numbers->data());
+    } else {
+      each([&](std::size_t i) { L::store(lanes_[i], i, numbers->data()); });
+    }
   }
 
   friend PackedSix operator+(const PackedSix& a, const PackedSix& b) {
@@ -80,7 +115,7 @@ class PackedSix {
     each([&](std::size_t i) {
       if (i > 0) {
         const Lane magnitude = L::magnitude(lanes_[i]);
-        largest = L::choose(magnitude > largest, magnitude, largest);
+        largest = larger(magnitude, largest);
         sum += magnitude;
       }
     });
@@ -102,6 +137,14 @@ class PackedSix {
 #endif
 
  private:
+  /// The larger of two magnitudes; where one is not a number, either.
+  [[gnu::always_inline]] static Lane larger(Lane a, Lane b) {
+#ifdef FLEXCOMP_LARGER_IN_ONE_INSTRUCTION
+    return L::larger(a, b);
+#else
+    return L::choose(a > b, a, b);
+#endif
+  }
   template <typename Visit, std::size_t... I>
   [[gnu::always_inline]] static void each(const Visit& visit, std::index_sequence<I...> /*all*/) {
     (visit(I), ...);

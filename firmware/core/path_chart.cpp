@@ -14,13 +14,6 @@ namespace {
 /// The part of a record that all path tables have in common: up to the torques of the weights.
 constexpr RecordLayout kPath = record_layout(Chart::path, true, false);
 
-template <typename Scalar>
-[[gnu::always_inline]] inline PackedSix<Scalar> blend(const float* from, const float* to,
-                                                      Scalar t) {
-  const PackedSix<Scalar> a = PackedSix<Scalar>::read(from);
-  return a + t * (PackedSix<Scalar>::read(to) - a);
-}
-
 /// Place of `q` on a segment: how far on, and how far (rad) outside its width.
 template <typename Scalar>
 struct SegmentFind {
@@ -121,7 +114,7 @@ Scalar width_of(const Table& table, std::uint32_t segment) {
 template <typename Scalar>
 [[gnu::always_inline]] inline SegmentFind<Scalar> find_on(const Table& table, std::uint32_t segment,
                                                           const PackedSix<Scalar>& q) {
-  const Segment<Scalar> there = segment_of(table, segment, q);
+  Segment<Scalar> there = segment_of(table, segment, q);
   const Scalar t = there.blend();
   return {segment, t, there.off_chord(t) - width_of<Scalar>(table, segment)};
 }
@@ -283,7 +276,7 @@ template <typename Scalar>
                                                                const PackedSix<Scalar>& q,
                                                                TableCursor* cursor,
                                                                Scalar* outside) {
-  const Segment<Scalar> segment = follow(table, q, &cursor->segment);
+  Segment<Scalar> segment = follow(table, q, &cursor->segment);
   const Scalar t = segment.blend();
   const Scalar width = width_of<Scalar>(table, cursor->segment);
   if (segment.is_within(width, t)) {
@@ -317,16 +310,17 @@ template <typename Scalar, int Joints>
       }
     }
   }
-  PackedSix<Scalar> correction(response->correction);
+  using Six = PackedSix<Scalar>;
+  Six correction(response->correction);
   for (Eigen::Index column = 0; column < 6; ++column) {
     const std::uint32_t begin = layout.structure_motion + 6 * static_cast<std::uint32_t>(column);
-    correction = correction - wrench[column] * blend(from + begin, to + begin, t);
+    correction = correction - wrench[column] * Six::blend(from + begin, to + begin, t);
   }
   if (layout.has_weight) {
     const std::uint32_t sag = layout.structure_weight;
     const std::uint32_t motion = layout.structure_weight_motion;
-    response->deflection += blend(from + sag, to + sag, t).numbers();
-    correction = correction - blend(from + motion, to + motion, t);
+    response->deflection += Six::blend(from + sag, to + sag, t).numbers();
+    correction = correction - Six::blend(from + motion, to + motion, t);
   }
   response->correction = correction.numbers();
 }
@@ -369,26 +363,40 @@ TableResponse<Scalar, Joints> respond_on_path(const Table& table,
                                               const JointVector<Scalar, Joints>& q,
                                               const Wrench<Scalar>& wrench, TableCursor* cursor,
                                               Scalar* outside) {
-  const SegmentFind<Scalar> find = find_segment(table, PackedSix<Scalar>(q), cursor, outside);
+  SegmentFind<Scalar> find = find_segment(table, PackedSix<Scalar>(q), cursor, outside);
   const float* from = table.record(find.segment);
   const float* to = from + table.shape().record_size;
   using Six = PackedSix<Scalar>;
-  const auto jacobian =
-      PackedColumns<Scalar>::blend(from + kPath.jacobian, to + kPath.jacobian, find.t);
-  Six torque = jacobian.transposed_times(Six(wrench));
-  if (table.has_weight()) {
-    torque = torque + blend(from + kPath.weight_torque, to + kPath.weight_torque, find.t);
-  }
-  const Six spring = Six::read(table.header().compliance);
-  const Six cubic = Six::read(table.header().cubic_compliance);
-  const Six windup = spring * torque + cubic * torque * (torque * torque);
+  using L = Lanes<Scalar>;
+  const float* spring = table.header().compliance;
+  const float* cubic = table.header().cubic_compliance;
+  const bool has_weight = table.has_weight();
+  const auto windup_of = [&](std::size_t lane, typename L::Lane torque) {
+    if (has_weight) {
+      const auto weight = L::load(from + kPath.weight_torque, lane);
+      torque = torque + (weight + find.t * (L::load(to + kPath.weight_torque, lane) - weight));
+    }
+    return L::load(spring, lane) * torque + L::load(cubic, lane) * torque * (torque * torque);
+  };
+  Six windup;
+  Six deflection = PackedColumns<Scalar>::blend(from + kPath.jacobian, to + kPath.jacobian, find.t)
+                       .product_of(Six(wrench), windup_of, &windup);
   TableResponse<Scalar, Joints> response;
-  response.deflection = jacobian.times(windup).numbers();
-  response.correction = (-windup).numbers();
+  deflection.store(&response.deflection);
+  (-windup).store(&response.correction);
   if (table.has_structure()) {
     add_structure<Scalar, Joints>(from, to, record_layout(table), find.t, wrench, &response);
   }
   return response;
+}
+
+template <typename Scalar, int Joints>
+Scalar track(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor) {
+  Scalar outside = 0;
+  if (table.chart() == Chart::path) {
+    find_segment(table, PackedSix<Scalar>(q), cursor, &outside);
+  }
+  return outside;
 }
 
 template <typename Scalar, int Joints>
@@ -424,6 +432,7 @@ void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCurso
   template TableResponse<Scalar, Joints> respond_on_path(                                    \
       const Table&, const JointVector<Scalar, Joints>&, const Wrench<Scalar>&, TableCursor*, \
       Scalar*);                                                                              \
+  template Scalar track(const Table&, const JointVector<Scalar, Joints>&, TableCursor*);     \
   template void locate(const Table&, const JointVector<Scalar, Joints>&, TableCursor*);
 // NOLINTEND(bugprone-macro-parentheses)
 FLEXCOMP_INSTANTIATE(FLEXCOMP_PATH_CHART)

@@ -10,6 +10,12 @@ struct Words4 {
   std::uint32_t word[4];
 };
 
+/// Where it lies at no multiple of its size: the processor loads and stores words anywhere, but
+/// only one at a time.
+struct [[gnu::packed]] WordAnywhere {
+  std::uint32_t word;
+};
+
 bool are_aligned(const void* a, const void* b) {
   return ((reinterpret_cast<std::uintptr_t>(a) | reinterpret_cast<std::uintptr_t>(b)) % kWord) == 0;
 }
@@ -30,11 +36,11 @@ extern "C" {
       end += sizeof(Words4);
       next += sizeof(Words4);
     }
-    for (; size >= kWord; size -= kWord) {
-      *reinterpret_cast<std::uint32_t*>(end) = *reinterpret_cast<const std::uint32_t*>(next);
-      end += kWord;
-      next += kWord;
-    }
+  }
+  for (; size >= kWord; size -= kWord) {
+    *reinterpret_cast<WordAnywhere*>(end) = *reinterpret_cast<const WordAnywhere*>(next);
+    end += kWord;
+    next += kWord;
   }
   for (; size > 0; --size) {
     *end++ = *next++;

@@ -10,7 +10,7 @@ struct CanFrame {
   std::uint32_t id = 0;
   std::uint8_t size = 0;  ///< bytes of data
   bool fd = false;
-  std::array<std::uint8_t, 64> data{};
+  alignas(std::uint32_t) std::array<std::uint8_t, 64> data{};
 };
 
 }  // namespace flexcomp

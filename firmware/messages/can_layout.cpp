@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "messages/e2e.hpp"
+
 namespace flexcomp {
 namespace {
 
@@ -11,7 +13,10 @@ constexpr void add_frames(std::array<FrameLayout, Rows>* layouts, std::size_t* c
                           const can::FrameSet<Frames...>& /*format*/) {
   std::uint8_t part = 0;
   (((*layouts)[(*count)++] = {Frames::kId, Frames::kSize, Frames::kFd,
-                              FrameGroup{can::kPlace<Format>}, part++, Format::kParts}),
+                              FrameGroup{can::kPlace<Format>}, part++, Format::kParts,
+                              crc8_of_identifier(Frames::kId),
+                              static_cast<std::uint8_t>(1U << (part - 1)),
+                              static_cast<std::uint8_t>((1U << Format::kParts) - 1U)}),
    ...);
 }
 

@@ -30,8 +30,11 @@ struct FrameLayout {
   std::uint8_t size;
   bool fd;
   FrameGroup group;
-  std::uint8_t part;   ///< place in its group, from 0
-  std::uint8_t parts;  ///< frames in the group
+  std::uint8_t part;               ///< place in its group, from 0
+  std::uint8_t parts;              ///< frames in the group
+  std::uint8_t crc_of_identifier;  ///< classic: what the checksum goes on from
+  std::uint8_t part_bit;           ///< one bit a part: this one
+  std::uint8_t all_parts;          ///< and all of them
 };
 
 /// The layout of a frame by its identifier; null for one that is not ours, and for the frames

@@ -13,6 +13,16 @@ constexpr std::uint32_t kConflictAt = 32;
 
 }  // namespace
 
+[[gnu::always_inline]] inline void SequenceMonitor::take(std::uint32_t counter,
+                                                         std::uint32_t digest, std::int64_t now) {
+  ++counters.received;
+  recent_.add(counter, ahead(counter, last_), digest);
+  last_ = counter;
+  accepted_at_ = now;
+  consistent_ = 0;
+  suspicion_ -= suspicion_ > 0 ? 1U : 0U;
+}
+
 bool SequenceMonitor::accept(std::uint32_t counter, std::uint32_t digest, std::int64_t now) {
   counter &= modulus_ - 1;
   const bool starts_anew = may_restart_ && now - accepted_at_ > kResynchroniseAfter;
@@ -74,15 +84,6 @@ void SequenceMonitor::clear_conflict() {
   conflict_ = false;
   suspicion_ = 0;
   second_.clear();
-}
-
-void SequenceMonitor::take(std::uint32_t counter, std::uint32_t digest, std::int64_t now) {
-  ++counters.received;
-  recent_.add(counter, ahead(counter, last_), digest);
-  last_ = counter;
-  accepted_at_ = now;
-  consistent_ = 0;
-  suspicion_ -= suspicion_ > 0 ? 1U : 0U;
 }
 
 void SequenceMonitor::suspect() {

@@ -51,6 +51,8 @@ class SequenceMonitor {
   void clear_conflict();
 
   StreamCounters counters;
+  /// Has anything been counted?
+  bool has_counted() const { return started_ || counters.corrupt != 0 || counters.incomplete != 0; }
 
  private:
   std::uint32_t ahead(std::uint32_t counter, std::uint32_t of) const {

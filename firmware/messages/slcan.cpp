@@ -1,5 +1,7 @@
 #include "messages/slcan.hpp"
 
+#include <cstring>
+
 namespace flexcomp {
 namespace {
 
@@ -26,6 +28,18 @@ constexpr std::array<std::uint8_t, 256> make_values() {
 }
 
 constexpr std::array<std::uint8_t, 256> kValues = make_values();
+
+/// The two digits of each byte, as they follow each other.
+constexpr std::array<char, 512> make_pairs() {
+  std::array<char, 512> pairs{};
+  for (std::size_t byte = 0; byte < 256; ++byte) {
+    pairs[2 * byte] = kDigits[byte >> 4];
+    pairs[2 * byte + 1] = kDigits[byte & 0xFU];
+  }
+  return pairs;
+}
+
+constexpr std::array<char, 512> kPairs = make_pairs();
 
 /// Reads `count` hexadecimal digits; false if one is none.
 bool read_hexadecimal(const char* text, std::size_t count, std::uint32_t* value) {
@@ -54,12 +68,41 @@ SlcanLine to_slcan(const CanFrame& frame) {
   *end++ = kDigits[frame.id & 0xFU];
   *end++ = kDigits[frame.size];
   for (std::size_t i = 0; i < frame.size; ++i) {
-    *end++ = kDigits[frame.data[i] >> 4];
-    *end++ = kDigits[frame.data[i] & 0xFU];
+    std::memcpy(end, &kPairs[2U * frame.data[i]], 2);
+    end += 2;
   }
   *end++ = '\r';
   line.size = static_cast<std::size_t>(end - line.text.data());
   return line;
+}
+
+std::size_t SlcanReader::take_frame(const std::uint8_t* text, std::size_t count) {
+  if (size_ != 0 || count < kHeadSize || text[0] != 't') {
+    return 0;
+  }
+  const std::size_t size = kValues[text[kHeadSize - 1]];
+  const std::size_t end = kHeadSize + 2 * size;
+  if (size > 8 || count <= end || text[end] != '\r') {
+    return 0;
+  }
+  const std::uint32_t first = kValues[text[1]];
+  const std::uint32_t second = kValues[text[2]];
+  const std::uint32_t third = kValues[text[3]];
+  std::uint32_t digits = first | second | third;  // the upper half of kNoDigit, if one is none
+  frame_.id = first << 8 | second << 4 | third;
+  frame_.size = static_cast<std::uint8_t>(size);
+  const std::uint8_t* pair = text + kHeadSize;
+  for (std::size_t i = 0; i < 8; ++i) {
+    std::uint32_t byte = 0;
+    if (i < size) {
+      const std::uint32_t high = *pair++;
+      const std::uint32_t low = *pair++;
+      digits |= static_cast<std::uint32_t>(kValues[high] | kValues[low]);
+      byte = static_cast<std::uint32_t>(kValues[high]) << 4 | kValues[low];
+    }
+    frame_.data[i] = static_cast<std::uint8_t>(byte);
+  }
+  return digits > 0xFU || frame_.id > 0x7FFU ? 0 : end + 1;
 }
 
 SlcanReader::Event SlcanReader::take(std::uint8_t byte) {

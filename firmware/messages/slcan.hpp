@@ -36,6 +36,11 @@ class SlcanReader {
   };
 
   Event take(std::uint8_t byte);
+
+  /// Takes a whole line at once, where one begins and `text` holds all of it and it is a frame, in
+  /// `frame()`: bytes that it took, or 0. What it does not take is for `take`.
+  std::size_t take_frame(const std::uint8_t* text, std::size_t count);
+
   const CanFrame& frame() const { return frame_; }
 
  private:

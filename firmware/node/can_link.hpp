@@ -23,9 +23,13 @@ class CanLink {
 
   /// Counters and conflicts of the streams. Node::take_reset asks to forget conflicts.
   LinkState state() const;
+  /// The same, into what is there: what else it says stays.
+  void report(LinkState* state) const;
   void forget_conflicts();
 
  private:
+  static bool deliver(const WholeMessage& whole, bool fd, Node* node, std::int64_t now);
+
   CanDecoder decoder_;
   CanEncoder encoder_;
 };

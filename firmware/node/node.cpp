@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "node/node_settings.hpp"
 #include "node/seconds.hpp"
@@ -22,11 +23,13 @@ std::uint8_t number(Result result) { return static_cast<std::uint8_t>(result); }
 
 std::uint8_t number(Reply reply) { return static_cast<std::uint8_t>(reply); }
 
-JointVector<float, 6> to_core(const JointAngles& q) {
-  return Eigen::Map<const JointVector<double, 6>>(q.data()).cast<float>();
+/// Joint angles, or a wrench.
+JointVector<float, 6> to_core(const std::array<double, 6>& numbers) {
+  return Eigen::Map<const JointVector<double, 6>>(numbers.data()).cast<float>();
 }
 
-JointAngles from_core(const JointVector<float, 6>& angles) {
+template <typename Angles>
+JointAngles from_core(const Angles& angles) {
   return {angles[0], angles[1], angles[2], angles[3], angles[4], angles[5]};
 }
 
@@ -136,62 +139,82 @@ void Node::announce(std::uint16_t code, std::uint32_t detail) {
   post(FaultMessage{code, true, detail});
 }
 
-void Node::post(const Message& message) {
-  if (!has_room(message)) {
+template <typename SomeMessage>
+void Node::post(const SomeMessage& message) {
+  if (!has_room<SomeMessage>()) {
     return;  // nobody takes them: the oldest are the ones that explain how it began
   }
   queue_[(queue_begin_ + queue_size_++) % kQueue] = message;
 }
 
 /// Few answers wait: else whoever asks much would crowd out what the node says by itself.
-bool Node::has_room(const Message& message) const {
+template <typename SomeMessage>
+bool Node::has_room() const {
   constexpr std::size_t kMostAnswers = 8;  // of a kind
+  constexpr bool kIsAnswer = std::is_same_v<SomeMessage, CommandReplyMessage> ||
+                             std::is_same_v<SomeMessage, TransferReplyMessage>;
   if (queue_size_ == kQueue) {
     return false;
   }
-  const bool is_answer = std::holds_alternative<CommandReplyMessage>(message) ||
-                         std::holds_alternative<TransferReplyMessage>(message);
   std::size_t alike = 0;
-  for (std::size_t i = 0; is_answer && i < queue_size_; ++i) {
+  for (std::size_t i = 0; kIsAnswer && i < queue_size_; ++i) {
     const Message& waiting = queue_[(queue_begin_ + i) % kQueue];
-    alike += waiting.index() == message.index() ? 1U : 0U;
+    alike += std::holds_alternative<SomeMessage>(waiting) ? 1U : 0U;
   }
   return alike < kMostAnswers;
 }
 
 bool Node::next_message(Message* message) {
-  if (queue_size_ == 0) {
-    return false;
+  const Message* const next = next_message();
+  if (next != nullptr) {
+    *message = *next;
   }
-  *message = queue_[queue_begin_];
+  return next != nullptr;
+}
+
+const Message* Node::next_message() {
+  if (queue_size_ == 0) {
+    return nullptr;
+  }
+  const Message* const next = &queue_[queue_begin_];
   queue_begin_ = (queue_begin_ + 1) % kQueue;
   --queue_size_;
-  return true;
+  return next;
 }
 
 bool Node::receive(const Message& message, Source source, std::int64_t now) {
-  if ((std::holds_alternative<SetpointMessage>(message) && !setpoint_source_.admit(source, now)) ||
-      (std::holds_alternative<WrenchMessage>(message) && !wrench_source_.admit(source, now))) {
-    return false;
+  if (const auto* setpoint = std::get_if<SetpointMessage>(&message)) {
+    return receive(*setpoint, source, now);
   }
-  std::visit([&](const auto& content) { receive_one(content, now); }, message);
+  if (const auto* wrench = std::get_if<WrenchMessage>(&message)) {
+    return receive(*wrench, source, now);
+  }
+  std::visit([&](const auto& content) { receive_one(content); }, message);
   return true;
 }
 
-void Node::receive_one(const SetpointMessage& message, std::int64_t now) {
+bool Node::receive(const SetpointMessage& message, Source source, std::int64_t now) {
+  if (!setpoint_source_.admit(source, now)) {
+    return false;
+  }
   setpoint_moved_ = !has_setpoint_ || message.q != setpoint_.q;
   setpoint_ = message;
   has_setpoint_ = true;
   setpoint_time_ = made_at(message.timestamp, &setpoint_delay_, now);
+  return true;
 }
 
-void Node::receive_one(const WrenchMessage& message, std::int64_t now) {
+bool Node::receive(const WrenchMessage& message, Source source, std::int64_t now) {
+  if (!wrench_source_.admit(source, now)) {
+    return false;
+  }
   const std::int64_t made = made_at(message.timestamp, &wrench_delay_, now);
   if (wrench_monitor_.accept(message, now)) {
     wrench_ = message;
     has_wrench_ = true;
     wrench_time_ = made;
   }
+  return true;
 }
 
 /// When a message received `now` was made, in our time.
@@ -199,12 +222,12 @@ std::int64_t Node::made_at(std::int64_t timestamp, TransportDelay* delay, std::i
   return config_.use_timestamps ? now - delay->observe(timestamp, now) : now;
 }
 
-void Node::receive_one(const IdentityMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const IdentityMessage& message) {
   identity_ = message;
   has_identity_ = true;
 }
 
-void Node::receive_one(const CommandMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const CommandMessage& message) {
   std::uint8_t answer = number(Result::bad_argument);
   switch (message.command) {
     case Command::arm:
@@ -254,31 +277,29 @@ std::uint8_t Node::arm() {
   return result == Result::no_table && table_was_refused ? table_result_ : number(result);
 }
 
-void Node::receive_one(const TransferBeginMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const TransferBeginMessage& message) {
   reply(TransferStage::begin, store_.begin(message));
 }
 
-void Node::receive_one(const TransferDataMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const TransferDataMessage& message) {
   const Reply result = store_.add(message);
   if (result != Reply::ok) {
     reply(TransferStage::data, result);
   }
 }
 
-void Node::receive_one(const TransferEndMessage& message, std::int64_t /*now*/) {
+void Node::receive_one(const TransferEndMessage& message) {
   const Reply result = store_.end(message);
   if (result != Reply::ok) {
     reply(TransferStage::end, result);
   }
 }
 
-void Node::receive_one(const CorrectedMessage& /*message*/, std::int64_t /*now*/) {
-  sticky_ |= kOtherNode;
-}
+void Node::receive_one(const CorrectedMessage& /*message*/) { sticky_ |= kOtherNode; }
 
 /// Ignores what others say to each other.
 template <typename Other>
-void Node::receive_one(const Other& /*message*/, std::int64_t /*now*/) {}
+void Node::receive_one(const Other& /*message*/) {}
 
 void Node::reply(TransferStage stage, Reply result) {
   post(TransferReplyMessage{stage, number(result), store_.words_received()});
@@ -321,11 +342,10 @@ std::uint16_t Node::judge(std::int64_t now) {
 
 Node::Core::Input Node::input(std::int64_t now) const {
   constexpr float kNever = std::numeric_limits<float>::infinity();
-  Core::Input input{};
+  Core::Input input;  // not zeroed: every field is set
   input.setpoint = to_core(setpoint_.q);
   input.setpoint_age = has_setpoint_ ? seconds(now - setpoint_time_) : kNever;
-  std::transform(wrench_.wrench.begin(), wrench_.wrench.end(), input.wrench.data(),
-                 [](double x) { return static_cast<float>(x); });
+  input.wrench = to_core(wrench_.wrench);
   input.wrench_age = has_wrench_ ? seconds(now - wrench_time_) : kNever;
   if (!has_setpoint_) {
     input.setpoint.setConstant(std::numeric_limits<float>::quiet_NaN());
@@ -384,21 +404,27 @@ void Node::announce_refusals(std::int64_t now) {
 
 /// Posts what began or ended, a bit at most once between two heartbeats: a fault that flickers must
 /// not fill the bus. What the queue has no room for is posted later.
-void Node::announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
-                            std::uint32_t* inhibited) {
+[[gnu::always_inline]] inline void Node::announce_changes(std::uint32_t bits,
+                                                          std::uint32_t* announced,
+                                                          std::uint16_t base,
+                                                          std::uint32_t* inhibited) {
   const std::uint32_t changed = (bits ^ *announced) & ~*inhibited;
-  if (changed == 0) {
-    return;
+  if (changed != 0) {
+    announce_each(bits, changed, announced, base, inhibited);
   }
-  for (std::uint16_t i = 0; i < 16; ++i) {
-    const std::uint32_t bit = 1U << i;
-    if ((changed & bit) != 0 && queue_size_ < kQueue) {
-      const bool began = (bits & bit) != 0;
-      post(FaultMessage{static_cast<std::uint16_t>(base + i), began, 0});
-      faults_ += began ? 1U : 0U;
-      *announced ^= bit;
-      *inhibited |= bit;
-    }
+}
+
+void Node::announce_each(std::uint32_t bits, std::uint32_t changed, std::uint32_t* announced,
+                         std::uint16_t base, std::uint32_t* inhibited) {
+  for (std::uint32_t left = changed & 0xFFFFU; left != 0 && queue_size_ < kQueue;
+       left &= left - 1U) {
+    const int place = __builtin_ctz(left);
+    const std::uint32_t bit = 1U << place;
+    const bool began = (bits & bit) != 0;
+    post(FaultMessage{static_cast<std::uint16_t>(base + place), began, 0});
+    faults_ += began ? 1U : 0U;
+    *announced ^= bit;
+    *inhibited |= bit;
   }
 }
 

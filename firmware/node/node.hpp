@@ -82,7 +82,12 @@ class Node {
 
   /// False if it is not used: a setpoint or wrench of another source than the one that sends them.
   bool receive(const Message& message, Source source, std::int64_t now);
+  /// The same of the two that come every cycle.
+  bool receive(const SetpointMessage& message, Source source, std::int64_t now);
+  bool receive(const WrenchMessage& message, Source source, std::int64_t now);
   void set_link(const LinkState& link) { link_ = link; }
+  /// To set it where it stands, without a copy.
+  LinkState* link_state() { return &link_; }
 
   /// True once after a reset was asked for: who moves messages then forgets conflicts.
   bool take_reset() { return std::exchange(reset_requested_, false); }
@@ -98,6 +103,8 @@ class Node {
   /// replies to commands and eight to transfers wait at a time, and more are not given, so that
   /// heartbeats and faults have room however much is asked.
   bool next_message(Message* message);
+  /// The same where it stands, until the node is asked for anything else; null if there is none.
+  const Message* next_message();
 
   /// Tells the bus of an event: a code of node_status.hpp and what belongs to it.
   void announce(std::uint16_t code, std::uint32_t detail);
@@ -117,24 +124,24 @@ class Node {
   std::uint64_t statistic(std::uint8_t name, bool* exists) const;
 
  private:
-  void receive_one(const SetpointMessage& message, std::int64_t now);
-  void receive_one(const WrenchMessage& message, std::int64_t now);
-  void receive_one(const IdentityMessage& message, std::int64_t now);
-  void receive_one(const CommandMessage& message, std::int64_t now);
-  void receive_one(const TransferBeginMessage& message, std::int64_t now);
-  void receive_one(const TransferDataMessage& message, std::int64_t now);
-  void receive_one(const TransferEndMessage& message, std::int64_t now);
-  void receive_one(const CorrectedMessage& message, std::int64_t now);
+  void receive_one(const IdentityMessage& message);
+  void receive_one(const CommandMessage& message);
+  void receive_one(const TransferBeginMessage& message);
+  void receive_one(const TransferDataMessage& message);
+  void receive_one(const TransferEndMessage& message);
+  void receive_one(const CorrectedMessage& message);
   template <typename Other>
-  void receive_one(const Other& message, std::int64_t now);
+  void receive_one(const Other& message);
 
   std::int64_t made_at(std::int64_t timestamp, TransportDelay* delay, std::int64_t now) const;
   std::uint8_t arm();
   Result put_to_use(const Table& table);
   void end_transfer(std::uint8_t result, std::size_t size);
   void reply(TransferStage stage, Reply result);
-  void post(const Message& message);
-  bool has_room(const Message& message) const;
+  template <typename SomeMessage>
+  void post(const SomeMessage& message);
+  template <typename SomeMessage>
+  bool has_room() const;
   Core::Input input(std::int64_t now) const;
   std::uint16_t judge(std::int64_t now);
   void check_period(std::int64_t now);
@@ -142,6 +149,8 @@ class Node {
   void announce_refusals(std::int64_t now);
   void announce_changes(std::uint32_t bits, std::uint32_t* announced, std::uint16_t base,
                         std::uint32_t* inhibited);
+  void announce_each(std::uint32_t bits, std::uint32_t changed, std::uint32_t* announced,
+                     std::uint16_t base, std::uint32_t* inhibited);
   void beat(const Core::Output& output);
 
   NodeConfig config_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
 
 namespace flexcomp {
 
@@ -27,13 +29,14 @@ class Ring {
 
   /// All of these items or, where there is no room for them, none.
   bool push_all(const Item* items, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<Item>);
     const std::size_t end = end_.load(std::memory_order_relaxed);
     if (Size - (end - begin_.load(std::memory_order_acquire)) < count) {
       return false;
     }
     const std::size_t before_wrap = std::min(count, Size - end % Size);
-    std::copy_n(items, before_wrap, items_.begin() + end % Size);
-    std::copy_n(items + before_wrap, count - before_wrap, items_.begin());
+    std::memcpy(&items_[end % Size], items, before_wrap * sizeof(Item));
+    std::memcpy(items_.data(), items + before_wrap, (count - before_wrap) * sizeof(Item));
     end_.store(end + count, std::memory_order_release);
     return true;
   }

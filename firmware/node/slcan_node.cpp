@@ -11,7 +11,7 @@ namespace flexcomp {
 namespace {
 
 constexpr std::size_t kBytesAStep = 1024;
-constexpr int kMessagesATick = 4;  // beside the corrected setpoint
+constexpr int kMessagesATick = 2;  // beside the corrected setpoint
 constexpr std::uint32_t kLinesToRecover = 64;
 constexpr std::uint8_t kDone = '\r';
 constexpr std::uint8_t kError = '\a';
@@ -67,13 +67,15 @@ void SlcanNode::take_bytes(std::int64_t now) {
 }
 
 void SlcanNode::take_bytes(const std::uint8_t* bytes, std::size_t count, std::int64_t now) {
-  for (std::size_t i = 0; i < count; ++i) {
-    switch (reader_.take(bytes[i])) {
+  for (std::size_t i = 0; i < count;) {
+    if (const std::size_t whole_line = reader_.take_frame(bytes + i, count - i)) {
+      i += whole_line;
+      take_frame(now);
+      continue;
+    }
+    switch (reader_.take(bytes[i++])) {
       case SlcanReader::Event::frame:
-        if (link_.receive(reader_.frame(), &node_,
-                          trigger_ == Trigger::lockstep ? steps_ * period_ : now)) {
-          on_setpoint(now);
-        }
+        take_frame(now);
         break;
       case SlcanReader::Event::foreign:
       case SlcanReader::Event::corrupt:
@@ -92,6 +94,13 @@ void SlcanNode::take_bytes(const std::uint8_t* bytes, std::size_t count, std::in
   }
 }
 
+void SlcanNode::take_frame(std::int64_t now) {
+  const std::int64_t received_at = trigger_ == Trigger::lockstep ? steps_ * period_ : now;
+  if (link_.receive(reader_.frame(), &node_, received_at)) {
+    on_setpoint(now);
+  }
+}
+
 void SlcanNode::on_setpoint(std::int64_t now) {
   if (trigger_ == Trigger::lockstep) {
     ++steps_;
@@ -106,13 +115,13 @@ void SlcanNode::on_setpoint(std::int64_t now) {
   }
 }
 
-LinkState SlcanNode::link_state() const {
-  LinkState state = link_.state();
-  state.bus_fault = lines_to_recover_ > 0;
-  state.foreign_frames += other_lines_;
-  state.dropped_frames = dropped_frames_;
-  state.stack_used = stack_used_.load(std::memory_order_relaxed);
-  return state;
+void SlcanNode::report_link() {
+  LinkState* const state = node_.link_state();
+  link_.report(state);
+  state->bus_fault = lines_to_recover_ > 0;
+  state->foreign_frames += other_lines_;
+  state->dropped_frames = dropped_frames_;
+  state->stack_used = stack_used_.load(std::memory_order_relaxed);
 }
 
 void SlcanNode::tick(std::int64_t now) {
@@ -120,28 +129,30 @@ void SlcanNode::tick(std::int64_t now) {
   if (node_.take_reset()) {
     link_.forget_conflicts();
   }
-  node_.set_link(link_state());
+  report_link();
   const CorrectedMessage corrected = node_.tick(now);
   send(corrected);
   trial_.observe(corrected);
   if (trial_.has_run() && counter_in_use_ > counter_run_.load(std::memory_order_relaxed)) {
     counter_run_.store(counter_in_use_, std::memory_order_relaxed);
   }
-  Message message;
-  for (int i = 0; i < kMessagesATick && node_.next_message(&message); ++i) {
-    send(message);
+  for (int i = 0; i < kMessagesATick; ++i) {
+    if (const Message* const message = node_.next_message()) {
+      send(*message);
+    }
   }
 }
 
-void SlcanNode::send(const Message& message) {
-  const FrameList list = link_.encode(message);
+template <typename SomeMessage>
+void SlcanNode::send(const SomeMessage& message) {
+  const FrameList& list = link_.encode(message);
   for (std::size_t i = 0; i < list.count; ++i) {
-    send(to_slcan(list.frames[i]));
+    send_line(to_slcan(list.frames[i]));
   }
 }
 
 /// A whole line or none of it: half a line would spoil the next.
-void SlcanNode::send(const SlcanLine& line) {
+void SlcanNode::send_line(const SlcanLine& line) {
   if (!to_send_->push_all(reinterpret_cast<const std::uint8_t*>(line.text.data()), line.size)) {
     ++dropped_frames_;
     lines_to_recover_ = kLinesToRecover;

@@ -56,12 +56,14 @@ class SlcanNode {
   void has_in_use(std::uint32_t counter);
   void take_bytes(std::int64_t now);
   void take_bytes(const std::uint8_t* bytes, std::size_t count, std::int64_t now);
+  void take_frame(std::int64_t now);
   void on_setpoint(std::int64_t now);
   void tick(std::int64_t now);
   void exchange_tables();
-  LinkState link_state() const;
-  void send(const Message& message);
-  void send(const SlcanLine& line);
+  void report_link();
+  template <typename SomeMessage>
+  void send(const SomeMessage& message);
+  void send_line(const SlcanLine& line);
 
   Bytes* received_;
   Bytes* to_send_;

@@ -1,6 +1,7 @@
 #include "node/transport_delay.hpp"
 
 #include "messages/messages.hpp"
+#include "messages/microseconds.hpp"
 
 namespace flexcomp {
 namespace {
@@ -19,8 +20,7 @@ std::int64_t TransportDelay::observe(std::int64_t timestamp, std::int64_t now) {
   if (timestamp == kNoTime) {
     return 0;
   }
-  const auto difference = static_cast<std::uint32_t>(now / kMicrosecond) -
-                          static_cast<std::uint32_t>(timestamp / kMicrosecond);
+  const std::uint32_t difference = low_microseconds(now) - low_microseconds(timestamp);
   if (!started_) {
     started_ = true;
     reference_ = difference;
@@ -43,9 +43,19 @@ std::int64_t TransportDelay::observe(std::int64_t timestamp, std::int64_t now) {
 }
 
 void TransportDelay::follow_drift(std::int64_t now) {
-  allowance_ += (now - observed_at_) / kDriftDivisor;
-  reference_ += static_cast<std::uint32_t>(allowance_ / kMicrosecond);
-  allowance_ %= kMicrosecond;
+  const std::int64_t elapsed = now - observed_at_;
+  constexpr std::int64_t kShort = 1'000'000'000;  // ns; what is divided then has 32 bits
+  if (elapsed >= 0 && elapsed <= kShort && allowance_ >= 0) {
+    const std::uint32_t allowance =
+        static_cast<std::uint32_t>(allowance_) +
+        static_cast<std::uint32_t>(elapsed) / std::uint32_t{kDriftDivisor};
+    reference_ += allowance / std::uint32_t{kMicrosecond};
+    allowance_ = allowance % std::uint32_t{kMicrosecond};
+  } else {
+    allowance_ += elapsed / kDriftDivisor;
+    reference_ += static_cast<std::uint32_t>(allowance_ / kMicrosecond);
+    allowance_ %= kMicrosecond;
+  }
   observed_at_ = now;
 }
 

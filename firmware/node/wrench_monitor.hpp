@@ -36,10 +36,13 @@ class WrenchMonitor {
   std::uint32_t implausible_samples() const { return implausible_samples_; }
 
  private:
-  bool is_plausible(const std::array<double, 6>& wrench, std::int64_t now) const;
+  const std::array<double, 6>& finite_part(const std::array<double, 6>& wrench);
+  double largest_change(const std::array<double, 6>& wrench, std::size_t first) const;
+  bool is_plausible(double force_change, double moment_change, std::int64_t now) const;
 
   WrenchMonitorConfig config_;
   std::array<double, 6> last_{};
+  std::array<double, 6> finite_{};  ///< room for `finite_part`
   bool has_last_ = false;
   std::int64_t used_at_ = 0;
   std::int64_t changed_at_ = 0;

@@ -95,7 +95,8 @@ struct CompensatorOutput {
 
 /// The tick: setpoint, wrench and their ages in; corrected setpoint and status out.
 ///
-/// Each tick does, in this order: check the inputs; filter the wrench; look up the compliance;
+/// Each tick does, in this order: check the inputs; filter the wrench; look up the compliance (when
+/// off: only follows the program);
 /// compute the deflection; invert it to a joint correction; limit its size; fade; move there within
 /// the rate and acceleration limits. Constant time, no memory but the object.
 ///
@@ -128,7 +129,8 @@ class Compensator {
   /// table_other_model or gain_too_high, with the table in use unchanged.
   Result set_table(const Table& table);
 
-  /// Starts to correct. Cost: that of `locate`. Returns ok, or no_table, or not_ready: not off, or
+  /// Starts to correct. Cost: that of a look-up where the last ticks were on the program, else that
+  /// of `locate`. Returns ok, or no_table, or not_ready: not off, or
   /// fewer than `ready_ticks` good inputs in a row.
   Result arm();
 

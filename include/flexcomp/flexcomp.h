@@ -317,7 +317,8 @@ flexcomp_result_t flexcomp_compensator_init(flexcomp_compensator_t* compensator,
 flexcomp_result_t flexcomp_compensator_set_table(flexcomp_compensator_t* compensator,
                                                  const flexcomp_table_t* table);
 
-/// Starts to correct. FLEXCOMP_OK, BAD_ARGUMENT, NO_TABLE or NOT_READY. Cost: as above.
+/// Starts to correct. FLEXCOMP_OK, BAD_ARGUMENT, NO_TABLE or NOT_READY. Cost: as above; that of a
+/// tick where the last ticks were on the program.
 flexcomp_result_t flexcomp_compensator_arm(flexcomp_compensator_t* compensator);
 
 /// Fades out, then off.

@@ -199,6 +199,11 @@ struct TableResponse {
 template <typename Scalar, int Joints>
 void locate(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
 
+/// Moves the cursor as a look-up does, without reading what is there; returns `outside` of it
+/// (rad). For who will look up later and is on the program already. Grid tables need no cursor: 0.
+template <typename Scalar, int Joints>
+Scalar track(const Table& table, const JointVector<Scalar, Joints>& q, TableCursor* cursor);
+
 /// Reads the table at joint angles `q` (rad, finite). Constant time: a path table moves its cursor
 /// at most two segments a call, and where `q` has left the segment sideways (a jump; a program that
 /// runs back on itself and then turns off) looks at four more, further on each call, for one that

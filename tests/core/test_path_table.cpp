@@ -458,6 +458,24 @@ void what_cannot_be_built_is_named() {
                         reinterpret_cast<unsigned char*>(words.data()) + 1, all - 4, &size)));
 }
 
+/// Along the program either way and beside it: the cursor stands where a look-up leaves it.
+void tracking_moves_the_cursor_as_a_look_up_does() {
+  const auto model = kr270<double>();
+  const Program<double> program = loop<double>();
+  const Built<double> built(model, program, requirements(1e-6));
+  TableCursor tracked;
+  TableCursor looked_up;
+  for (int i = 0; i < 40 * kPieces; ++i) {
+    const int place = i < 20 * kPieces ? i : 40 * kPieces - i;
+    JointVector<double, 6> q = on_program(program, 0.0499 * place);
+    q[2] += i % 7 == 0 ? 0.01 : 0;
+    const double outside = track<double, 6>(built.table, q, &tracked);
+    TEST_ASSERT_TRUE(outside == (look_up<double, 6>(built.table, q, &looked_up).outside));
+    TEST_ASSERT_EQUAL(looked_up.segment, tracked.segment);
+    TEST_ASSERT_EQUAL(looked_up.searched, tracked.searched);
+  }
+}
+
 /// A wrist singularity is no obstacle for joint springs, but base springs cannot be made up for.
 void a_wrist_singularity_is_fine_for_joint_springs_alone() {
   Program<double> straight_wrist = loop<double>();
@@ -488,6 +506,7 @@ int main() {
   RUN_TEST(after_a_jump_any_segment_is_found_from_any_other);
   RUN_TEST(a_look_up_after_a_jump_costs_no_more_than_a_few_segments);
   RUN_TEST(what_a_tick_reads_is_the_response_of_the_entry);
+  RUN_TEST(tracking_moves_the_cursor_as_a_look_up_does);
   RUN_TEST(repeated_points_do_no_harm);
   RUN_TEST(off_the_program_the_distance_is_told);
   RUN_TEST(beyond_the_ends_nothing_is_extrapolated);

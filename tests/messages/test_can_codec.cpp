@@ -1,6 +1,9 @@
 // Every message through frames and back, at the ends of its range, and every single bit flipped.
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "messages/can_decoder.hpp"
@@ -48,6 +51,86 @@ std::vector<CanFrame> frames_of_everything() {
     }
   }
   return frames;
+}
+
+/// Any payload through both codecs: that by words and that of cantools.
+template <typename Raw, typename Pack, typename Unpack>
+void check_words(std::size_t size, const Pack& pack, const Unpack& unpack) {
+  std::mt19937 random(static_cast<unsigned>(size));
+  for (int round = 0; round < 100; ++round) {
+    std::array<std::uint32_t, 16> payload{};
+    for (std::uint32_t& word : payload) {
+      word = round == 0 ? 0xFFFFFFFFU : static_cast<std::uint32_t>(random());
+    }
+    std::array<std::uint8_t, 64> bytes{};
+    std::memcpy(bytes.data(), payload.data(), size);
+    Raw theirs{};
+    TEST_ASSERT_EQUAL(0, unpack(&theirs, bytes.data(), size));
+    Raw ours{};
+    can::Words<Raw>::unpack(payload.data(), &ours);
+    std::array<std::uint8_t, 64> their_bytes{};
+    std::array<std::uint8_t, 64> of_ours{};
+    TEST_ASSERT_EQUAL(static_cast<int>(size), pack(their_bytes.data(), &theirs, size));
+    pack(of_ours.data(), &ours, size);
+    TEST_ASSERT_EQUAL_MEMORY(their_bytes.data(), of_ours.data(), size);
+    std::array<std::uint32_t, 16> words{};
+    can::Words<Raw>::pack(theirs, words.data());
+    TEST_ASSERT_EQUAL_MEMORY(their_bytes.data(), words.data(), size);
+  }
+}
+
+#define CHECK_WORDS(NAME, name)                                                                  \
+  check_words<flexcomp_can_##name##_t>(FLEXCOMP_CAN_##NAME##_LENGTH, flexcomp_can_##name##_pack, \
+                                       flexcomp_can_##name##_unpack)
+
+void frames_are_packed_by_words_as_cantools_packs_them() {
+  CHECK_WORDS(FAULT, fault);
+  CHECK_WORDS(SETPOINT_A, setpoint_a);
+  CHECK_WORDS(SETPOINT_B, setpoint_b);
+  CHECK_WORDS(SETPOINT_C, setpoint_c);
+  CHECK_WORDS(SETPOINT_AUTHENTICATION, setpoint_authentication);
+  CHECK_WORDS(SETPOINT_FD, setpoint_fd);
+  CHECK_WORDS(SETPOINT_FD_AUTHENTICATION, setpoint_fd_authentication);
+  CHECK_WORDS(WRENCH_FORCE, wrench_force);
+  CHECK_WORDS(WRENCH_MOMENT, wrench_moment);
+  CHECK_WORDS(WRENCH_AUTHENTICATION, wrench_authentication);
+  CHECK_WORDS(WRENCH_FD, wrench_fd);
+  CHECK_WORDS(WRENCH_FD_AUTHENTICATION, wrench_fd_authentication);
+  CHECK_WORDS(COMMAND, command);
+  CHECK_WORDS(IDENTITY_LOW, identity_low);
+  CHECK_WORDS(IDENTITY_HIGH, identity_high);
+  CHECK_WORDS(COMMAND_AUTHENTICATION, command_authentication);
+  CHECK_WORDS(IDENTITY_AUTHENTICATION, identity_authentication);
+  CHECK_WORDS(TRANSFER_BEGIN, transfer_begin);
+  CHECK_WORDS(TRANSFER_DATA, transfer_data);
+  CHECK_WORDS(TRANSFER_END, transfer_end);
+  CHECK_WORDS(TRANSFER_BEGIN_AUTHENTICATION, transfer_begin_authentication);
+  CHECK_WORDS(TRANSFER_DATA_AUTHENTICATION, transfer_data_authentication);
+  CHECK_WORDS(TRANSFER_END_AUTHENTICATION, transfer_end_authentication);
+  CHECK_WORDS(TRANSFER_DATA_FD, transfer_data_fd);
+  CHECK_WORDS(TRANSFER_DATA_FD_AUTHENTICATION, transfer_data_fd_authentication);
+  CHECK_WORDS(MEASURED_A, measured_a);
+  CHECK_WORDS(MEASURED_B, measured_b);
+  CHECK_WORDS(MEASURED_C, measured_c);
+  CHECK_WORDS(MEASURED_POSITION_XY, measured_position_xy);
+  CHECK_WORDS(MEASURED_POSITION_Z, measured_position_z);
+  CHECK_WORDS(CORRECTED_A, corrected_a);
+  CHECK_WORDS(CORRECTED_B, corrected_b);
+  CHECK_WORDS(CORRECTED_C, corrected_c);
+  CHECK_WORDS(UNCORRECTED_A, uncorrected_a);
+  CHECK_WORDS(UNCORRECTED_B, uncorrected_b);
+  CHECK_WORDS(UNCORRECTED_C, uncorrected_c);
+  CHECK_WORDS(CORRECTED_FD, corrected_fd);
+  CHECK_WORDS(STATUS, status);
+  CHECK_WORDS(LATCHED, latched);
+  CHECK_WORDS(CORRECTED_AUTHENTICATION, corrected_authentication);
+  CHECK_WORDS(CORRECTED_FD_AUTHENTICATION, corrected_fd_authentication);
+  CHECK_WORDS(HEARTBEAT, heartbeat);
+  CHECK_WORDS(TABLE_LOW, table_low);
+  CHECK_WORDS(TABLE_HIGH, table_high);
+  CHECK_WORDS(STATISTIC, statistic);
+  CHECK_WORDS(TRANSFER_REPLY, transfer_reply);
+  CHECK_WORDS(COMMAND_REPLY, command_reply);
 }
 
 void angles_keep_their_value_to_a_tenth_of_a_microradian() {
@@ -357,6 +440,7 @@ void frames_that_are_not_ours_are_counted_and_left_alone() {
 
 int main() {
   UNITY_BEGIN();
+  RUN_TEST(frames_are_packed_by_words_as_cantools_packs_them);
   RUN_TEST(angles_keep_their_value_to_a_tenth_of_a_microradian);
   RUN_TEST(each_angle_travels_in_its_own_place);
   RUN_TEST(what_is_not_finite_or_does_not_fit_arrives_as_not_available);

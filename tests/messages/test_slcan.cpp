@@ -119,6 +119,52 @@ void a_line_without_end_does_no_harm() {
   TEST_ASSERT_EQUAL(Event::frame, read(&reader, "t0200\r"));
 }
 
+/// A line taken at once, or else byte by byte, is the same as byte by byte.
+void check_line(const std::string& line) {
+  SlcanReader by_byte;
+  const Event event = read(&by_byte, line);
+  SlcanReader at_once;
+  const std::size_t taken =
+      at_once.take_frame(reinterpret_cast<const std::uint8_t*>(line.data()), line.size());
+  TEST_ASSERT_EQUAL(event, taken > 0 ? Event::frame : read(&at_once, line));
+  TEST_ASSERT_TRUE(taken == 0 || taken == line.size());
+  if (event == Event::frame) {
+    TEST_ASSERT_EQUAL_HEX32(by_byte.frame().id, at_once.frame().id);
+    TEST_ASSERT_EQUAL(by_byte.frame().size, at_once.frame().size);
+    TEST_ASSERT_TRUE(by_byte.frame().data == at_once.frame().data);
+  }
+}
+
+void a_line_that_is_there_as_a_whole_is_taken_at_once_and_as_the_same() {
+  for (const std::string whole : {"t0200\r", "t10021133\r", "t7FF8001122AABBCCDDFF\r"}) {
+    SlcanReader reader;
+    TEST_ASSERT_EQUAL(
+        whole.size(),
+        reader.take_frame(reinterpret_cast<const std::uint8_t*>(whole.data()), whole.size()));
+    for (std::size_t place = 0; place < whole.size(); ++place) {
+      for (int byte = 0; byte < 256; ++byte) {
+        std::string line = whole;
+        line[place] = static_cast<char>(byte);
+        if (line.find_first_of("\r\a\n") >= line.size() - 1) {  // one line, ended or not
+          check_line(line);
+        }
+      }
+    }
+  }
+}
+
+void nothing_is_taken_at_once_that_is_not_there_as_a_whole() {
+  const std::string line = "t7FF8001122AABBCCDDFF\r";
+  const auto* text = reinterpret_cast<const std::uint8_t*>(line.data());
+  for (std::size_t there = 0; there < line.size(); ++there) {
+    SlcanReader reader;
+    TEST_ASSERT_EQUAL(0, reader.take_frame(text, there));
+  }
+  SlcanReader amidst;
+  amidst.take('x');
+  TEST_ASSERT_EQUAL(0, amidst.take_frame(text, line.size()));
+}
+
 }  // namespace
 
 int main() {
@@ -132,5 +178,7 @@ int main() {
   RUN_TEST(commands_to_the_adapter_are_known);
   RUN_TEST(after_any_rubbish_the_next_whole_line_is_understood);
   RUN_TEST(a_line_without_end_does_no_harm);
+  RUN_TEST(a_line_that_is_there_as_a_whole_is_taken_at_once_and_as_the_same);
+  RUN_TEST(nothing_is_taken_at_once_that_is_not_there_as_a_whole);
   return UNITY_END();
 }

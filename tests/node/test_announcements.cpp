@@ -11,7 +11,7 @@ using flexcomp::test::usual_config;
 namespace {
 
 constexpr int kAtOnce = 12;        // questions a tick
-constexpr int kMessagesATick = 4;  // as flexcompd and the microcontroller take them
+constexpr int kMessagesATick = 2;  // as the microcontroller takes them; flexcompd takes more
 constexpr int kSecond = 250;       // ticks
 
 using Question = std::function<Message(int)>;

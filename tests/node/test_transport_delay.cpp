@@ -1,5 +1,8 @@
 // How old messages are that carry their sender's clock, and clocks that jump.
+#include <random>
+
 #include "messages/messages.hpp"
+#include "messages/microseconds.hpp"
 #include "node/transport_delay.hpp"
 #include "unity_main.hpp"
 
@@ -132,10 +135,23 @@ void clocks_may_wrap() {
   }
 }
 
+void microseconds_are_those_of_a_division() {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 1'000'000; ++i) {
+    // They are of every size, and about the ends of the digits.
+    const auto any = static_cast<std::int64_t>(random()) >> (random() % 64);
+    const std::int64_t near = (std::int64_t{1} << (random() % 63)) + i % 3 - 1;
+    for (const std::int64_t time : {any, near, -near, 1000 * (any / 1000)}) {
+      TEST_ASSERT_EQUAL_UINT32(static_cast<std::uint32_t>(time / 1000), low_microseconds(time));
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
   UNITY_BEGIN();
+  RUN_TEST(microseconds_are_those_of_a_division);
   RUN_TEST(a_message_is_as_old_as_it_was_longer_on_its_way_than_usual);
   RUN_TEST(without_a_time_a_message_is_new);
   RUN_TEST(one_message_of_a_wrong_clock_moves_nothing);

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
-#include "flexcomp_can.h"
+#include "flexcomp_can_words.hpp"
 #include "messages/messages.hpp"
+#include "messages/microseconds.hpp"
 
 /// The files beside this one say for each message what it holds, in the words below. They take what
-/// cantools generates from flexcomp.dbc; checksums and counters are not their business.
+/// cantools and words_of_dbc.py generate from flexcomp.dbc; checksums and counters are not their
+/// business.
 namespace flexcomp::can {
 
 /// The frames of a message on classic CAN, and how they are packed and unpacked. Specialised for
@@ -26,24 +31,31 @@ template <typename Content>
 struct Fd;
 
 /// A frame of flexcomp.dbc.
-template <typename RawStruct, std::uint32_t Id, std::uint8_t Size, auto Pack, auto Unpack>
+template <typename RawStruct, std::uint32_t Id, std::uint8_t Size>
 struct Frame {
   using Raw = RawStruct;
   static constexpr std::uint32_t kId = Id;
   static constexpr std::uint8_t kSize = Size;
   static constexpr bool kFd = Size > 8;  // none of flexcomp.dbc is FD and shorter
 
-  static void pack(const Raw& raw, std::uint8_t* data) { Pack(data, &raw, Size); }
+  /// For processors whose words begin with their low byte, as all do that this runs on.
+  using Payload = std::array<std::uint32_t, Size / sizeof(std::uint32_t)>;
+  static Payload pack(const Raw& raw) {
+    Payload words;
+    Words<Raw>::pack(raw, words.data());
+    return words;
+  }
   static Raw unpack(const std::uint8_t* data) {
+    Payload words;
+    std::memcpy(words.data(), data, Size);
     Raw raw{};
-    Unpack(&raw, data, Size);
+    Words<Raw>::unpack(words.data(), &raw);
     return raw;
   }
 };
 
-#define DBC_FRAME(NAME, name)                                                                  \
-  Frame<flexcomp_can_##name##_t, FLEXCOMP_CAN_##NAME##_FRAME_ID, FLEXCOMP_CAN_##NAME##_LENGTH, \
-        flexcomp_can_##name##_pack, flexcomp_can_##name##_unpack>
+#define DBC_FRAME(NAME, name) \
+  Frame<flexcomp_can_##name##_t, FLEXCOMP_CAN_##NAME##_FRAME_ID, FLEXCOMP_CAN_##NAME##_LENGTH>
 
 /// Those that make up a message, in order; what holds where a message says nothing else.
 template <typename... Frames>
@@ -63,6 +75,23 @@ struct FrameSet {
     return true;
   }
 };
+
+template <typename Format, typename... Frames, std::size_t... Place>
+auto unpack(const std::uint8_t* payloads, const FrameSet<Frames...>& /*format*/,
+            std::index_sequence<Place...> /*places*/) {
+  return Format::unpack(Frames::unpack(payloads + 8 * Place)...);
+}
+
+template <typename Format, typename... Frames>
+auto unpack(const std::uint8_t* payloads, const FrameSet<Frames...>& format) {
+  return unpack<Format>(payloads, format, std::index_sequence_for<Frames...>());
+}
+
+/// The message in the payloads of its frames, which lie one after the other.
+template <typename Format>
+auto unpack(const std::uint8_t* payloads) {
+  return unpack<Format>(payloads, Format());
+}
 
 /// A scaled signal of `Bits` in a classic frame, between its raw value and physical units. A value
 /// that is NaN or does not fit never wraps around: a signed signal then takes its most negative raw
@@ -109,7 +138,7 @@ inline float single(double value) { return static_cast<float>(value); }
 
 /// The low 32 bits of the sender's clock in µs; wraps after 71 min.
 inline std::uint32_t to_microseconds(std::int64_t nanoseconds) {
-  return static_cast<std::uint32_t>(nanoseconds / 1000);
+  return low_microseconds(nanoseconds);
 }
 
 inline std::int64_t from_microseconds(std::uint32_t time) { return std::int64_t{1000} * time; }
