@@ -3,10 +3,12 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 
 #include "build_info.hpp"
 #include "cli/command.hpp"
+#include "cli/help.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "linux/printable_line.hpp"
@@ -51,6 +53,7 @@ int run(const Action& action) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
+      "  flexcomp help COMMAND    what a command does and takes\n"
       "  flexcomp check …         what is wrong or suspicious in model, path, table or "
       "recording\n\n"
       "From model to corrected path:\n"
@@ -83,10 +86,13 @@ int parse_and_run(int argc, char** argv) {
       "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not "
       "hold,\n"
       "2 unusable input or arguments, 3 internal fault.");
+  app.name("flexcomp");
+  app.formatter(std::make_shared<flexcomp::cli::OptionFormat>());
   app.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
   app.require_subcommand(1);
   app.option_defaults()->always_capture_default();
   Action action;
+  flexcomp::cli::add_help(&app, &action);
   flexcomp::cli::add_check(&app, &action);
   flexcomp::cli::add_plan(&app, &action);
   flexcomp::cli::add_table(&app, &action);

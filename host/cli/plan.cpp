@@ -54,6 +54,7 @@ int run(const PlanOptions& options, bool has_tool_axis) {
       planning::plan_circle(model::six_axis_model(robot), plan,
                             [&](int done) { progress.show(static_cast<std::size_t>(done)); });
   recording::write_recording(options.out, recording);
+  fmt::print("{}: {} rows\n", options.out, recording.size());
   return kDone;
 }
 

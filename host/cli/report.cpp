@@ -50,6 +50,7 @@ int run(const ReportOptions& options) {
   }
   const std::string html = report::circle_report_html(page);
   files::write_text(options.out, html);
+  fmt::print("{}: {} circles\n", options.out, page.circles.size());
   return kDone;
 }
 

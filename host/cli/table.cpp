@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/help.hpp"
 #include "cli/process_options.hpp"
 #include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
@@ -168,15 +169,11 @@ void add_table(CLI::App* app, Action* action) {
 
   CLI::App* check = add_table_verify(command, action);
   CLI::App* sign = add_table_sign(command, action);
+  require_without_subcommand(command, {model, path, out});
 
   command->callback([=] {
     if (check->parsed() || sign->parsed()) {
       return;
-    }
-    for (const CLI::Option* option : {model, path, out}) {
-      if (option->count() == 0) {
-        throw CLI::RequiredError(option->get_name());
-      }
     }
     *action = [=] { return run_build(*build); };
   });
