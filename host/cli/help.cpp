@@ -41,8 +41,8 @@ const CLI::App* find_command(const CLI::App* app, const std::vector<std::string>
     const std::vector<const CLI::App*> found = app->get_subcommands(is_asked_for);
     *before += (before->empty() ? "" : " ") + app->get_name();
     if (found.empty()) {
-      throw InputError(fmt::format("'{}' has no command '{}' (see {} --help)", *before, word,
-                                   *before));
+      throw InputError(
+          fmt::format("'{}' has no command '{}' (see {} --help)", *before, word, *before));
     }
     app = found.front();
   }

@@ -107,7 +107,8 @@ class Packages(unittest.TestCase):
 
     def test_the_shell_completes_subcommands_and_options(self):
         completions = self.root / "usr/share/bash-completion/completions/flexcomp"
-        for words, expected in ((("dia",), "diagnose"), (("table", "veri"), "verify"), (("table", "--tole"), "--tolerance")):
+        for words, expected in ((("dia",), "diagnose"), (("table", "veri"), "verify"), (("table", "--tole"), "--tolerance"),
+                                (("help", "table", "veri"), "verify"), (("he",), "help")):
             done = run("bash", "-euc", 'source "$0"; COMP_WORDS=(flexcomp "$@"); COMP_CWORD=$#; _flexcomp; echo "${COMPREPLY[*]}"',
                        completions, *words)
             self.assertEqual(expected, done.strip())

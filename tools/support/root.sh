@@ -14,6 +14,7 @@ make_root() {
     as_root mmdebstrap --variant=apt --include="$packages" "$release" "$folder"
   # As this machine reaches the mirror.
   as_root cp /etc/resolv.conf /etc/hosts "$folder/etc/"
+  run_step "refresh its package lists" root-update in_root "$folder" apt-get update
 }
 
 # in_root FOLDER COMMAND...: runs it there. What it mounts is gone with it.
