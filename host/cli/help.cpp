@@ -20,8 +20,7 @@ std::string value_name(const CLI::Option& option) {
   return is_twice ? name.substr(colon + 1) : name;
 }
 
-/// A default that the program fills in is none: what is required has no other value, and an empty
-/// list says nothing.
+/// What is required has no other value than the given one, and an empty list says nothing.
 std::string default_text(const CLI::Option& option) {
   const std::string text = option.get_default_str();
   return text.empty() || text == "[]" || option.get_required() ? "" : "=" + text;
@@ -52,7 +51,8 @@ const CLI::App* find_command(const CLI::App* app, const std::vector<std::string>
 int show(const CLI::App* app, const std::vector<std::string>& words) {
   std::string before;
   const CLI::App* command = find_command(app, words, &before);
-  fmt::print("{}", command->help(before));
+  const std::string name = before + (before.empty() ? "" : " ") + command->get_name();
+  fmt::print("{}", command->get_formatter()->make_help(command, name, CLI::AppFormatMode::Normal));
   return kDone;
 }
 
@@ -65,7 +65,7 @@ std::string OptionFormat::make_option_opts(const CLI::Option* option) const {
                        option->get_required() ? " REQUIRED" : "");
   }
   for (const CLI::Option* other : option->get_needs()) {
-    text += fmt::format(" Needs: {}", other->get_name());
+    text += fmt::format(" (with {})", other->get_name());
   }
   return text;
 }

@@ -339,9 +339,10 @@ class Manners(PathCommand):
 
     def test_help_shows_values_as_words_and_marks_what_is_required(self):
         shown = self.run_well("help", "table")
-        self.assertRegex(shown, r"--material TEXT:\{outside,inside\}=outside ")
+        self.assertRegex(shown, r"--material TEXT:\{outside,inside\}=outside\s")
         for option in ("--model", "--path", "--out"):
             self.assertRegex(shown, rf"(?m)^  {option} TEXT REQUIRED ")
+        self.assertRegex(shown, r"--force FLOAT +N, .* if not given")
         self.assertRegex(self.run_well("help", "plant"), r"--gain FLOAT in \[0 - 1\]=1 ")
         for command in re.findall(r"^  ([a-z-]+) {2,}", self.run_well("--help").split("Subcommands:")[1], re.MULTILINE):
             shown = self.run_well("help", command)
@@ -369,6 +370,15 @@ class Manners(PathCommand):
         self.assertRegex(self.run_well("force", "--diameter", "0.016", "--teeth", "4", "--depth", "0.003",
                                        "--feed-per-tooth", "8e-5", "--shear", "700e6,210e6,110e6", "--model", KR270,
                                        "--path", path, "--out", recording), rf"{recording}: the path with its wrench\n$")
+
+    def test_joints_are_told_by_their_numbers_and_names(self):
+        names = ",".join(f"q_meas_{joint}" for joint in range(1, 7))
+        rows = [f"{i / 100},{0.1 + 0.3 * math.sin(i / 90)},{-1.2 + 0.3 * math.sin(i / 60)},1.4,"
+                f"{0.3 * math.sin(i / 40)},{0.3 * math.sin(i / 30)},{0.2 * math.sin(i / 30)}" for i in range(500)]
+        recording = self.file("recording.csv", "\n".join([f"t,{names}", *rows, ""]))
+        said = self.run_well("check", "--model", KR270, "--recording", recording)
+        self.assertIn("joint 3 (joint_a3) never moves", said)
+        self.assertIn("joints 5 (joint_a5) and 6 (joint_a6) only move together", said)
 
     def test_the_version_names_the_build(self):
         self.assertRegex(self.run_well("--version"), r"^flexcomp \d+\.\d+\.\d+ \(.*\)\n$")
