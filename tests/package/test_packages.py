@@ -83,6 +83,7 @@ class Packages(unittest.TestCase):
     def test_programs_say_which_libraries_they_need_and_the_library_needs_none(self):
         for name in ("flexcomp", "flexcompd"):
             self.assertRegex(self.field(name, "Depends"), r"\blibc6 \(>= .*\blibfmt")
+        self.assertRegex(self.field("flexcomp", "Depends"), r"\bgnuplot-nox\b")
         self.assertEqual("", self.field("libflexcomp-dev", "Depends"))
 
     def test_a_circle_is_corrected_from_there(self):
