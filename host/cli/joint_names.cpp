@@ -6,9 +6,17 @@
 #include <set>
 
 namespace flexcomp::cli {
+namespace {
+
+bool is_its_number(const std::string& name, std::size_t joint) {
+  return name == fmt::format("joint_{}", joint) || name == fmt::format("joint{}", joint);
+}
+
+}  // namespace
 
 std::string with_joint_names(const std::string& sentence, const model::Robot& robot) {
-  static const std::regex mention(R"(\b[Jj]oint \d+\b|\b[Jj]oints \d+(?:, \d+)*(?: and \d+)?\b)");
+  static const std::regex mention(
+      R"(\b[Jj]oint \d\d?\b|\b[Jj]oints \d\d?(?:, \d\d?)*(?: and \d\d?)?\b)");
   static const std::regex number(R"(\d+)");
   std::string named;
   std::set<std::size_t> told;
@@ -22,9 +30,11 @@ std::string with_joint_names(const std::string& sentence, const model::Robot& ro
       const std::size_t behind = from + static_cast<std::size_t>(each->position() + each->length());
       named += sentence.substr(copied, behind - copied);
       copied = behind;
-      if (joint >= 1 && joint <= robot.joint_names.size() && told.insert(joint).second) {
-        named += fmt::format(" ({})", robot.joint_names[joint - 1]);
+      if (joint < 1 || joint > robot.joint_names.size() || !told.insert(joint).second) {
+        continue;
       }
+      const std::string& name = robot.joint_names[joint - 1];
+      named += is_its_number(name, joint) ? "" : fmt::format(" ({})", name);
     }
   }
   return named + sentence.substr(copied);

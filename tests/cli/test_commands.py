@@ -379,6 +379,10 @@ class Manners(PathCommand):
         said = self.run_well("check", "--model", KR270, "--recording", recording)
         self.assertIn("joint 3 (joint_a3) never moves", said)
         self.assertIn("joints 5 (joint_a5) and 6 (joint_a6) only move together", said)
+        for source in (KR270, KR270.parent / "kr270.urdf"):
+            self.file(source.name, source.read_text().replace("joint_a", "joint_"))
+        said = self.run_well("check", "--model", self.folder / KR270.name, "--recording", recording)
+        self.assertIn("joint 3 never moves", said)
 
     def test_the_version_names_the_build(self):
         self.assertRegex(self.run_well("--version"), r"^flexcomp \d+\.\d+\.\d+ \(.*\)\n$")
