@@ -20,7 +20,7 @@ std::string value_name(const CLI::Option& option) {
   return is_twice ? name.substr(colon + 1) : name;
 }
 
-/// What is required has no other value than the given one, and an empty list says nothing.
+/// A required option has no default, and an empty list says nothing.
 std::string default_text(const CLI::Option& option) {
   const std::string text = option.get_default_str();
   return text.empty() || text == "[]" || option.get_required() ? "" : "=" + text;

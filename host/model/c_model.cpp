@@ -56,15 +56,12 @@ std::string c_model_text(const Robot& robot) {
   const RobotModel<float, 6> model = six_axis_model(robot).cast<float>();
   std::string joints;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    joints += fmt::format("    {}{}{}\n", braces(model.joints[i]), i + 1 < 6 ? "," : "",
-                          comment(robot.joint_names[i]));
+    joints += fmt::format("    {}{}{}\n", braces(model.joints[i]),
+                          i + 1 < model.joints.size() ? "," : "", comment(robot.joint_names[i]));
   }
   return fmt::format(
-      "/* A robot for the core, made by flexcomp configure --c-model. Make it anew when robot.yaml "
-      "or "
-      "its URDF\n   changes. Poses are rotation row by row, then position (m); the order is that "
-      "of "
-      "flexcomp_model_t. */\n"
+      "/* A robot for the core, made by flexcomp configure --c-model; the order is that of\n"
+      "   flexcomp_model_t. Make it anew when robot.yaml or its URDF changes. */\n"
       "#pragma once\n\n#include <flexcomp/flexcomp.h>\n\n"
       "/* Ties tables to this robot, tool and payload: flexcomp_model_hash(&robot_model). */\n"
       "#define ROBOT_MODEL_HASH UINT64_C(0x{:016x})\n\n"
