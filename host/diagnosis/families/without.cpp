@@ -35,8 +35,13 @@ Fit Without::operator()(const std::vector<std::size_t>& indices) const {
     if (!goes) {
       fit.chosen.push_back(whole_.chosen[i]);
     }
-    for (std::size_t k = 0; k < whole_.chosen[i].values.size(); ++k) {
-      (goes ? own : others).push_back(parameter++);
+    const std::size_t linear = whole_.chosen[i].hypothesis.linear;
+    for (std::size_t k = 0; k < whole_.chosen[i].values.size(); ++k, ++parameter) {
+      if (!goes) {
+        others.push_back(parameter);
+      } else if (linear == 0 || k < linear) {  // the rest only shapes what is nothing then
+        own.push_back(parameter);
+      }
     }
   }
   const Eigen::VectorXd lost = value_(own);
