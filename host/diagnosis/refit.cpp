@@ -49,17 +49,27 @@ bool is_number_of_family(const Inquiry& inquiry, const Chosen& chosen) {
          !is_chosen(inquiry.given.chosen, chosen.hypothesis);
 }
 
+/// What was found, without the numbers of positions: nothing holds single ones of those to the size
+/// of their like. Torques tell their numbers one by one too.
+std::vector<Chosen> kept_of(const Inquiry& inquiry, const Fit& found) {
+  if (inquiry.observations.has(simulation::joint_torque)) {
+    return found.chosen;
+  }
+  std::vector<Chosen> kept;
+  std::copy_if(found.chosen.begin(), found.chosen.end(), std::back_inserter(kept),
+               [&](const Chosen& each) { return !is_number_of_family(inquiry, each); });
+  return kept;
+}
+
 /// The numbers of a machine together, in the place of those that were found one by one: beside the
 /// other findings, or without them where that predicts as well. Nothing where single numbers
 /// predict better.
 Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothesis>& hypotheses) {
   const Observations& observations = inquiry.observations;
-  std::vector<Chosen> others;
-  std::copy_if(found.chosen.begin(), found.chosen.end(), std::back_inserter(others),
-               [&](const Chosen& each) { return !is_number_of_family(inquiry, each); });
+  std::vector<Chosen> kept = kept_of(inquiry, found);
   Fit best = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary);
-  if (others.size() > inquiry.given.chosen.size()) {
-    const Fit rest = fit(observations, std::move(others), kSteps, &inquiry.dictionary);
+  if (kept.size() > inquiry.given.chosen.size()) {
+    const Fit rest = fit(observations, std::move(kept), kSteps, &inquiry.dictionary);
     Fit beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary);
     if (best.chosen.empty() ||
         (!beside.chosen.empty() && predicts_better(observations, best, beside))) {

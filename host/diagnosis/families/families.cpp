@@ -41,24 +41,35 @@ Eigen::VectorXd change_by(const Observations& observations, const Fit& fit,
              .head(observations.train);
 }
 
-/// Drives that turn with the joint before their own, by one turn or against it, their friction and
-/// rotors as they are.
-void propose_couplings(const Observations& observations, const Fit& fit, std::vector<Extra>* all) {
-  const effects::LawPointer law = effects::find_law("transmission", "");
+/// A drive that turns with the joint before its own, by one turn or against it, its friction and
+/// rotor as they are.
+void propose_coupling(const Observations& observations, const Fit& fit,
+                      const effects::LawPointer& law, int joint, std::vector<Extra>* all) {
   const auto left = fit.remainder.head(observations.train);
-  for (const int joint : law->joints(observations.machine.robot.joints())) {
-    if (fit.machine.robot.transmission(joint - 1, joint - 2) != 0) {
-      continue;
-    }
-    Hypothesis hypothesis(law, joint, observations.machine.robot);
-    hypothesis.set_bounds({kCouplings});
-    for (const double ratio : {1.0, -1.0}) {
-      Machine coupled = fit.machine;
-      hypothesis.apply({ratio}, &coupled);
-      const Eigen::VectorXd change = change_by(observations, fit, coupled);
-      const double product = change.dot(left);
-      const double gain = product > 0 ? product * product / change.squaredNorm() : 0;
-      all->push_back({{hypothesis, {ratio}}, gain});
+  Hypothesis hypothesis(law, joint, observations.machine.robot);
+  hypothesis.set_bounds({kCouplings});
+  for (const double ratio : {1.0, -1.0}) {
+    Machine coupled = fit.machine;
+    hypothesis.apply({ratio}, &coupled);
+    const Eigen::VectorXd change = change_by(observations, fit, coupled);
+    const double product = change.dot(left);
+    const double gain = product > 0 ? product * product / change.squaredNorm() : 0;
+    all->push_back({{hypothesis, {ratio}}, gain});
+  }
+}
+
+void propose_couplings(const Observations& observations, const Fit& fit, std::vector<Extra>* all) {
+  const model::Robot& robot = fit.machine.robot;
+  for (const effects::Effect& effect : effects::catalogue()) {
+    for (const effects::LawPointer& law : effect.forms) {
+      if (!law->traits.couples_drives) {
+        continue;
+      }
+      for (const int joint : law->joints(robot.joints())) {
+        if (robot.transmission(joint - 1, joint - 2) == 0) {
+          propose_coupling(observations, fit, law, joint, all);
+        }
+      }
     }
   }
 }
