@@ -22,7 +22,7 @@ function(flexcomp_unity_test name)
     FLEXCOMP_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data"
     FLEXCOMP_FEW_CASES=$<OR:$<BOOL:${FLEXCOMP_SANITIZE}>,$<BOOL:${CMAKE_CROSSCOMPILING}>>)
   target_link_libraries(${target} PRIVATE flexcomp_flags flexcomp_unity ${ARGN})
-  if(CMAKE_CROSSCOMPILING)
+  if(TARGET flexcomp_semihosting)
     target_link_libraries(${target} PRIVATE flexcomp_start_up flexcomp_semihosting)
   endif()
   add_test(NAME ${folder}.${name} COMMAND ${target})

@@ -11,6 +11,7 @@
 #include "check/recording_checks.hpp"
 #include "check/times.hpp"
 #include "cli/command.hpp"
+#include "cli/joint_names.hpp"
 #include "cli/process_options.hpp"
 #include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
@@ -59,11 +60,9 @@ Options read_config(const std::string& file) {
   return *options;
 }
 
-check::Checks check_all(const CheckOptions& options) {
+check::Checks check_all(const CheckOptions& options, const std::optional<model::Robot>& robot) {
   check::Checks checks;
-  std::optional<model::Robot> robot;
-  if (!options.model.empty()) {
-    robot = load_robot(options.model);
+  if (robot) {
     check::add(check::check_model(*robot), &checks);
   }
   const model::Robot* known = robot ? &*robot : nullptr;
@@ -101,9 +100,10 @@ check::Checks check_all(const CheckOptions& options) {
   return check::worst_first(std::move(checks));
 }
 
-void print_for_a_person(const check::Checks& checks) {
+void print_for_a_person(const check::Checks& checks, const std::optional<model::Robot>& robot) {
   for (const check::Check& each : checks) {
-    fmt::print("{}\n", check::sentence(each));
+    const std::string sentence = check::sentence(each);
+    fmt::print("{}\n", robot ? with_joint_names(sentence, *robot) : sentence);
   }
   if (checks.empty()) {
     fmt::print("nothing is wrong\n");
@@ -116,11 +116,15 @@ int run(const CheckOptions& options) {
     throw InputError(
         "nothing to check: expected --model, --recording, --path, --table or --config");
   }
-  const check::Checks checks = check_all(options);
+  std::optional<model::Robot> robot;
+  if (!options.model.empty()) {
+    robot = load_robot(options.model);
+  }
+  const check::Checks checks = check_all(options, robot);
   if (options.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"checks", check::as_json(checks)}}.dump(2));
   } else {
-    print_for_a_person(checks);
+    print_for_a_person(checks, robot);
   }
   return check::is_something_wrong(checks) ? kDoesNotHold : kDone;
 }

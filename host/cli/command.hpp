@@ -30,6 +30,7 @@ void add_circularity(CLI::App* app, Action* action);
 void add_export(CLI::App* app, Action* action);
 void add_force(CLI::App* app, Action* action);
 void add_form(CLI::App* app, Action* action);
+void add_help(CLI::App* app, Action* action);
 void add_identify(CLI::App* app, Action* action);
 void add_map(CLI::App* app, Action* action);
 void add_select(CLI::App* app, Action* action);

@@ -18,6 +18,7 @@
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "flexcomp/loop_gain.hpp"
+#include "model/c_model.hpp"
 #include "model/robot.hpp"
 
 namespace flexcomp::cli {
@@ -27,6 +28,7 @@ struct ConfigureOptions {
   RobotChoice model;
   std::string table;
   std::string out;
+  std::string c_model;
   double period = 0.004;
   std::string rsi_folder;
   std::string rsi_address = "192.168.1.10:49152";
@@ -147,6 +149,9 @@ std::vector<std::pair<std::filesystem::path, std::string>> files_of(const Config
       all.emplace_back(folder / name, std::move(contents));
     }
   }
+  if (!options.c_model.empty()) {
+    all.emplace_back(options.c_model, model::c_model_text(robot));
+  }
   all.emplace_back(options.out, std::move(text));
   return all;
 }
@@ -171,6 +176,9 @@ int run(const ConfigureOptions& options) {
   const bool needs_bus = options.rsi_folder.empty() || !options.rsi_force;
   fmt::print("{}: robot {:016x}; start with: flexcompd --config {}{}\n", options.out,
              model_hash(elastic), options.out, needs_bus ? " --can can0" : "");
+  if (!options.c_model.empty()) {
+    fmt::print("{}: the robot for a program in C\n", options.c_model);
+  }
   if (!options.rsi_folder.empty()) {
     fmt::print("{}: flexcomp.xml, flexcomp.rsi.xml and flexcomp.src for the controller (RSI.md)\n",
                options.rsi_folder);
@@ -222,6 +230,8 @@ void add_configure(CLI::App* app, Action* action) {
   command->add_option("--period", options->period, "s, from one setpoint to the next")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", options->out, "file to write")->required();
+  command->add_option("--c-model", options->c_model,
+                      "header to write too: the robot as flexcomp_model_t, for a program in C");
   add_rsi_files(command, options.get());
   command->callback([=] { *action = [=] { return run(*options); }; });
 }

@@ -10,6 +10,7 @@
 #include "check/model_checks.hpp"
 #include "check/recording_checks.hpp"
 #include "cli/command.hpp"
+#include "cli/joint_names.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
 #include "cli/robot_choice.hpp"
@@ -88,7 +89,7 @@ check::Checks check_input(const model::Robot& robot,
   checks = check::worst_first(std::move(checks));
   for (const check::Check& each : checks) {
     if (each.severity != check::Severity::note) {
-      fmt::print("{}\n", check::sentence(each));
+      fmt::print("{}\n", with_joint_names(check::sentence(each), robot));
     }
   }
   std::fflush(stdout);
@@ -136,33 +137,36 @@ std::string today() {
 }
 
 /// Prints what a person reads first, on the terminal.
-void summarize(const diagnosis::Observations& observations, const diagnosis::Diagnosis& result,
-               const std::string& folder) {
+void summarize(const model::Robot& robot, const diagnosis::Observations& observations,
+               const diagnosis::Diagnosis& result, const std::string& folder) {
+  const auto say = [&](const std::string& sentence) {
+    fmt::print("{}\n", with_joint_names(sentence, robot));
+  };
   for (const diagnosis::ClockCheck& clock : result.clocks) {
     fmt::print("clock of {}: late by {:.2f} ms, standard deviation {:.2f} ms\n", clock.group,
                1e3 * clock.delay, 1e3 * clock.deviation);
   }
   for (const diagnosis::Excitation& joint : result.excitation) {
     if (joint.tells_nothing()) {
-      fmt::print("joint {}: {}\n", joint.joint, diagnosis::verdict(joint));
+      say(fmt::format("joint {}: {}", joint.joint, diagnosis::verdict(joint)));
     }
   }
   fmt::print("{}{}\n", result.verdict, result.reason.empty() ? "" : ": " + result.reason);
   for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
-    fmt::print("{}\n", diagnosis::statement(observations, result, i));
+    say(diagnosis::statement(observations, result, i));
   }
   for (const diagnosis::Trial& trial : result.trials) {
-    fmt::print("{}\n", diagnosis::statement_of_trial(observations, trial));
+    say(diagnosis::statement_of_trial(observations, trial));
   }
   if (!result.retuned.chosen.empty()) {
-    fmt::print("{}\n", diagnosis::statement_of_retuned(observations, result));
+    say(diagnosis::statement_of_retuned(observations, result));
   }
   const std::string band = diagnosis::statement_of_band(observations, result);
   if (!band.empty()) {
-    fmt::print("{}\n", band);
+    say(band);
   }
   if (!result.suggested_experiment.empty()) {
-    fmt::print("{}\n", result.suggested_experiment);
+    say(result.suggested_experiment);
   }
   fmt::print("{}/report.html, diagnosis.json, updated_model.yaml\n", folder);
 }
@@ -203,7 +207,7 @@ int run(const DiagnoseOptions& options) {
   output_folder(options.out);
   files::write_texts(
       {{folder / "diagnosis.json", json}, {folder / "report.html", html}, {updated, yaml}});
-  summarize(observations, result, options.out);
+  summarize(robot, observations, result, options.out);
   return kDone;
 }
 

@@ -65,6 +65,9 @@ int run(const ForceOptions& options) {
         "mean moment at the tip  {:.2f}, {:.2f}, {:.2f} N·m\n"
         "largest force  {:.1f} N\n",
         mean[0], mean[1], mean[2], mean[3], mean[4], mean[5], peak);
+    if (!options.out.empty()) {
+      fmt::print("{}: the path with its wrench\n", options.out);
+    }
   }
   return kDone;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/help.hpp"
 #include "cli/progress.hpp"
 #include "cli/robot_choice.hpp"
 #include "error.hpp"
@@ -162,9 +163,6 @@ void refuse_impossible(const study::Identification& found) {
 }
 
 int run(const IdentifyOptions& options) {
-  if (options.model.empty() || options.recording.empty()) {
-    throw InputError("identify: --model and --recording are required (see --help)");
-  }
   model::Robot robot = load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   const recording::Recording recording =
@@ -247,8 +245,8 @@ void add_identify(CLI::App* app, Action* action) {
       "none is told.\n"
       "Example: flexcomp identify --model robot.yaml --recording load.csv --out identified.yaml\n"
       "         flexcomp identify plan --model robot.yaml --force 2000 --out plan.csv");
-  add_model(command, &options->model);
-  command->add_option("--recording", options->recording, "load tests");
+  CLI::Option* model = add_model(command, &options->model);
+  CLI::Option* recording = command->add_option("--recording", options->recording, "load tests");
   command->add_option("--out", options->out, "robot.yaml to write, with the springs that are told");
   add_vector(command, "--deviations", &options->deviations,
              "of measured x, y and z; their proportions count");
@@ -275,6 +273,7 @@ void add_identify(CLI::App* app, Action* action) {
   plan->add_option("--seed", request.seed, "of the postures to choose from");
   add_sought(plan, &request.sought);
   plan->add_flag("--json", planned->json, "one JSON object");
+  require_without_subcommand(command, {model, recording});
   plan->callback([=] { *action = [=] { return run_plan(*planned); }; });
   command->callback([=] {
     if (!command->got_subcommand(plan)) {

@@ -3,12 +3,14 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "build_info.hpp"
 #include "cli/command.hpp"
+#include "cli/help.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "linux/printable_line.hpp"
@@ -63,6 +65,7 @@ std::vector<const char*> words_of(int argc, char** argv) {
 int parse_and_run(const std::vector<const char*>& words) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
+      "  flexcomp help COMMAND    what a command does and takes\n"
       "  flexcomp check …         what is wrong or suspicious in model, path, table or "
       "recording\n\n"
       "From model to corrected path:\n"
@@ -97,10 +100,13 @@ int parse_and_run(const std::vector<const char*>& words) {
       "SI units everywhere: m, rad, s, N, N·m. Exit codes: 0 done, 1 the thing checked does not "
       "hold,\n"
       "2 unusable input or arguments, 3 internal fault.");
+  app.name("flexcomp");
+  app.formatter(std::make_shared<flexcomp::cli::OptionFormat>());
   app.set_version_flag("--version", FLEXCOMP_BUILD_INFO);
   app.require_subcommand(1);
   app.option_defaults()->always_capture_default();
   Action action;
+  flexcomp::cli::add_help(&app, &action);
   flexcomp::cli::add_check(&app, &action);
   flexcomp::cli::add_plan(&app, &action);
   flexcomp::cli::add_table(&app, &action);

@@ -54,6 +54,7 @@ int run(const PlanOptions& options, bool has_tool_axis) {
       planning::plan_circle(model::six_axis_model(robot), plan,
                             [&](int done) { progress.show(static_cast<std::size_t>(done)); });
   recording::write_recording(options.out, recording);
+  fmt::print("{}: {} rows\n", options.out, recording.size());
   return kDone;
 }
 
@@ -85,6 +86,7 @@ void add_plan(CLI::App* app, Action* action) {
   CLI::Option* tool_axis = add_vector(
       command, "--tool-axis", &options->tool_axis,
       "where the tool points (its z axis), base frame; otherwise against first × second axis");
+  tool_axis->default_str("");
   add_vector(command, "--force", &options->force, "N, on the tool");
   add_vector(command, "--moment", &options->moment, "N·m, on the tool");
   command->callback([=] {

@@ -28,8 +28,12 @@ void add_process(CLI::App* command, ProcessOptions* options) {
       ->check(CLI::PositiveNumber);
   const std::map<std::string, simulation::MaterialSide> sides = {
       {"outside", simulation::MaterialSide::outside}, {"inside", simulation::MaterialSide::inside}};
-  command->add_option("--material", options->process.side, "side of the contour: outside or inside")
-      ->transform(CLI::CheckedTransformer(sides, CLI::ignore_case));
+  CLI::CheckedTransformer as_side(sides, CLI::ignore_case);
+  as_side.description("{outside,inside}");
+  command->add_option("--material", options->process.side, "side of the contour")
+      ->transform(as_side)
+      ->type_name("TEXT")
+      ->default_str(is_outside(*options) ? "outside" : "inside");
   command->add_flag("--no-process", options->is_none,
                     "the force does not answer where the tool is (no cut): any gain is stable");
 }

@@ -50,6 +50,8 @@ int run(const ReportOptions& options) {
   }
   const std::string html = report::circle_report_html(page);
   files::write_text(options.out, html);
+  fmt::print("{}: {} circle{}\n", options.out, page.circles.size(),
+             page.circles.size() == 1 ? "" : "s");
   return kDone;
 }
 

@@ -69,8 +69,10 @@ int run_recording(const SimulateOptions& options) {
     throw InputError("--compliance-scale goes with --path, not with --recording");
   }
   const model::Robot robot = load_robot(options.model);
-  recording::write_recording(
-      options.out, expected(robot, recording::read_recording(options.recording, robot.joints())));
+  const recording::Recording shown =
+      expected(robot, recording::read_recording(options.recording, robot.joints()));
+  recording::write_recording(options.out, shown);
+  fmt::print("{}: {} rows\n", options.out, shown.size());
   return kDone;
 }
 
@@ -96,6 +98,7 @@ int run_path(const SimulateOptions& options) {
   recording.q_meas = q_cmd;
   recording.position = position;
   recording::write_recording(options.out, recording);
+  fmt::print("{}: {} rows\n", options.out, recording.size());
   return kDone;
 }
 

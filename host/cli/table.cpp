@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/help.hpp"
 #include "cli/process_options.hpp"
 #include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
@@ -155,12 +156,18 @@ void add_table(CLI::App* app, Action* action) {
       command->add_option("--path", build->path, "recording with t, q_cmd and the wrench");
   CLI::Option* out = command->add_option("--out", build->out, "table to write");
   command->add_option("--tolerance", build->tolerance, "m, largest allowed error at the TCP");
-  command->add_option("--orientation-tolerance", build->orientation_tolerance,
-                      "rad; if not given, the number of --tolerance");
-  command->add_option("--force", build->force,
-                      "N, largest force to certify for; if not given, 1.1 times the path's");
-  command->add_option("--moment", build->moment,
-                      "N·m, largest moment to certify for; if not given, 1.1 times the path's");
+  command
+      ->add_option("--orientation-tolerance", build->orientation_tolerance,
+                   "rad; if not given, the number of --tolerance")
+      ->default_str("");
+  command
+      ->add_option("--force", build->force,
+                   "N, largest force to certify for; if not given, 1.1 times the path's")
+      ->default_str("");
+  command
+      ->add_option("--moment", build->moment,
+                   "N·m, largest moment to certify for; if not given, 1.1 times the path's")
+      ->default_str("");
   add_process(command, &build->process);
   add_loop(command, &build->process.loop);
   add_signing(command, &build->signing);
@@ -168,15 +175,11 @@ void add_table(CLI::App* app, Action* action) {
 
   CLI::App* check = add_table_verify(command, action);
   CLI::App* sign = add_table_sign(command, action);
+  require_without_subcommand(command, {model, path, out});
 
   command->callback([=] {
     if (check->parsed() || sign->parsed()) {
       return;
-    }
-    for (const CLI::Option* option : {model, path, out}) {
-      if (option->count() == 0) {
-        throw CLI::RequiredError(option->get_name());
-      }
     }
     *action = [=] { return run_build(*build); };
   });

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import stat
 import struct
@@ -336,6 +337,59 @@ class Manners(PathCommand):
     def test_help_and_version_go_to_standard_output(self):
         for arguments in (("--help",), ("--version",), ("table", "--help"), ("plan", "circle", "--help")):
             self.assertIn("flexcomp", self.run_well(*arguments))
+
+    def test_help_before_a_command_is_help_after_it(self):
+        for words in ((), ("table",), ("table", "verify"), ("plan", "circle")):
+            self.assertEqual(self.run_well(*words, "--help"), self.run_well("help", *words))
+        self.assert_refused("help", "fly", saying="'flexcomp' has no command 'fly' (see flexcomp --help)")
+        self.assert_refused("help", "table", "fly", saying="'flexcomp table' has no command 'fly'")
+
+    def test_help_shows_values_as_words_and_marks_what_is_required(self):
+        shown = self.run_well("help", "table")
+        self.assertRegex(shown, r"--material TEXT:\{outside,inside\}=outside\s")
+        for option in ("--model", "--path", "--out"):
+            self.assertRegex(shown, rf"(?m)^  {option} TEXT REQUIRED ")
+        self.assertRegex(shown, r"--force FLOAT +N, .* if not given")
+        self.assertRegex(self.run_well("help", "plant"), r"--gain FLOAT in \[0 - 1\]=1 ")
+        for command in re.findall(r"^  ([a-z-]+) {2,}", self.run_well("--help").split("Subcommands:")[1], re.MULTILINE):
+            shown = self.run_well("help", command)
+            self.assertIn(f"Usage: flexcomp {command} ", shown)
+            for riddle in ("ENUM", "->", "=[] ", "FLOAT:FLOAT"):
+                self.assertNotIn(riddle, shown, command)
+
+    def test_what_is_required_of_a_command_is_not_of_its_subcommands(self):
+        for command in ("table", "identify"):
+            self.assert_refused(command, saying="--model is required (see --help)")
+        table = self.table(self.plan())
+        self.run_well("table", "verify", table, "--model", KR270)
+
+    def test_every_command_that_writes_a_file_says_so(self):
+        path, recording, page = (self.folder / name for name in ("path.csv", "recording.csv", "page.html"))
+        self.assertEqual(f"{path}: 73 rows\n", self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2",
+                                                            "--plane", "xz", "--points", "72", "--out", path))
+        self.assertEqual(f"{recording}: 73 rows\n",
+                         self.run_well("simulate", "--model", KR270, "--path", path, "--out", recording))
+        self.assertEqual(f"{page}: 73 rows\n", self.run_well("simulate", "--model", KR270, "--recording", recording,
+                                                            "--out", page))
+        self.assertEqual(f"{page}: 1 circle\n",
+                         self.run_well("report", "--model", KR270, "--columns", "x,z", "--recording", f"a={recording}",
+                                       "--out", page))
+        self.assertRegex(self.run_well("force", "--diameter", "0.016", "--teeth", "4", "--depth", "0.003",
+                                       "--feed-per-tooth", "8e-5", "--shear", "700e6,210e6,110e6", "--model", KR270,
+                                       "--path", path, "--out", recording), rf"{recording}: the path with its wrench\n$")
+
+    def test_joints_are_told_by_their_numbers_and_names(self):
+        names = ",".join(f"q_meas_{joint}" for joint in range(1, 7))
+        rows = [f"{i / 100},{0.1 + 0.3 * math.sin(i / 90)},{-1.2 + 0.3 * math.sin(i / 60)},1.4,"
+                f"{0.3 * math.sin(i / 40)},{0.3 * math.sin(i / 30)},{0.2 * math.sin(i / 30)}" for i in range(500)]
+        recording = self.file("recording.csv", "\n".join([f"t,{names}", *rows, ""]))
+        said = self.run_well("check", "--model", KR270, "--recording", recording)
+        self.assertIn("joint 3 (joint_a3) never moves", said)
+        self.assertIn("joints 5 (joint_a5) and 6 (joint_a6) only move together", said)
+        for source in (KR270, KR270.parent / "kr270.urdf"):
+            self.file(source.name, source.read_text().replace("joint_a", "joint_"))
+        said = self.run_well("check", "--model", self.folder / KR270.name, "--recording", recording)
+        self.assertIn("joint 3 never moves", said)
 
     def test_the_version_names_the_build(self):
         self.assertRegex(self.run_well("--version"), r"^flexcomp \d+\.\d+\.\d+ \(.*\)\n$")

@@ -1,7 +1,8 @@
 /// The core's numbers on this machine against those of another: golden_vectors.inc holds what a
 /// host made of them (`test_core_golden_vectors --print`), to the bit. On the Cortex-M7 look-ups
-/// multiply and add with one rounding, and sine and cosine are another library's. Compiled for
-/// wider registers (AVX), sums are in another order.
+/// multiply and add with one rounding, and sine and cosine are another library's. On AArch64
+/// Eigen's packets multiply and add with one rounding everywhere. Compiled for wider registers
+/// (AVX), sums are in another order.
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -16,6 +17,8 @@ namespace {
 
 #if defined(__x86_64__) && !defined(__AVX__)
 constexpr double kUnits = 0;  // in the last place of a group's largest number
+#elif defined(__aarch64__)
+constexpr double kUnits = 4;
 #else
 constexpr double kUnits = 2;
 #endif

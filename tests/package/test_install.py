@@ -98,6 +98,21 @@ class InstalledPackage(unittest.TestCase):
         self.assertEqual("ok", printed_with("0x${hash}u"))
         self.assertEqual("the table was made for another robot, tool or payload", printed_with("0x1u"))
 
+    def test_a_robot_is_written_as_a_model_in_c_with_its_fingerprint(self):
+        for robot in ("kr270", "kr500"):
+            source = KR270.parents[1] / robot / "robot.yaml"
+            run(self.prefix / "bin" / "flexcomp", "configure", "--model", source, "--out", self.folder / "node.toml",
+                "--c-model", self.folder / "robot_model.h")
+            configured = re.search(r'^model-hash = "(.*)"$', (self.folder / "node.toml").read_text(), re.MULTILINE)
+            for language, compiler, standard in (("c", "FLEXCOMP_C", "-std=c11"), ("c++", "FLEXCOMP_CXX", "-std=c++17")):
+                (package,) = self.prefix.rglob("flexcomp.pc")
+                flags = subprocess.run(["pkg-config", "--cflags", "--libs", "flexcomp"], check=True, text=True,
+                                       capture_output=True,
+                                       env={**os.environ, "PKG_CONFIG_PATH": str(package.parent)}).stdout.split()
+                run(os.environ[compiler], standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-I", self.folder, "-x",
+                    language, PROJECT / "fingerprint.c", "-x", "none", *flags, "-o", self.folder / "fingerprint")
+                self.assertEqual([configured.group(1)] * 2, run(self.folder / "fingerprint").split())
+
     def test_the_guide_shows_the_programs_that_are_tested(self):
         shown = re.findall(r"```c\n(.*?)```", GUIDE.read_text(), re.DOTALL)
         self.assertEqual([(PROJECT / name).read_text() for name in ("controller_loop.c", "table_in_flash.c")], shown)

@@ -83,6 +83,7 @@ class Packages(unittest.TestCase):
     def test_programs_say_which_libraries_they_need_and_the_library_needs_none(self):
         for name in ("flexcomp", "flexcompd"):
             self.assertRegex(self.field(name, "Depends"), r"\blibc6 \(>= .*\blibfmt")
+        self.assertRegex(self.field("flexcomp", "Depends"), r"\bgnuplot-nox\b")
         self.assertEqual("", self.field("libflexcomp-dev", "Depends"))
 
     def test_a_circle_is_corrected_from_there(self):
@@ -107,7 +108,8 @@ class Packages(unittest.TestCase):
 
     def test_the_shell_completes_subcommands_and_options(self):
         completions = self.root / "usr/share/bash-completion/completions/flexcomp"
-        for words, expected in ((("dia",), "diagnose"), (("table", "veri"), "verify"), (("table", "--tole"), "--tolerance")):
+        for words, expected in ((("dia",), "diagnose"), (("table", "veri"), "verify"), (("table", "--tole"), "--tolerance"),
+                                (("help", "table", "veri"), "verify"), (("he",), "help")):
             done = run("bash", "-euc", 'source "$0"; COMP_WORDS=(flexcomp "$@"); COMP_CWORD=$#; _flexcomp; echo "${COMPREPLY[*]}"',
                        completions, *words)
             self.assertEqual(expected, done.strip())

@@ -61,6 +61,8 @@ def page(program, section, helps, version):
 
 def completions(program, helps):
     name = program.name
+    # After `help` comes what could have come in its place.
+    helps = {words: text for words, text in helps.items() if words != ("help",)}
     cases = "\n".join(f'    "{" ".join(words)}") known="{" ".join(subcommands(text) + options(text))}" ;;'
                       for words, text in helps.items())
     return f"""# bash completion for {name}

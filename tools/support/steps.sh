@@ -16,6 +16,15 @@ die() {
   exit 1
 }
 
+as_root() {
+  if ((EUID == 0)); then
+    "$@"
+  else
+    command -v sudo >/dev/null || die "needs root's rights, and there is no sudo; run it as root"
+    sudo "$@"
+  fi
+}
+
 seconds_as_text() {
   printf '%d min %02d s' $(($1 / 60)) $(($1 % 60))
 }
