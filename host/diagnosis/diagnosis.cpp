@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/registration.hpp"
 #include "diagnosis/select/members.hpp"
 
@@ -201,6 +202,43 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   }
 }
 
+bool is_open(const Diagnosis& diagnosis) {
+  return diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained";
+}
+
+/// The diagnosis with laws that nobody listed in the place of its findings, if these leave much
+/// more; else as it was.
+Diagnosis with_laws(const Observations& observations, const Diagnosis& before, Choice laws) {
+  const Fit& found = before.choice.fit;
+  if (laws.findings.empty() || bic_gain(observations, found, laws.fit) < kFarMoreEvidence ||
+      !predicts_better(observations, found, laws.fit)) {
+    return before;
+  }
+  laws.ranking = before.choice.ranking;
+  Diagnosis diagnosis = before;
+  diagnosis.choice = std::move(laws);
+  diagnosis.nearest.clear();
+  diagnosis.indistinguishable.clear();
+  diagnosis.proposal.clear();
+  find_groups(&diagnosis);
+  judge(observations, &diagnosis);
+  return diagnosis.verdict == "unexplained" ? before : diagnosis;
+}
+
+/// Seeks laws that nobody listed beside what was found and, where that does not end at the noise,
+/// without it: what was found may stand for a law.
+void seek_laws(const Inquiry& inquiry, const Tell& tell, Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  if (!diagnosis->choice.findings.empty()) {
+    *diagnosis = with_laws(observations, *diagnosis,
+                           grammar::choose_laws(inquiry, diagnosis->choice.fit, tell));
+  }
+  if (is_open(*diagnosis)) {
+    *diagnosis =
+        with_laws(observations, *diagnosis, grammar::choose_laws(inquiry, inquiry.given, tell));
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -233,7 +271,10 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   }
   find_groups(&diagnosis);
   judge(*observations, &diagnosis);
-  if (diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained") {
+  if (is_open(diagnosis)) {
+    seek_laws(inquiry, settings.choosing, &diagnosis);
+  }
+  if (is_open(diagnosis)) {
     if (diagnosis.proposal.empty()) {
       diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
     }
