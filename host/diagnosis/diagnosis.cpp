@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/grammar/causes.hpp"
 #include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/registration.hpp"
 #include "diagnosis/select/members.hpp"
@@ -225,15 +226,21 @@ Diagnosis with_laws(const Observations& observations, const Diagnosis& before, C
   return diagnosis.verdict == "unexplained" ? before : diagnosis;
 }
 
-/// Seeks laws that nobody listed beside what was found and, where that does not end at the noise,
-/// without it: what was found may stand for a law.
+/// Seeks laws that nobody listed beside what was found and, where that ends far from the noise,
+/// without it: what was found may stand for a law. Where a machine's numbers together account for
+/// more than any finding, these come first.
 void seek_laws(const Inquiry& inquiry, const Tell& tell, Diagnosis* diagnosis) {
+  constexpr double kFar = 2;  // times the noise
   const Observations& observations = inquiry.observations;
+  if (!diagnosis->choice.begun.chosen.empty()) {
+    return;
+  }
   if (!diagnosis->choice.findings.empty()) {
     *diagnosis = with_laws(observations, *diagnosis,
                            grammar::choose_laws(inquiry, diagnosis->choice.fit, tell));
   }
-  if (is_open(*diagnosis)) {
+  const double left = largest_ratio(observations, diagnosis->choice.fit.remainder);
+  if (is_open(*diagnosis) && (diagnosis->choice.findings.empty() || left > kFar)) {
     *diagnosis =
         with_laws(observations, *diagnosis, grammar::choose_laws(inquiry, inquiry.given, tell));
   }
@@ -287,6 +294,11 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     if (diagnosis.suggested_experiment.empty() && !others.empty() &&
         others.front().delta_bic < kSameEvidence) {
       diagnosis.suggested_experiment = suggest_experiment(*observations, diagnosis, i);
+    }
+  }
+  for (const Finding& finding : diagnosis.choice.findings) {
+    if (diagnosis.suggested_experiment.empty()) {
+      diagnosis.suggested_experiment = grammar::next_recording(finding.chosen);
     }
   }
   return diagnosis;

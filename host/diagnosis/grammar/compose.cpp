@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/grammar/causes.hpp"
 #include "diagnosis/grammar/known.hpp"
 #include "effects/formula_law.hpp"
 #include "parallel/in_parallel.hpp"
@@ -10,9 +11,9 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
-constexpr int kRefinements = 5;       // halvings of the step around the best start
-constexpr double kMostHalves = 0.8;   // in which a richer law must predict better
-constexpr double kWorthwhile = 0.01;  // of the simpler law's gain, by which it must
+constexpr int kRefinements = 5;      // halvings of the step around the best start
+constexpr double kMostHalves = 0.8;  // in which a richer law must predict better
+constexpr double kWorthwhile = 6;  // squares over the noise that it must gain for each number more
 
 /// A shape of a lead along all rows, by its parameters.
 class Fitted {
@@ -48,7 +49,7 @@ class Fitted {
 
   /// The best parameters: the best start, and around it in ever smaller steps.
   Values best() const {
-    const std::vector<Values> starts = starts_of(shape_, *lead_.driver, observations_);
+    const std::vector<Values> starts = starts_of(shape_, *lead_.driver, observations_, lead_.wave);
     Values best = starts.front();
     double most = -1;
     for (const Values& start : starts) {
@@ -66,7 +67,7 @@ class Fitted {
     const std::vector<Bounds> bounds = bounds_of(shape_, *lead_.driver, observations_);
     for (std::size_t i = 0; i < best.size(); ++i) {
       const bool is_place = shape_.parameters[i].sought == Sought::threshold ||
-                            shape_.parameters[i].sought == Sought::order;
+                            shape_.parameters[i].sought == Sought::wave;
       double step = is_place ? bounds[i].step * 5 : 0.4 * best[i];
       for (int k = 0; k < kRefinements; ++k, step /= 2) {
         for (const double change : {-step, step}) {
@@ -91,9 +92,9 @@ class Fitted {
 };
 
 Composed composed_of(const Observations& observations, const Rows& rows, const Lead& lead,
-                     const Shape& shape, bool has_constant) {
+                     const Shape& shape, bool has_constant, Values parameters) {
   const Fitted fitted(observations, rows, lead, shape, has_constant);
-  Composed law{lead, &shape, has_constant, fitted.best(), {}, 0, {}};
+  Composed law{lead, &shape, has_constant, std::move(parameters), {}, 0, {}};
   const Eigen::MatrixXd courses = fitted.courses(law.parameters);
   if (!courses.allFinite()) {
     return law;
@@ -112,8 +113,9 @@ bool is_worth(const Composed& richer, const Composed& simpler) {
     better += richer.unseen[i] > simpler.unseen[i] ? 1 : 0;
   }
   const double more = mean(richer.unseen) - mean(simpler.unseen);
+  const auto numbers = static_cast<double>(richer.complexity() - simpler.complexity());
   return better >= kMostHalves * static_cast<double>(richer.unseen.size()) &&
-         more > kWorthwhile * std::max(mean(simpler.unseen), 0.0);
+         more > kWorthwhile * numbers;
 }
 
 /// Moves the best to the front: of laws that say as much the one that predicts best, of others the
@@ -137,11 +139,12 @@ std::vector<Composed> laws_of(const Observations& observations, const Rows& rows
                               const std::set<std::string>& effects) {
   std::vector<Composed> laws;
   for (const Shape& shape : shapes()) {
-    if (!shape.fits(*lead.driver) || effects.count(known_as(lead, shape)) > 0) {
+    if (!shape.fits(*lead.seat, *lead.driver) || effects.count(known_as(lead, shape)) > 0) {
       continue;
     }
+    const Values parameters = Fitted(observations, rows, lead, shape, true).best();
     for (const bool has_constant : {false, true}) {
-      Composed law = composed_of(observations, rows, lead, shape, has_constant);
+      Composed law = composed_of(observations, rows, lead, shape, has_constant, parameters);
       if (law.gain > 0) {
         laws.push_back(std::move(law));
       }
@@ -177,6 +180,16 @@ Bounds bounds_of_amplitude(double value) {
   constexpr double kStep = 0.05;
   const double size = std::max(std::abs(value), 1e-12);
   return {-kFar * size, kFar * size, kStep * size};
+}
+
+/// A law that says besides what usually causes it.
+effects::LawPointer with_cause(const effects::LawPointer& law, const std::string& cause) {
+  if (cause.empty()) {
+    return law;
+  }
+  effects::Law told = *law;
+  told.statement = [law, cause](int joint) { return law->statement(joint) + ", " + cause; };
+  return std::make_shared<const effects::Law>(std::move(told));
 }
 
 }  // namespace
@@ -217,7 +230,9 @@ Chosen chosen_of(const Observations& observations, const Composed& composed) {
   const int joint = composed.lead.seat->place.joint;
   const auto bound = std::make_shared<const effects::BoundFormula>(
       effects::bind_law(written, robot, joint, names));
-  Hypothesis hypothesis(effects::formula_law(bound, effects::Unvalued::not_a_number), joint, robot);
+  Hypothesis hypothesis(with_cause(effects::formula_law(bound, effects::Unvalued::not_a_number),
+                                   usual_cause(composed.lead, *composed.shape)),
+                        joint, robot);
   std::vector<Bounds> bounds;
   for (const double amplitude : composed.amplitude) {
     bounds.push_back(bounds_of_amplitude(amplitude));

@@ -22,9 +22,12 @@ std::vector<std::string> names_of(const Observations& observations) {
       names.push_back(fmt::format("v{}", joint));
       names.push_back(fmt::format("a{}", joint));
     }
-    names.push_back(fmt::format(
-        "{}{}", shows_inertia && !observations.has(simulation::tcp_position) ? "tau" : "load",
-        joint));
+    if (shows_inertia) {
+      names.push_back(fmt::format("tau{}", joint));
+    }
+    if (observations.has(simulation::tcp_position)) {
+      names.push_back(fmt::format("load{}", joint));
+    }
   }
   if (observations.has_wrench()) {
     for (const char* each : {"fx", "fy", "fz", "mx", "my", "mz"}) {
@@ -48,9 +51,9 @@ Eigen::VectorXd course_of(const effects::Signal& signal, const Observations& obs
   Eigen::VectorXd course(rows.count);
   for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
     const Scene& scene = observations.scenes[s];
-    course.segment(rows.first[s], scene.rows()) =
-        values_of(signal, scene, observations.simulations[s], observations.predictions[s],
-                  effects::Loads::with_inertia, scene.time[0]);
+    course.segment(rows.first[s], rows.rows(s)) =
+        rows.of(values_of(signal, scene, observations.simulations[s], observations.predictions[s],
+                          effects::Loads::with_inertia, scene.time[0]));
   }
   return course;
 }
@@ -99,6 +102,7 @@ std::vector<Driver> drivers_of(const Observations& observations, const Rows& row
     Driver driver{name,
                   signal->kind,
                   is_of_joint(signal->kind) ? signal->index : 0,
+                  signal->unit,
                   course_of(*signal, observations, rows),
                   0,
                   0};

@@ -12,7 +12,8 @@ namespace flexcomp::diagnosis::grammar {
 struct Driver {
   std::string name;  ///< as formulas have it: q4, tau5, temp_c
   effects::SignalKind kind = effects::SignalKind::angle;
-  int joint = 0;  ///< from 1 on; 0 where it belongs to none
+  int joint = 0;     ///< from 1 on; 0 where it belongs to none
+  std::string unit;  ///< rad, N·m, …
   Eigen::VectorXd course;
   double low = 0, high = 0;  ///< of the course
 
@@ -22,7 +23,8 @@ struct Driver {
 };
 
 /// The signals that vary along the recordings by more than their noise. Time is none where scenes
-/// are load tests. Loads at rest are left out where torques are known with inertia.
+/// are load tests. Of a joint's load that counts which what was measured shows: at rest at the TCP,
+/// with inertia elsewhere.
 std::vector<Driver> drivers_of(const Observations& observations, const Rows& rows);
 
 }  // namespace flexcomp::diagnosis::grammar

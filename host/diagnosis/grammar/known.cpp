@@ -80,6 +80,10 @@ bool is_drift(const Lead& lead, const Shape& shape) {
 
 std::string known_as(const Lead& lead, const Shape& shape) {
   const effects::LawPlace& place = lead.seat->place;
+  if (place.kind == PlaceKind::sensor_wrench && lead.driver->kind == SignalKind::wrench &&
+      std::string("line") == shape.name && lead.driver->name == lead.seat->name.substr(7)) {
+    return "wrench_scale";
+  }
   if (is_drift(lead, shape)) {
     return "thermal_drift";
   }

@@ -10,6 +10,7 @@ namespace flexcomp::diagnosis::grammar {
 namespace {
 
 constexpr std::size_t kMostLaws = 5;
+constexpr double kLeastLawShare = 0.3;  // of the power beyond the noise where it shows
 constexpr int kLawSteps = 20;
 constexpr std::size_t kTried = 3;  // composed laws that are fitted before the best is taken
 
@@ -38,7 +39,7 @@ Fit with_law(const Inquiry& inquiry, const Material& material, const Fit& before
   for (std::size_t i = 0; i < std::min(laws.size(), kTried); ++i) {
     Fit grown = fit_with(inquiry, before, chosen_of(observations, laws[i]), kLawSteps);
     const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
-    if (holds(inquiry, evidence)) {
+    if (holds(inquiry, evidence) && evidence.share > kLeastLawShare) {
       return grown;
     }
   }
@@ -60,6 +61,31 @@ Fit better_of(const Observations& observations, Fit law, Fit effect) {
   return bic_gain(observations, effect, law) > kStrongEvidence ? law : effect;
 }
 
+/// A fit with one law or effect more; nothing chosen where none holds.
+Fit with_one(const Inquiry& inquiry, const Material& material, const Fit& before) {
+  return better_of(inquiry.observations, with_law(inquiry, material, before),
+                   with_effect(inquiry, before));
+}
+
+/// Chooses anew what was chosen from `first` on, each beside all others: what was chosen early had
+/// to say what others say by now.
+Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, std::size_t first) {
+  const Observations& observations = inquiry.observations;
+  for (std::size_t i = first; i + 1 < grown.chosen.size(); ++i) {
+    if (!meet(directions(observations, grown, i),
+              directions(observations, grown, grown.chosen.size() - 1))) {
+      continue;
+    }
+    Fit again = with_one(inquiry, material, fit_without(inquiry, grown, i));
+    const bool is_simpler = again.parameters() < grown.parameters();
+    if (!again.chosen.empty() &&
+        bic_gain(observations, grown, again) > (is_simpler ? 0 : kStrongEvidence)) {
+      grown = std::move(again);
+    }
+  }
+  return grown;
+}
+
 }  // namespace
 
 bool is_law(const Hypothesis& hypothesis) { return hypothesis.law->written != nullptr; }
@@ -68,12 +94,11 @@ Choice choose_laws(const Inquiry& inquiry, const Fit& begun, const Tell& tell) {
   const Material material(inquiry);
   Fit grown = begun;
   for (std::size_t i = 0; i < kMostLaws; ++i) {
-    Fit next = better_of(inquiry.observations, with_law(inquiry, material, grown),
-                         with_effect(inquiry, grown));
+    Fit next = with_one(inquiry, material, grown);
     if (next.chosen.empty()) {
       break;
     }
-    grown = std::move(next);
+    grown = revised(inquiry, material, std::move(next), begun.chosen.size());
     tell(grown.chosen.size(), kMostFindings);
   }
   Choice choice = conclude(inquiry, {grown, seek(inquiry, grown)});

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "diagnosis/grammar/wave.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis::grammar {
@@ -14,7 +16,7 @@ using effects::PlaceKind;
 using effects::SignalKind;
 
 constexpr Eigen::Index kHats = 9;
-constexpr std::size_t kMostLeads = 14;
+constexpr std::size_t kMostLeads = 10;
 constexpr double kMuchLess = 0.6;  // of the best lead's gain
 
 const Driver* find(const std::vector<Driver>& drivers, const std::string& name) {
@@ -47,7 +49,7 @@ std::vector<Factor> factors_at(const effects::LawPlace& place, const std::vector
     add_factor(drivers, "load" + joint, false, &factors);
     add_factor(drivers, "tau" + joint, false, &factors);
     add_factor(drivers, "v" + joint, true, &factors);
-  } else {
+  } else if (place.kind == PlaceKind::tcp_base || place.kind == PlaceKind::tcp_tool) {
     for (const char* force : {"fx", "fy", "fz"}) {
       add_factor(drivers, force, false, &factors);
     }
@@ -93,6 +95,24 @@ class Hats {
   Eigen::VectorXd share_;
 };
 
+/// What a factor and a driver do at a seat; nothing where a law of them would mean nothing: errors
+/// of sensors follow time alone.
+std::optional<Lead> lead_of(const Seat& seat, const Driver& driver, const Hats& hats,
+                            const Factor& factor) {
+  const bool is_time = driver.kind == SignalKind::time;
+  if (seat.is_sensor() && (!is_time || !factor.text.empty())) {
+    return std::nullopt;
+  }
+  const Normal normal = hats.normal(seat, factor);
+  Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()), 1};
+  if (factor.text.empty() && (is_time ? seat.is_sensor() : driver.kind == SignalKind::angle)) {
+    const Wave wave = best_wave(seat, driver);
+    lead.wave = wave.order;
+    lead.gain = std::max({lead.gain, wave.gain, is_time ? best_step(seat) : 0});
+  }
+  return lead;
+}
+
 }  // namespace
 
 std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Driver>& drivers,
@@ -104,8 +124,9 @@ std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Drive
       [&](std::size_t s) {
         for (const Factor& factor : factors_at(seats[s].place, drivers)) {
           for (std::size_t d = 0; d < drivers.size(); ++d) {
-            const Normal normal = hats[d].normal(seats[s], factor);
-            by_seat[s].push_back({&seats[s], &drivers[d], factor, normal.gain(normal.amplitude())});
+            if (const auto lead = lead_of(seats[s], drivers[d], hats[d], factor)) {
+              by_seat[s].push_back(*lead);
+            }
           }
         }
       });
@@ -120,7 +141,7 @@ std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Drive
   const auto end = std::find_if(leads.begin(), leads.end(),
                                 [&](const Lead& each) { return !(each.gain > least); });
   leads.erase(end, leads.end());
-  leads.resize(std::min(leads.size(), kMostLeads), Lead{nullptr, nullptr, {}, 0});
+  leads.resize(std::min(leads.size(), kMostLeads), Lead{nullptr, nullptr, {}, 0, 0});
   return leads;
 }
 

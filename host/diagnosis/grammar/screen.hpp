@@ -17,12 +17,14 @@ struct Lead {
   const Seat* seat;
   const Driver* driver;
   Factor factor;
-  double gain;  ///< in squares, by the conditional mean of what is left over the driver
+  double gain;  ///< in squares, by what is told of it here
+  double wave;  ///< 2π over the period along the driver with which a wave does most
 };
 
 /// The leads for what a fit leaves, the best first: a seat, a driver and a factor of which the
-/// conditional mean (piecewise linear over the driver) lowers the squares most. Those that do much
-/// less than the best are left out. `looked_at` is raised by the leads that were looked at.
+/// conditional mean (piecewise linear over the driver), a wave over it or, in time, a step lowers
+/// the squares most. Those that do much less than the best are left out. `looked_at` is raised by
+/// the leads that were looked at.
 std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Driver>& drivers,
                          std::size_t* looked_at);
 

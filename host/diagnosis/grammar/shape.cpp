@@ -53,11 +53,13 @@ std::vector<Shape> all_shapes() {
       {"odd cubic", {"$", "$^3"}, {}, kSigned},
       {"approach", {"exp(-t/T)"}, {{"T", Sought::constant}}, kSlow},
       {"lag", {"lag($, T)"}, {{"T", Sought::constant}}, kStates},
+      {"heat", {"lag($^2, T)"}, {{"T", Sought::constant}}, {SignalKind::torque}},
       {"cubic", {"$", "$^2", "$^3"}, {}, kStates},
       {"growth", {"exp($/w)"}, {width}, kForces},
       {"soft step", {"tanh(($ - d)/w)"}, {at, width}, kStates},
       {"bump", {"exp(-(($ - d)/w)^2)"}, {at, width}, kStates},
-      {"wave of any order", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::order}}, kAngles}};
+      {"wave of any order", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::wave}}, kAngles},
+      {"tone", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::wave}}, kSlow}};
   const std::vector<Shape> waves = wave_shapes();
   all.insert(all.begin() + 7, waves.begin(), waves.end());
   return all;
@@ -78,7 +80,7 @@ double duration_of(const Observations& observations) {
 
 /// A term along the rows of one scene.
 void compute(const formula::Formula& formula, const Shape& shape, const Values& parameters,
-             const Eigen::VectorXd& driver, const Scene& scene,
+             const Eigen::VectorXd& driver, const Eigen::VectorXd& time, bool is_static,
              Eigen::Ref<Eigen::VectorXd> course) {
   std::vector<double> values(formula.names().size(), 0);
   std::size_t at = values.size();
@@ -95,13 +97,13 @@ void compute(const formula::Formula& formula, const Shape& shape, const Values& 
   formula::Course along(formula);
   for (Eigen::Index row = 0; row < course.size(); ++row) {
     values[at] = driver[row];
-    const bool is_timed = row > 0 && !scene.is_static;
-    course[row] = along.next(values, is_timed ? scene.time[row] - scene.time[row - 1] : 0);
+    const bool is_timed = row > 0 && !is_static;
+    course[row] = along.next(values, is_timed ? time[row] - time[row - 1] : 0);
   }
 }
 
-std::vector<double> starts_of(Sought sought, const Driver& driver,
-                              const Observations& observations) {
+std::vector<double> starts_of(Sought sought, const Driver& driver, const Observations& observations,
+                              double wave) {
   std::vector<double> starts;
   switch (sought) {
     case Sought::scale:
@@ -119,10 +121,8 @@ std::vector<double> starts_of(Sought sought, const Driver& driver,
         starts.push_back(share * driver.span());
       }
       break;
-    case Sought::order:
-      for (double order = 0.5; order * driver.span() < 60; order += 1 / driver.span()) {
-        starts.push_back(order);
-      }
+    case Sought::wave:
+      starts.push_back(wave);
       break;
     case Sought::constant:
       for (double time = duration_of(observations); time > 0.005 * duration_of(observations);
@@ -143,8 +143,8 @@ Bounds bounds_of(Sought sought, const Driver& driver, const Observations& observ
       return {driver.low - driver.span(), driver.high + driver.span(), kStep * driver.span()};
     case Sought::width:
       return {1e-3 * driver.span(), 5 * driver.span(), kStep * driver.span()};
-    case Sought::order:
-      return {0.1, 1000, 0.1 / driver.span()};
+    case Sought::wave:
+      return {0.1 / driver.span(), 1e4, 0.1 / driver.span()};
     case Sought::constant:
       break;
   }
@@ -154,7 +154,15 @@ Bounds bounds_of(Sought sought, const Driver& driver, const Observations& observ
 
 }  // namespace
 
-bool Shape::fits(const Driver& driver) const {
+bool Shape::fits(const Seat& seat, const Driver& driver) const {
+  const bool is_event = std::string(name) == "tone" || std::string(name) == "step";
+  if (driver.kind == SignalKind::time && is_event != seat.is_sensor()) {
+    return false;
+  }
+  const bool is_whole_wave = std::string(name) == "wave";  // of a turn
+  if (is_whole_wave && driver.unit != "rad") {
+    return false;
+  }
   return kinds.empty() || std::find(kinds.begin(), kinds.end(), driver.kind) != kinds.end();
 }
 
@@ -177,10 +185,12 @@ Eigen::MatrixXd courses_of(const Shape& shape, const Driver& driver, const Rows&
   const std::vector<std::string> terms = terms_of(shape, driver);
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const formula::Formula formula(terms[i]);
-    for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
-      const Scene& scene = observations.scenes[s];
-      compute(formula, shape, parameters, driver.course.segment(rows.first[s], scene.rows()), scene,
-              courses.col(static_cast<Eigen::Index>(i)).segment(rows.first[s], scene.rows()));
+    for (std::size_t scene = 0; scene < observations.scenes.size(); ++scene) {
+      const Eigen::Index first = rows.first[scene];
+      const Eigen::Index count = rows.rows(scene);
+      compute(formula, shape, parameters, driver.course.segment(first, count),
+              rows.time.segment(first, count), observations.is_static,
+              courses.col(static_cast<Eigen::Index>(i)).segment(first, count));
     }
   }
   return courses;
@@ -196,12 +206,12 @@ std::vector<Bounds> bounds_of(const Shape& shape, const Driver& driver,
 }
 
 std::vector<Values> starts_of(const Shape& shape, const Driver& driver,
-                              const Observations& observations) {
+                              const Observations& observations, double wave) {
   std::vector<Values> starts = {{}};
   for (const ShapeParameter& each : shape.parameters) {
     std::vector<Values> grown;
     for (const Values& start : starts) {
-      for (const double value : starts_of(each.sought, driver, observations)) {
+      for (const double value : starts_of(each.sought, driver, observations, wave)) {
         grown.push_back(start);
         grown.back().push_back(value);
       }

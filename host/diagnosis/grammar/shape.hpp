@@ -12,7 +12,7 @@ enum class Sought {
   scale,      ///< a size of the driver, at which a law saturates or falls off
   threshold,  ///< a value of the driver, at which something begins
   width,      ///< an extent along the driver
-  order,      ///< periods a turn, any number
+  wave,       ///< angle of a wave over the driver: periods a turn, or 2π times a frequency
   constant,   ///< a time (s)
 };
 
@@ -29,7 +29,7 @@ struct Shape {
   /// Of drivers of which kinds; all where it is empty.
   std::vector<effects::SignalKind> kinds;
 
-  bool fits(const Driver& driver) const;
+  bool fits(const Seat& seat, const Driver& driver) const;
 };
 
 /// All shapes, the simplest first.
@@ -42,10 +42,11 @@ std::vector<std::string> terms_of(const Shape& shape, const Driver& driver);
 Eigen::MatrixXd courses_of(const Shape& shape, const Driver& driver, const Rows& rows,
                            const Observations& observations, const Values& parameters);
 
-/// Where the parameters are sought along a driver, and values to begin with (every combination).
+/// Where the parameters are sought along a driver, and values to begin with (every combination);
+/// `wave` is where a wave is begun with.
 std::vector<Bounds> bounds_of(const Shape& shape, const Driver& driver,
                               const Observations& observations);
 std::vector<Values> starts_of(const Shape& shape, const Driver& driver,
-                              const Observations& observations);
+                              const Observations& observations, double wave);
 
 }  // namespace flexcomp::diagnosis::grammar
