@@ -1,26 +1,45 @@
 #include "diagnosis/covariance.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "diagnosis/clusters.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Sums of the samples' scores (derivative times weighted remainder) over stretches of time, a row
-/// each.
-Eigen::MatrixXd scores_of_stretches(const Observations& observations,
-                                    const Eigen::MatrixXd& derivative,
-                                    const Eigen::VectorXd& weighted_remainder) {
-  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(
-      kHoldoutStretches * static_cast<Eigen::Index>(observations.scenes.size()), derivative.cols());
-  for (Eigen::Index i = 0; i < weighted_remainder.size(); ++i) {
-    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
-    const Eigen::Index stretch = stretch_of(at.row, observations.scenes[at.scene].rows());
-    scores.row(static_cast<Eigen::Index>(at.scene) * kHoldoutStretches + stretch) +=
-        weighted_remainder[i] * derivative.row(i);
+constexpr double kRidge = 1e-9;  // of a parameter's precision: keeps the rest solvable
+
+/// Variance of each parameter (in the inverse's units) by the scatter of the fits that leave out
+/// one cluster each. One that a cluster alone tells scatters
+/// without bounds.
+Eigen::VectorXd scatter_without_each(const Clusters& clusters, const NormalInverse& inverse,
+                                     const Eigen::MatrixXd& derivative,
+                                     const Eigen::VectorXd& weight,
+                                     const Eigen::VectorXd& remainder) {
+  std::vector<std::vector<Eigen::Index>> members(static_cast<std::size_t>(clusters.count));
+  for (std::size_t i = 0; i < clusters.of.size(); ++i) {
+    members[static_cast<std::size_t>(clusters.of[i])].push_back(static_cast<Eigen::Index>(i));
   }
-  return scores;
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(derivative.cols());
+  double used = 0;
+  for (const std::vector<Eigen::Index>& own : members) {
+    if (own.empty()) {
+      continue;
+    }
+    const Eigen::MatrixXd slope = weight(own).cwiseSqrt().asDiagonal() *
+                                  derivative(own, Eigen::all) * inverse.unit.asDiagonal();
+    const Eigen::VectorXd score =
+        slope.transpose() * weight(own).cwiseSqrt().cwiseProduct(remainder(own));
+    Eigen::MatrixXd rest = inverse.gram - slope.transpose() * slope;
+    rest.diagonal().array() += kRidge;
+    squares += rest.ldlt().solve(score).cwiseAbs2();
+    used += 1;
+  }
+  return squares * (used - 1) / std::max(used, 1.0);
 }
 
 bool is_same_series(const Observations& observations, Eigen::Index a, Eigen::Index b) {
@@ -38,7 +57,7 @@ NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorX
   gram.diagonal() += precision;
   const Eigen::VectorXd unit = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   gram = unit.asDiagonal() * gram * unit.asDiagonal();
-  return {unit, gram.completeOrthogonalDecomposition().pseudoInverse()};
+  return {unit, gram, gram.completeOrthogonalDecomposition().pseudoInverse()};
 }
 
 double told_parameters(const NormalInverse& inverse, const Eigen::VectorXd& precision) {
@@ -78,20 +97,18 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const NormalInve
                               const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
                               const Eigen::VectorXd& remainder, double variance) {
   const Eigen::VectorXd size = derivative.colwise().norm();
-  const auto& [unit, inner] = inverse;
-  const Eigen::MatrixXd scores =
-      scores_of_stretches(observations, derivative, weight.cwiseProduct(remainder)) *
-      unit.asDiagonal();
-  const double stretches =
-      static_cast<double>((scores.rowwise().squaredNorm().array() > 0).count());
-  const Eigen::VectorXd together =
-      (scores * inner).colwise().squaredNorm() * stretches / std::max(stretches - 1, 1.0);
-  Eigen::VectorXd widening = unit;
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(derivative.cols());
+  for (const Clusters& clusters :
+       {clusters_in_time(observations), clusters_in_state(observations)}) {
+    together =
+        together.cwiseMax(scatter_without_each(clusters, inverse, derivative, weight, remainder));
+  }
+  Eigen::VectorXd widening = inverse.unit;
   for (Eigen::Index i = 0; i < widening.size(); ++i) {
-    const double alone = inner(i, i) * variance;
+    const double alone = inverse.inner(i, i) * variance;
     widening[i] *= !(size[i] > 0) ? 0 : std::sqrt(std::max(1.0, together[i] / alone));
   }
-  return widening.asDiagonal() * (inner * variance) * widening.asDiagonal();
+  return widening.asDiagonal() * (inverse.inner * variance) * widening.asDiagonal();
 }
 
 }  // namespace flexcomp::diagnosis

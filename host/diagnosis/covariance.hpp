@@ -11,6 +11,7 @@ namespace flexcomp::diagnosis {
 /// depends on and nothing holds are endless.
 struct NormalInverse {
   Eigen::VectorXd unit;
+  Eigen::MatrixXd gram;  ///< the equations in these units
   Eigen::MatrixXd inner;
 };
 
@@ -23,10 +24,12 @@ NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorX
 /// Covariance of the parameters of a fit with such an inverse, by the remainder and the variance of
 /// a sample of weight one.
 ///
-/// It is that of independent errors, widened where errors hang together over time (a late clock, a
-/// remainder that nothing accounts for): then the scores of whole stretches scatter more than those
-/// of as many independent samples (Liang and Zeger 1986). It is never narrowed: there are few
-/// stretches. Zero where nothing depends on a parameter.
+/// It is that of independent errors, widened where errors hang together, over time (a late clock, a
+/// drift) or at a posture (what the model lacks there, the same in every round). The fit is
+/// repeated, to first order, without each cluster in turn, and each parameter's deviation is at
+/// least what these fits scatter by: the jackknife by clusters (Bell and McCaffrey 2002, "CR3";
+/// Cameron, Gelbach and Miller 2008). It is never narrowed: there are few clusters. Zero where
+/// nothing depends on a parameter.
 Eigen::MatrixXd covariance_of(const Observations& observations, const NormalInverse& inverse,
                               const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
                               const Eigen::VectorXd& remainder, double variance);

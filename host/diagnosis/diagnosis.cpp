@@ -7,19 +7,18 @@
 
 #include "diagnosis/grammar/causes.hpp"
 #include "diagnosis/grammar/laws.hpp"
+#include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
-#include "diagnosis/select/members.hpp"
+#include "diagnosis/select/standards.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kNoiseLike = 1.15;      // times the noise: nothing left to explain
 constexpr double kNearNoise = 1.05;      // times the noise: nothing that a rival could better
 constexpr double kFarMoreEvidence = 20;  // of BIC
 constexpr Eigen::Index kFewestSamples = 24;
 constexpr Eigen::Index kLeastFreedom = 8;
 constexpr int kNoiseRounds = 2;
-constexpr int kSteps = 12;  // of what was registered, where the noise was learnt anew
 
 bool has_enough(const Observations& observations) {
   return observations.train >= kFewestSamples && observations.size() > observations.train;
@@ -114,67 +113,6 @@ std::string reason_of_nothing(const Choice& choice) {
                                                 100 * std::max(choice.explained, 0.0));
 }
 
-/// Is what a fit leaves, so many times the noise, nothing but noise?
-bool is_like_noise(const Observations& observations, double ratio) {
-  return !observations.noise_is_known || ratio < kNoiseLike + 3 * observations.noise_uncertainty;
-}
-
-/// Takes the numbers of a fit that stand by themselves for the findings, where they are more than
-/// those there are; what does not stand stays behind them.
-void take_members(const Inquiry& inquiry, const Fit& whole, Diagnosis* diagnosis) {
-  const Observations& observations = inquiry.observations;
-  std::vector<Finding> standing = members_that_stand(inquiry, whole);
-  if (standing.size() <= diagnosis->choice.findings.size()) {
-    return;
-  }
-  std::vector<Chosen> chosen;
-  for (const Finding& finding : standing) {
-    chosen.push_back(finding.chosen);
-  }
-  diagnosis->choice.findings = std::move(standing);
-  diagnosis->choice.fit = fit(observations, chosen, 0);
-  for (const Chosen& each : whole.chosen) {
-    if (!is_chosen(chosen, each.hypothesis)) {
-      chosen.push_back(each);
-    }
-  }
-  const bool all_stand = chosen.size() == diagnosis->choice.findings.size();
-  diagnosis->retuned = all_stand ? Fit{} : fit(observations, std::move(chosen), 0);
-  diagnosis->is_weighed_whole = true;
-  diagnosis->nearest.clear();
-  diagnosis->indistinguishable.clear();
-  const double after = largest_ratio(observations, diagnosis->updated().remainder);
-  const bool is_noise = is_like_noise(observations, after);
-  diagnosis->verdict = is_noise ? "explained" : "partly_explained";
-  diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
-}
-
-/// Fits a machine's numbers beside what was found before they took over, and once more without it;
-/// where they did not, or too few stand there, beside the findings, and once more without them.
-void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
-           Diagnosis* diagnosis) {
-  const Observations& observations = inquiry.observations;
-  const Dictionary& dictionary = inquiry.dictionary;
-  const Fit& begun = diagnosis->choice.begun;
-  if (!begun.chosen.empty()) {
-    const Fit beside = retune(observations, begun, hypotheses, dictionary);
-    const Fit afresh =
-        retune_afresh(observations, inquiry.given, beside.chosen.empty() ? begun : beside,
-                      hypotheses, dictionary);
-    take_members(inquiry, afresh.chosen.empty() ? beside : afresh, diagnosis);
-    if (diagnosis->is_weighed_whole) {
-      return;
-    }
-  }
-  diagnosis->retuned = retune(observations, diagnosis->choice.fit, hypotheses, dictionary);
-  const Fit afresh = diagnosis->choice.findings.empty()
-                         ? Fit{}
-                         : retune_afresh(observations, inquiry.given, diagnosis->updated(),
-                                         hypotheses, dictionary);
-  take_members(inquiry, Fit(diagnosis->retuned), diagnosis);
-  take_members(inquiry, afresh, diagnosis);
-}
-
 void judge(const Observations& observations, Diagnosis* diagnosis) {
   const Fit& found = diagnosis->choice.fit;
   diagnosis->cancellation = cancellation(observations, found);
@@ -208,7 +146,7 @@ bool is_open(const Diagnosis& diagnosis) {
 }
 
 /// The diagnosis with laws that nobody listed in the place of its findings, if these leave much
-/// more; else as it was.
+/// less; else as it was.
 Diagnosis with_laws(const Observations& observations, const Diagnosis& before, Choice laws) {
   const Fit& found = before.choice.fit;
   if (laws.findings.empty() || bic_gain(observations, found, laws.fit) < kFarMoreEvidence ||
@@ -281,8 +219,9 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   if (is_open(diagnosis)) {
     seek_laws(inquiry, settings.choosing, &diagnosis);
   }
-  if (is_open(diagnosis)) {
-    if (diagnosis.proposal.empty()) {
+  const bool leaves_something = is_open(diagnosis);
+  if (leaves_something || are_many(inquiry, diagnosis.choice.fit)) {
+    if (leaves_something && diagnosis.proposal.empty()) {
       diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
     }
     refit(inquiry, hypotheses, &diagnosis);

@@ -10,8 +10,16 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-double deviation_at(const Eigen::MatrixXd& covariance, Eigen::Index i) {
-  return covariance(i, i) > 0 ? std::sqrt(covariance(i, i)) : kUnknown;
+/// Relative standard deviation that no samples take from a number, as by a type B evaluation (GUM,
+/// JCGM 100:2008, 4.3): the law itself, and the motion's differentiation, are no more exact. An
+/// engine of other makers, with the same physics and no noise to speak of, gave numbers that differ
+/// by 0.1 to 1 % (tools/concealed, seed 771203).
+constexpr double kExactness = 0.005;
+
+double deviation_at(const Values& values, const Eigen::MatrixXd& covariance, Eigen::Index i) {
+  const double value = values[static_cast<std::size_t>(i)];
+  return covariance(i, i) > 0 ? std::hypot(std::sqrt(covariance(i, i)), kExactness * value)
+                              : kUnknown;
 }
 
 /// Can one of the parameters that act in proportion be told from zero? Otherwise the covariance
@@ -39,7 +47,8 @@ void add_wave(const Values& values, const std::string& unit, const Eigen::Matrix
   const Eigen::Vector2d across(-values[1] / (amplitude * amplitude),
                                values[0] / (amplitude * amplitude));
   const Eigen::Matrix2d inner = covariance.topLeftCorner<2, 2>();
-  all->push_back({"amplitude", unit, amplitude, std::sqrt(along.dot(inner * along))});
+  all->push_back({"amplitude", unit, amplitude,
+                  std::hypot(std::sqrt(along.dot(inner * along)), kExactness * amplitude)});
   all->push_back(
       {"phase", "rad", std::atan2(values[1], values[0]), std::sqrt(across.dot(inner * across))});
 }
@@ -62,13 +71,13 @@ std::vector<Estimate> estimates(const Observations& observations, const Chosen& 
     const Parameter& parameter = hypothesis.parameters[at];
     const bool is_told = at < hypothesis.linear || is_shape_told;
     all.push_back({parameter.name, parameter.unit, values[at],
-                   is_told ? deviation_at(covariance, i) : kUnknown});
+                   is_told ? deviation_at(values, covariance, i) : kUnknown});
   }
   if (hypothesis.law->derived) {
     const model::Robot& robot = observations.machine.robot;
     for (const effects::Derived& each : hypothesis.law->derived(robot, hypothesis.joint, values)) {
       all.push_back({each.name, each.unit, each.value,
-                     deviation_at(covariance, static_cast<Eigen::Index>(each.parameter))});
+                     deviation_at(values, covariance, static_cast<Eigen::Index>(each.parameter))});
     }
   }
   return all;

@@ -13,7 +13,7 @@ constexpr double kFarShift = 5e-3;  // m: a search that is linear in a frame is 
 constexpr double kFarTurn = 5e-3;   // rad, the same
 constexpr double kMostLeft = 0.25;  // of the squares: a frame that leaves more is not the cause
 constexpr int kRounds = 10;         // of weights, which settle where outliers are few
-constexpr int kSteps = 20;          // of the fit by simulation, from a coarse start
+constexpr int kFrameSteps = 20;     // of the fit by simulation, from a coarse start
 constexpr double kRobustLimit = 3;  // deviations, as in `fit`
 constexpr double kWidest = 80;      // m, the reach of a laser tracker
 
@@ -113,10 +113,10 @@ Fit register_frame(const Observations& observations, const std::vector<Hypothesi
   if (!is_far(coarse.values)) {
     return none;
   }
-  Fit best = fit(observations, {coarse}, kSteps);
+  Fit best = fit(observations, {coarse}, kFrameSteps);
   const Hypothesis* tool = find(hypotheses, "tcp_offset");
   if (tool != nullptr) {
-    Fit both = fit(observations, {best.chosen.front(), {*tool, Values(3, 0.0)}}, kSteps);
+    Fit both = fit(observations, {best.chosen.front(), {*tool, Values(3, 0.0)}}, kFrameSteps);
     if (is_far(both.chosen.back().values) && bic_gain(observations, best, both) > kStrongEvidence) {
       best = std::move(both);
     }

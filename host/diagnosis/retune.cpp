@@ -133,12 +133,10 @@ Fit retune(const Observations& observations, const Fit& findings,
   return best;
 }
 
-Fit retune_afresh(const Observations& observations, const Fit& given, const Fit& known,
-                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+Fit retune_whole(const Observations& observations, const Fit& given,
+                 const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
   Fit families = fit_families(observations, given, hypotheses, dictionary);
-  return stands(observations, given, families) && predicts_better(observations, known, families)
-             ? families
-             : Fit{};
+  return stands(observations, given, families) ? families : Fit{};
 }
 
 }  // namespace flexcomp::diagnosis

@@ -17,10 +17,8 @@ namespace flexcomp::diagnosis {
 Fit retune(const Observations& observations, const Fit& findings,
            const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
 
-/// Whole families beside what is `given` alone: findings that were sought one at a time may be
-/// wrong where many small causes act. Nothing is chosen unless it predicts better than what is
-/// `known` without it.
-Fit retune_afresh(const Observations& observations, const Fit& given, const Fit& known,
-                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
+/// Whole families alone beside what is `given`; nothing unless they stand as above.
+Fit retune_whole(const Observations& observations, const Fit& given,
+                 const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
 
 }  // namespace flexcomp::diagnosis

@@ -57,6 +57,9 @@ struct Traits {
   bool joins_family = false;    ///< the same, but not linear: it joins when the others are fitted
   bool is_friction = false;     ///< one of the forms of a joint's friction: over little of a speed
                                 ///< or load they share what they explain
+  bool is_gain = false;         ///< it multiplies what all other laws do at its joint
+  bool couples_drives = false;  ///< a motor turns with another joint, so that the friction and the
+                                ///< rotor that a fit has at its joint act otherwise
   bool is_family_only = false;  ///< told beside its like only: no single cause is sought in it
   bool can_be_undone =
       true;  ///< it moves the robot, so that a command can undo it; false for what

@@ -14,14 +14,15 @@ namespace flexcomp::test {
 constexpr double kTcpNoise = 1e-5;  ///< m
 
 /// An unloaded KR 270 whose first five joints swing for 40 s at 100 Hz, each at a rhythm of its
-/// own, while the sixth stands; its TCP is measured with noise.
+/// own, or so that the whole motion repeats every 5 s, while the sixth stands; its TCP is measured
+/// with noise.
 struct SwingingRobot {
   model::Robot robot;
   recording::Recording recording;
   simulation::Scene scene;    ///< of what is predicted
   Eigen::MatrixXd predicted;  ///< n×3, m
 
-  explicit SwingingRobot(unsigned seed)
+  explicit SwingingRobot(unsigned seed, bool repeats = false)
       : robot(model::load_robot(FLEXCOMP_ROBOTS "/kr270/robot.yaml")) {
     constexpr Eigen::Index kRows = 4000;
     constexpr double kMiddle[] = {0, -1.2, 1.4, 0.3, 0.6, 0.1};
@@ -32,7 +33,9 @@ struct SwingingRobot {
     recording.time = Eigen::VectorXd::LinSpaced(kRows, 0, 0.01 * (kRows - 1));
     recording::Samples q(kRows, 6);
     for (Eigen::Index joint = 0; joint < 6; ++joint) {
-      const double omega = 2 * std::acos(-1.0) * kRhythm[joint];
+      constexpr double kOften = 0.2;  // Hz
+      const double rhythm = repeats ? kOften * std::ceil(kRhythm[joint] / kOften) : kRhythm[joint];
+      const double omega = 2 * std::acos(-1.0) * rhythm;
       q.col(joint) =
           kMiddle[joint] +
           kSwing[joint] * (omega * recording.time.array() + 0.7 * static_cast<double>(joint)).sin();

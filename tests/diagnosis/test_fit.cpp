@@ -31,6 +31,24 @@ Eigen::MatrixXd hanging_together(const SwingingRobot& swinging, double deviation
   return errors;
 }
 
+/// An error that belongs to the posture, the same in every round: smooth, of a random course.
+Eigen::MatrixXd by_posture(const SwingingRobot& swinging, double deviation, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, 1);
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(swinging.rows(), 3);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    for (int wave = 0; wave < 4; ++wave) {
+      const Eigen::VectorXd direction =
+          10 * Eigen::VectorXd::NullaryExpr(5, [&] { return normal(random); });
+      const double phase = 3 * normal(random);
+      errors.col(axis) +=
+          (deviation / std::sqrt(2)) *
+          ((swinging.scene.q.leftCols(5) * direction).array() + phase).sin().matrix();
+    }
+  }
+  return errors;
+}
+
 struct Estimated {
   double value;
   double deviation;
@@ -77,6 +95,20 @@ void intervals_hold_where_errors_hang_together() {
   TEST_ASSERT_TRUE(intervals_that_hold(kTcpNoise, &stated) >= 34);
 }
 
+void intervals_hold_where_what_is_left_belongs_to_the_posture() {
+  constexpr double kOffset = 1e-4;  // rad
+  int hold = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const SwingingRobot swinging(seed, true);
+    const Eigen::MatrixXd error =
+        swinging.moved_by(kJoint, Eigen::VectorXd::Constant(swinging.rows(), kOffset)) +
+        by_posture(swinging, kTcpNoise, 200 + seed);
+    const Estimated found = offset_of(swinging.observed(error));
+    hold += std::abs(found.value - kOffset) < 1.96 * found.deviation ? 1 : 0;
+  }
+  TEST_ASSERT_TRUE(hold >= 34);
+}
+
 /// A law that says it acts.
 flexcomp::effects::LawPointer made_up(const std::vector<flexcomp::effects::Parameter>& parameters,
                                       std::size_t linear_in) {
@@ -114,9 +146,18 @@ void the_shape_of_what_cannot_be_told_from_nothing_is_unknown() {
     return estimates(shaped.observations, shaped.diagnosis.choice.findings[0].chosen,
                      shaped.diagnosis.choice.findings[0].covariance);
   };
-  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.1, of(sure)[1].deviation);
-  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1000, of(unsure)[0].deviation);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.1, of(sure)[1].deviation);
+  TEST_ASSERT_DOUBLE_WITHIN(1, 1000, of(unsure)[0].deviation);
   TEST_ASSERT_TRUE(std::isnan(of(unsure)[1].deviation));
+}
+
+void no_number_is_told_better_than_laws_are_exact() {
+  const Shaped certain(-3000, 1);
+  const double deviation =
+      estimates(certain.observations, certain.diagnosis.choice.findings[0].chosen,
+                certain.diagnosis.choice.findings[0].covariance)[0]
+          .deviation;
+  TEST_ASSERT_DOUBLE_WITHIN(0.1, 15, deviation);  // half a percent
 }
 
 void a_finding_is_summed_up_by_its_surest_number_if_one_is_sure() {
@@ -171,7 +212,9 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(intervals_hold_in_noise_and_are_no_wider_than_they_must);
   RUN_TEST(intervals_hold_where_errors_hang_together);
+  RUN_TEST(intervals_hold_where_what_is_left_belongs_to_the_posture);
   RUN_TEST(the_shape_of_what_cannot_be_told_from_nothing_is_unknown);
+  RUN_TEST(no_number_is_told_better_than_laws_are_exact);
   RUN_TEST(a_finding_is_summed_up_by_its_surest_number_if_one_is_sure);
   RUN_TEST(a_parameter_counts_by_what_the_samples_tell_of_it);
   RUN_TEST(amplitudes_of_two_hypotheses_that_leave_their_bounds_are_held_at_zero);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "diagnosis/driven_robot.hpp"
+#include "diagnosis/families/without.hpp"
 #include "diagnosis/select/members.hpp"
 #include "unity_main.hpp"
 
@@ -73,6 +74,34 @@ void other_numbers_that_share_what_they_explain_do_not_stand() {
   TEST_ASSERT_EQUAL_UINT64(0, count_at(findings, 2));
 }
 
+void a_shape_is_no_part_of_what_goes_with_an_effect() {
+  Hypothesis hypothesis(effects::find_law("friction_hysteresis", "dahl"), 2, robot().robot);
+  hypothesis.set_bounds({{0, 1000, 0.1}, {1e-4, 1, 1e-3}});
+  const Chosen grip{hypothesis, {kSize, 0.05}};
+  simulation::Machine truth = robot().machine();
+  hypothesis.apply(grip.values, &truth);
+  const Observations observations = robot().observed(truth);
+  const Fit whole = fit(observations, {grip}, 0);
+  const Eigen::VectorXd expected = fit(observations, {}, 0).remainder;
+  const Fit others = diagnosis::Without(observations, whole)({0});
+  TEST_ASSERT_TRUE((others.remainder - expected).norm() < 1e-6 * expected.norm());
+}
+
+void a_gain_does_not_put_back_what_goes() {
+  const Chosen friction = chosen_of("whistle", whistle, 2);
+  Hypothesis scale(effects::find_law("torque_gain", ""), 2, robot().robot);
+  scale.set_bounds({{-0.5, 1, 0.01}});
+  const Chosen gain{scale, {0.3}};
+  simulation::Machine truth = robot().machine();
+  friction.hypothesis.apply(friction.values, &truth);
+  scale.apply(gain.values, &truth);
+  const Observations observations = robot().observed(truth);
+  const Fit whole = fit(observations, {friction, gain}, 0);
+  const Eigen::VectorXd expected = fit(observations, {gain}, 0).remainder;
+  const Fit others = diagnosis::Without(observations, whole)({0});
+  TEST_ASSERT_TRUE((others.remainder - expected).norm() < 1e-6 * expected.norm());
+}
+
 void a_number_that_explains_nothing_does_not_stand_beside_those_that_explain_all() {
   std::vector<Chosen> causes = causes_in_two_forms(true);
   causes.push_back(chosen_of("whistle", whistle, 5));
@@ -113,6 +142,8 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(forms_of_friction_that_share_what_they_explain_stand_together_as_one);
   RUN_TEST(other_numbers_that_share_what_they_explain_do_not_stand);
+  RUN_TEST(a_shape_is_no_part_of_what_goes_with_an_effect);
+  RUN_TEST(a_gain_does_not_put_back_what_goes);
   RUN_TEST(a_number_that_explains_nothing_does_not_stand_beside_those_that_explain_all);
   RUN_TEST(samples_that_no_fit_explains_confirm_nothing);
   RUN_TEST(a_sample_confirms_no_more_the_farther_off_it_was);

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/families/candidates.hpp"
 #include "diagnosis/families/elimination.hpp"
 #include "diagnosis/families/latecomers.hpp"
 #include "diagnosis/families/possible_bodies.hpp"
@@ -40,24 +41,35 @@ Eigen::VectorXd change_by(const Observations& observations, const Fit& fit,
              .head(observations.train);
 }
 
-/// Drives that turn with the joint before their own, by one turn or against it, their friction and
-/// rotors as they are.
-void propose_couplings(const Observations& observations, const Fit& fit, std::vector<Extra>* all) {
-  const effects::LawPointer law = effects::find_law("transmission", "");
+/// A drive that turns with the joint before its own, by one turn or against it, its friction and
+/// rotor as they are.
+void propose_coupling(const Observations& observations, const Fit& fit,
+                      const effects::LawPointer& law, int joint, std::vector<Extra>* all) {
   const auto left = fit.remainder.head(observations.train);
-  for (const int joint : law->joints(observations.machine.robot.joints())) {
-    if (fit.machine.robot.transmission(joint - 1, joint - 2) != 0) {
-      continue;
-    }
-    Hypothesis hypothesis(law, joint, observations.machine.robot);
-    hypothesis.set_bounds({kCouplings});
-    for (const double ratio : {1.0, -1.0}) {
-      Machine coupled = fit.machine;
-      hypothesis.apply({ratio}, &coupled);
-      const Eigen::VectorXd change = change_by(observations, fit, coupled);
-      const double product = change.dot(left);
-      const double gain = product > 0 ? product * product / change.squaredNorm() : 0;
-      all->push_back({{hypothesis, {ratio}}, gain});
+  Hypothesis hypothesis(law, joint, observations.machine.robot);
+  hypothesis.set_bounds({kCouplings});
+  for (const double ratio : {1.0, -1.0}) {
+    Machine coupled = fit.machine;
+    hypothesis.apply({ratio}, &coupled);
+    const Eigen::VectorXd change = change_by(observations, fit, coupled);
+    const double product = change.dot(left);
+    const double gain = product > 0 ? product * product / change.squaredNorm() : 0;
+    all->push_back({{hypothesis, {ratio}}, gain});
+  }
+}
+
+void propose_couplings(const Observations& observations, const Fit& fit, std::vector<Extra>* all) {
+  const model::Robot& robot = fit.machine.robot;
+  for (const effects::Effect& effect : effects::catalogue()) {
+    for (const effects::LawPointer& law : effect.forms) {
+      if (!law->traits.couples_drives) {
+        continue;
+      }
+      for (const int joint : law->joints(robot.joints())) {
+        if (robot.transmission(joint - 1, joint - 2) == 0) {
+          propose_coupling(observations, fit, law, joint, all);
+        }
+      }
     }
   }
 }
@@ -178,12 +190,40 @@ Fit fit_anew(const Observations& observations, const Fit& fitted, std::size_t fi
   return settle(observations, families.best(), findings, dictionary);
 }
 
-/// The same as often as it predicts better.
+/// Sum of the squares of the numbers behind the findings, each over its usual size.
+double size_of_numbers(const Observations& observations, const Fit& fit, std::size_t findings) {
+  double sum = 0;
+  for (std::size_t i = findings; i < fit.chosen.size(); ++i) {
+    const Chosen& chosen = fit.chosen[i];
+    for (std::size_t k = 0; k < chosen.values.size(); ++k) {
+      const double usual = usual_width(observations, chosen.hypothesis, k);
+      sum += std::pow(chosen.values[k] / usual, 2);
+    }
+  }
+  return sum;
+}
+
+/// Do smaller numbers make up for a worse prediction of what was held out? Both are squares of
+/// deviations: of the numbers from the model, and of the change of the error from chance. Torques
+/// tell their numbers well enough to be believed.
+bool is_likelier(const Observations& observations, const Fit& before, const Fit& after,
+                 std::size_t findings) {
+  if (observations.has(simulation::joint_torque)) {
+    return false;
+  }
+  const double worse = confirmation_of(observations, after.remainder, before.remainder);
+  return size_of_numbers(observations, before, findings) -
+             size_of_numbers(observations, after, findings) >
+         worse * std::max(worse, 0.0);
+}
+
+/// The same as often as it predicts better, or is likelier with smaller numbers.
 Fit refined(const Observations& observations, Fit best, std::size_t findings,
             const std::vector<Hypothesis>& hypotheses) {
   for (int round = 0; round < kRoundsAnew; ++round) {
     Fit anew = fit_anew(observations, best, findings, hypotheses);
-    if (!predicts_better(observations, best, anew)) {
+    if (!predicts_better(observations, best, anew) &&
+        !is_likelier(observations, best, anew, findings)) {
       break;
     }
     best = std::move(anew);

@@ -25,9 +25,17 @@ Without::Without(const Observations& observations, const Fit& whole)
   gram_.diagonal() += precision_;
 }
 
+bool Without::multiplies_any(const Chosen& chosen, const std::vector<std::size_t>& indices) const {
+  return chosen.hypothesis.traits().is_gain &&
+         std::any_of(indices.begin(), indices.end(), [&](std::size_t index) {
+           return whole_.chosen[index].hypothesis.joint == chosen.hypothesis.joint;
+         });
+}
+
 Fit Without::operator()(const std::vector<std::size_t>& indices) const {
   std::vector<Eigen::Index> own;
   std::vector<Eigen::Index> others;
+  std::vector<Eigen::Index> free;  // of the others, by their place among them
   Fit fit;
   Eigen::Index parameter = 0;
   for (std::size_t i = 0; i < whole_.chosen.size(); ++i) {
@@ -35,15 +43,27 @@ Fit Without::operator()(const std::vector<std::size_t>& indices) const {
     if (!goes) {
       fit.chosen.push_back(whole_.chosen[i]);
     }
-    for (std::size_t k = 0; k < whole_.chosen[i].values.size(); ++k) {
-      (goes ? own : others).push_back(parameter++);
+    const std::size_t linear = whole_.chosen[i].hypothesis.linear;
+    for (std::size_t k = 0; k < whole_.chosen[i].values.size(); ++k, ++parameter) {
+      if (!goes) {
+        if (!multiplies_any(whole_.chosen[i], indices)) {
+          free.push_back(static_cast<Eigen::Index>(others.size()));
+        }
+        others.push_back(parameter);
+      } else if (linear == 0 || k < linear) {  // the rest only shapes what is nothing then
+        own.push_back(parameter);
+      }
     }
   }
   const Eigen::VectorXd lost = value_(own);
   Eigen::MatrixXd inner = gram_(others, others);
   inner.diagonal() += 1e-12 * inner.diagonal();
   const Eigen::LDLT<Eigen::MatrixXd> factors(inner);
-  const Eigen::VectorXd change = factors.solve(gram_(others, own) * lost);
+  const Eigen::VectorXd pull = gram_(others, own) * lost;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(inner.rows());
+  const Eigen::VectorXd step =
+      Eigen::MatrixXd(inner(free, free)).ldlt().solve(Eigen::VectorXd(pull(free)));
+  change(free) = step;
   Eigen::Index at = 0;
   for (Chosen& each : fit.chosen) {
     for (double& value : each.values) {

@@ -10,6 +10,9 @@ namespace flexcomp::diagnosis {
 /// its tolerance, and what they leave. Quick; good where these are a few of many small ones. The
 /// whole fit is taken to be at its optimum within what bodies can be: a plain step from it would
 /// leave that, and compare unlike with like.
+///
+/// A gain stays as it is where something at its joint goes: its derivative holds what it
+/// multiplies, and would put it back.
 class Without {
  public:
   Without(const Observations& observations, const Fit& whole);
@@ -18,6 +21,8 @@ class Without {
   Fit operator()(const std::vector<std::size_t>& indices) const;
 
  private:
+  bool multiplies_any(const Chosen& chosen, const std::vector<std::size_t>& indices) const;
+
   const Observations& observations_;
   const Fit& whole_;
   Eigen::VectorXd value_, precision_;

@@ -64,12 +64,14 @@ bool stands_as_member(const Inquiry& inquiry, const Evidence& evidence) {
          evidence.lowers_held_out && !shows_on_small_path(inquiry.observations, evidence);
 }
 
-/// Is a choice known to differ from nothing, beside all others and what was left out for them? What
-/// it takes from the error may be another's else, and the number say nothing.
+/// Is a number known to differ from nothing, beside all others and what was left out for them? What
+/// it takes from the error may be another's else, and the number say nothing. What is in no family
+/// was found by itself.
 bool is_told_apart(const Fit& whole, std::size_t index) {
   constexpr double kChance = 0.05;  // as of the interval that is told with it
+  const effects::Traits& traits = whole.chosen[index].hypothesis.traits();
   const auto count = static_cast<Eigen::Index>(whole.chosen[index].hypothesis.linear);
-  if (count == 0) {
+  if (count == 0 || !(traits.is_in_family || traits.joins_family)) {
     return true;
   }
   const Eigen::MatrixXd covariance = whole.covariance_of(index).topLeftCorner(count, count);

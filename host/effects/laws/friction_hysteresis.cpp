@@ -38,6 +38,7 @@ Law grip_law(const char* form, Grip grip, std::vector<Parameter> parameters) {
   law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.is_friction = true;
+  law.traits.joins_family = grip == by_dahl;  // one form of them, smooth in both parameters
   law.parameters = of_joint(std::move(parameters));
   law.words = "dry friction that builds up";
   law.statement = says("friction of joint {} builds up in a loop after every reversal");

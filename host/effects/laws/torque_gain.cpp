@@ -10,6 +10,7 @@ Forms laws::torque_gain() {
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
   law.traits.is_family_only = true;
+  law.traits.is_gain = true;
   law.traits.can_be_undone = false;
   law.parameters = constant({{"gain", "1"}});
   law.statement = says("the torque of joint {} is measured with another gain");

@@ -9,6 +9,7 @@ Forms laws::transmission() {
   Law law;
   law.joints = all_but_the_first;
   law.traits.is_curved = true;
+  law.traits.couples_drives = true;
   law.parameters = constant({{"ratio", "1"}});
   law.words = "coupling of the drives";
   law.statement = says("the motor of joint {} turns with the joint before it as well");

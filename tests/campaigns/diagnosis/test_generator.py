@@ -14,7 +14,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from generator import (case, detect, dynamics, elasticity, kinematics, machine, memory,  # noqa: E402
                        recording, robot as robots, setup, trajectories)
-from generator.effects import CATALOGUE  # noqa: E402
+from generator.effects import CATALOGUE, VARIANTS  # noqa: E402
 from generator.effects.base import Scale  # noqa: E402
 from generator.motion import Track  # noqa: E402
 
@@ -289,6 +289,57 @@ class Effects(unittest.TestCase):
         self.assertEqual(27, len(CATALOGUE))
         for effect in CATALOGUE.values():
             self.assertTrue(effect.kinds)
+
+
+class Variants(unittest.TestCase):
+    """Forms of the catalogue's effects that its laws lack."""
+
+    @staticmethod
+    def shown(effect, joint, parameters, groups=("xyz", "tau", "wrench")):
+        robot = heavy_robot()
+        truth = machine.Machine(robot.copy())
+        effect.apply(truth, joint, parameters)
+        return machine.measure(truth, drive_of(robot), groups)
+
+    def assert_alike(self, form, parameters, usual, joint=None):
+        varied = next(effect for effect in VARIANTS if effect.form == form)
+        found = self.shown(varied, joint, parameters)
+        expected = self.shown(CATALOGUE[varied.name], joint, usual)
+        for group, values in expected.items():
+            np.testing.assert_allclose(found[group], values, rtol=0, atol=2e-3 * np.ptp(
+                values - self.shown(CATALOGUE["tcp_offset"], None, dict.fromkeys("xyz", 0.0))[group]))
+
+    def test_each_has_a_form_of_its_own_and_a_name_that_is_known(self):
+        self.assertEqual(len(VARIANTS), len({(effect.name, effect.form) for effect in VARIANTS}))
+        for effect in VARIANTS:
+            self.assertIn(effect.name, CATALOGUE)
+
+    def test_where_its_form_vanishes_it_is_the_catalogues(self):
+        growth = {"x": 2e-5, "y": -1e-5, "z": 3e-5}
+        self.assert_alike("behind the temperature", growth | {"behind": 1e-6}, growth)
+        loop = {"amplitude": 2e-4, "sliding": 1.0, "yield_torque": 300.0}
+        self.assert_alike("with a threshold", loop | {"threshold": 0.0}, loop, 2)
+        self.assert_alike("side by torque", {"gap": 4e-4}, {"gap": 4e-4, "hold": 1e-9}, 3)
+
+    def test_a_tool_that_grows_moves_along_itself(self):
+        robot = heavy_robot()
+        drive = drive_of(robot)
+        grown = self.shown(next(e for e in VARIANTS if e.form == "along the tool"), None, {"growth": 1e-5})
+        cold = self.shown(CATALOGUE["tcp_offset"], None, dict.fromkeys("xyz", 0.0))
+        length = np.linalg.norm(grown["xyz"] - cold["xyz"], axis=1)
+        np.testing.assert_allclose(length, 1e-5 * (drive.temperature - drive.temperature[0]), atol=1e-9)
+
+    def test_a_clock_that_runs_slow_shows_where_the_joints_were(self):
+        robot = heavy_robot()
+        drive, rate = drive_of(robot), 1e-3
+        late = self.shown(next(e for e in VARIANTS if e.form == "a clock that runs slow"), None,
+                          {"rate": rate}, ("xyz",))["xyz"]
+        right = machine.measure(machine.Machine(robot.copy()), drive, ("xyz",))["xyz"]
+        time = drive.track.time
+        expected = np.column_stack([np.interp(time - rate * (time - time[0]), time, column)
+                                    for column in right.T])
+        moved = np.abs(expected - right).max()
+        self.assertLess(np.abs(late - expected).max(), 0.1 * moved)
 
 
 class Rules(unittest.TestCase):

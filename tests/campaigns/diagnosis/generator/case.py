@@ -6,16 +6,17 @@ import json
 import numpy as np
 
 from . import cell as cells, conceal, detect, foreign, kinds, machine as physics, recording, sensors
-from .effects import CATALOGUE
+from .effects import CATALOGUE, VARIANTS
 from .trace import CHANNELS, channels_of
 from .trajectories import Unreachable
 
-FAMILIES = ("single", "pair", "clean", "foreign")
+FAMILIES = ("single", "pair", "clean", "foreign", "variant")
 ATTEMPTS = 40  # with one combination of effect and kind
 FOREIGN_LIKENESS = 0.8  # no entry of the catalogue may fit a foreign trace better
 PAIR_LIKENESS = 0.9
 
 SINGLES = tuple((name, kind) for name, effect in CATALOGUE.items() for kind in effect.kinds)
+VARIED = tuple((effect, kind) for effect in VARIANTS for kind in effect.kinds)
 FOREIGNS = tuple((entry[0], kind) for entry in foreign.FOREIGN for kind in entry[1])
 
 
@@ -23,27 +24,27 @@ class NoCase(Exception):
     """Nothing suitable came of any draw from this seed."""
 
 
-def _hints(names):
+def _hints(effects):
     hints = {}
-    for name in names:
-        hints |= CATALOGUE[name].hints
-        if CATALOGUE[name].groups == ("tau",):
+    for effect in effects:
+        hints |= effect.hints
+        if effect.groups == ("tau",):
             hints["torque"] = True
     return hints
 
 
-def _single(rng, name, kind, folder, patient):
-    cell = cells.draw(rng, kind, _hints([name]), folder)
-    entry, _ = conceal.conceal(rng, cell, name, conceal.rivals(cell, cell.training), patient)
+def _single(rng, effect, kind, folder, patient):
+    cell = cells.draw(rng, kind, _hints([effect]), folder)
+    entry, _ = conceal.conceal(rng, cell, effect, conceal.rivals(cell, cell.training), patient)
     return cell, [entry]
 
 
 def _pair(rng, kind, folder):
     names = [name for name, effect in CATALOGUE.items() if kind in effect.kinds]
-    chosen = [str(name) for name in rng.choice(names, 2, replace=False)]
+    chosen = [CATALOGUE[str(name)] for name in rng.choice(names, 2, replace=False)]
     cell = cells.draw(rng, kind, _hints(chosen), folder)
     rivals = conceal.rivals(cell, cell.training)
-    (first, one), (second, other) = (conceal.conceal(rng, cell, name, rivals) for name in chosen)
+    (first, one), (second, other) = (conceal.conceal(rng, cell, effect, rivals) for effect in chosen)
     if abs(one @ other) > PAIR_LIKENESS * np.linalg.norm(one) * np.linalg.norm(other):
         raise conceal.Unsuitable("too like each other")
     both = cell.difference(conceal.machine_of(cell.robot, [first, second]))
@@ -127,7 +128,10 @@ def _describe(entry):
                     "correlation": round(other.correlation, 6)}
                    for other in entry.likest if other.correlation > detect.EQUIVALENT]
     likest = [dataclasses.asdict(other) for other in entry.likest[:3]]
-    return {"effect": entry.name, "joint": entry.joint, "parameters": entry.parameters,
+    form = getattr(entry.effect, "form", "")
+    if form:  # a law of its own says as much, and a law at the joint is of its own
+        equivalents.append({"effect": "law", "joint": "any", "correlation": 1.0})
+    return {"effect": entry.name, "form": form, "joint": entry.joint, "parameters": entry.parameters,
             "units": entry.effect.units, "signal_to_noise": entry.ratio, "equivalents": equivalents,
             "likest": likest}
 
@@ -140,7 +144,10 @@ def _attempt(family, seed, attempt, folder):
         # gives way to the next.
         number = (seed * 29 + attempt // ATTEMPTS) % len(SINGLES)
         name, kind = SINGLES[number]
-        cell, entries = _single(rng, name, kind, folder, attempt % ATTEMPTS < ATTEMPTS // 4)
+        cell, entries = _single(rng, CATALOGUE[name], kind, folder, attempt % ATTEMPTS < ATTEMPTS // 4)
+    elif family == "variant":
+        effect, kind = VARIED[(seed * 13 + attempt // ATTEMPTS) % len(VARIED)]
+        cell, entries = _single(rng, effect, kind, folder, patient=False)
     elif family == "pair":
         kind = kinds.KINDS[seed % len(kinds.KINDS)]
         cell, entries = _pair(rng, kind, folder)

@@ -3,7 +3,6 @@
 import dataclasses
 
 from . import detect, machine as physics
-from .effects import CATALOGUE
 
 DRAWS = 6  # of a size, in one cell
 
@@ -16,15 +15,15 @@ class Unsuitable(Exception):
 class Concealed:
     """An effect as it is concealed."""
 
-    name: str
+    effect: object
     joint: int | None
     parameters: dict
     ratio: float = 0.0
     likest: list = dataclasses.field(default_factory=list)
 
     @property
-    def effect(self):
-        return CATALOGUE[self.name]
+    def name(self):
+        return self.effect.name
 
 
 def machine_of(robot, concealed):
@@ -35,16 +34,15 @@ def machine_of(robot, concealed):
     return machine
 
 
-def conceal(rng, cell, name, others, patient=False):
+def conceal(rng, cell, effect, others, patient=False):
     """Draws one effect into the cell. Raises Unsuitable where the rules of `detect` do not hold."""
-    effect = CATALOGUE[name]
     joint = effect.joints[rng.integers(len(effect.joints))]
     if joint and set(cell.takes[0].columns) & set(effect.groups) == {"q_link"}:
         if not cell.quality.link_encoders[joint - 1]:
             raise Unsuitable("no link encoder there")
-    entry, machine = _strong_enough(rng, cell, name, joint)
+    entry, machine = _strong_enough(rng, cell, effect, joint)
     trace = cell.difference(machine)
-    for likeness in detect.likenesses(trace, others, cell.training, but=(name, joint)):
+    for likeness in detect.likenesses(trace, others, cell.training, but=(effect.name, joint)):
         if likeness.correlation <= detect.EQUIVALENT:
             if likeness.remainder < detect.REMAINDER:
                 raise Unsuitable(f"too like {likeness.effect} of joint {likeness.joint}")
@@ -55,14 +53,14 @@ def conceal(rng, cell, name, others, patient=False):
     return entry, trace
 
 
-def _strong_enough(rng, cell, name, joint):
+def _strong_enough(rng, cell, effect, joint):
     """The effect in a size that the recordings show, of a few draws."""
     for _ in range(DRAWS):
-        parameters = CATALOGUE[name].draw(rng, joint, cell.robot, cell.scale)
-        entry = Concealed(name, joint, parameters)
+        parameters = effect.draw(rng, joint, cell.robot, cell.scale)
+        entry = Concealed(effect, joint, parameters)
         machine = machine_of(cell.robot, [entry])
         entry.ratio = detect.signal_to_noise(cell.robot, machine, cell.training, cell.levels,
-                                             cell.quality, name in detect.LOCAL)
+                                             cell.quality, effect.name in detect.LOCAL)
         if entry.ratio >= detect.FACTOR:
             return entry, machine
     raise Unsuitable("too weak")

@@ -23,6 +23,7 @@ Families of cases, each drawn from seeds --seed, --seed + 1, ...:
   pair     two effects
   clean    the model is right
   foreign  physics that is in no catalogue
+  variant  an effect of the catalogue in a form that no law of it has
 
 Seeds below 1000 are for development. Published figures come from seeds from 1000000 on, which
 nobody has looked at before; once looked at, the next ones are taken.
@@ -44,7 +45,8 @@ def arguments():
         return number
 
     parser.add_argument("--seed", type=count, default=0, metavar="N", help="first seed (default 0)")
-    for family, number in (("single", 200), ("pairs", 100), ("clean", 200), ("foreign", 60)):
+    for family, number in (("single", 200), ("pairs", 100), ("clean", 200), ("foreign", 60),
+                           ("variant", 0)):
         parser.add_argument(f"--{family}", type=count, default=number, metavar="N",
                             help=f"number of {family} cases (default {number})")
     parser.add_argument("--jobs", type=count, default=os.cpu_count(), metavar="J",
@@ -83,7 +85,7 @@ def collect(options, folder):
     """Results of all cases, in their order; raises KeyboardInterrupt where the user interrupts."""
     digest = trial.generator_digest()
     numbers = {"single": options.single, "pair": options.pairs, "clean": options.clean,
-               "foreign": options.foreign}
+               "foreign": options.foreign, "variant": options.variant}
     trials = [trial.Trial(options.tool.resolve(), family, options.seed + k,
                           folder / f"{family}-{options.seed + k}", digest, options.limit,
                           bool(options.keep))

@@ -68,7 +68,7 @@ def _count(results, test):
 def figures(results):
     """Results -> {name: Rate or number or None}."""
     family = {name: [result for result in results if result.family == name]
-              for name in ("single", "pair", "clean", "foreign")}
+              for name in ("single", "pair", "clean", "foreign", "variant")}
     single, pair = family["single"], family["pair"]
     found = {
         "single: right effect and joint first": _count(single, lambda r: r.first in RIGHT),
@@ -89,8 +89,14 @@ def figures(results):
             family["foreign"], lambda r: r.claims and r.verdict == "explained"),
         "foreign: mismatch missed (no_mismatch)": _count(
             family["foreign"], lambda r: r.verdict == "no_mismatch"),
-        "parameters in their 95 % interval": Rate(sum(r.covered for r in results),
-                                                  sum(r.compared for r in results)),
+        "variant: right effect, or a law": _count(family["variant"], lambda r: r.first in RIGHT),
+        "variant: nothing named": _count(family["variant"], lambda r: r.first == "nothing"),
+        "variant: findings that are wrong": Rate(
+            sum(r.findings - r.right_findings for r in family["variant"]),
+            sum(r.findings for r in family["variant"])),
+        "parameters in their 95 % interval": Rate(*(
+            sum(getattr(r, name) for r in results if r.family != "variant")
+            for name in ("covered", "compared"))),
         "runs without an answer": _count(results, lambda r: r.verdict.startswith("failed")),
     }
     ratios = [(channel, ratio) for r in single + pair for channel, ratio in r.holdout_ratio.items()]

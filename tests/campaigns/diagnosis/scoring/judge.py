@@ -68,10 +68,14 @@ def label(place):
     return f"{place[0]}@{place[1]}" if place[1] is not None else place[0]
 
 
+def _with_form(effect):
+    return f"{effect['effect']} ({effect['form']})" if effect.get("form") else effect["effect"]
+
+
 def blank(truth):
     """The result of a case before it has an answer."""
     effects = truth["effects"]
-    name = "+".join(label((effect["effect"], effect["joint"])) for effect in effects)
+    name = "+".join(label((_with_form(effect), effect["joint"])) for effect in effects)
     foreign = truth["foreign"]
     return Result(truth["family"], truth["seed"], truth["kind"],
                   foreign["name"] if foreign else name or "clean", concealed=len(effects))

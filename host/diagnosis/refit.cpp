@@ -1,0 +1,118 @@
+#include "diagnosis/refit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "diagnosis/select/members.hpp"
+#include "diagnosis/select/standards.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kNoiseLike = 1.15;  // times the noise: nothing left to explain
+
+/// Takes the numbers of a fit that stand by themselves for the findings, where they are more than
+/// `others`; what does not stand stays behind them.
+void take_members(const Inquiry& inquiry, const Fit& whole, std::size_t others,
+                  Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  std::vector<Finding> standing = members_that_stand(inquiry, whole);
+  if (standing.size() <= others) {
+    return;
+  }
+  std::vector<Chosen> chosen;
+  for (const Finding& finding : standing) {
+    chosen.push_back(finding.chosen);
+  }
+  diagnosis->choice.findings = std::move(standing);
+  diagnosis->choice.fit = fit(observations, chosen, 0);
+  for (const Chosen& each : whole.chosen) {
+    if (!is_chosen(chosen, each.hypothesis)) {
+      chosen.push_back(each);
+    }
+  }
+  const bool all_stand = chosen.size() == diagnosis->choice.findings.size();
+  diagnosis->retuned = all_stand ? Fit{} : fit(observations, std::move(chosen), 0);
+  diagnosis->is_weighed_whole = true;
+  diagnosis->nearest.clear();
+  diagnosis->indistinguishable.clear();
+  const double after = largest_ratio(observations, diagnosis->updated().remainder);
+  const bool is_noise = is_like_noise(observations, after);
+  diagnosis->verdict = is_noise ? "explained" : "partly_explained";
+  diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
+}
+
+bool is_number_of_family(const Inquiry& inquiry, const Chosen& chosen) {
+  return chosen.hypothesis.traits().is_in_family &&
+         !is_chosen(inquiry.given.chosen, chosen.hypothesis);
+}
+
+/// What was found, without the numbers of positions: nothing holds single ones of those to the size
+/// of their like. Torques tell their numbers one by one too.
+std::vector<Chosen> kept_of(const Inquiry& inquiry, const Fit& found) {
+  if (inquiry.observations.has(simulation::joint_torque)) {
+    return found.chosen;
+  }
+  std::vector<Chosen> kept;
+  std::copy_if(found.chosen.begin(), found.chosen.end(), std::back_inserter(kept),
+               [&](const Chosen& each) { return !is_number_of_family(inquiry, each); });
+  return kept;
+}
+
+/// The numbers of a machine together, in the place of those that were found one by one: beside the
+/// other findings, or without them where that predicts as well. Nothing where single numbers
+/// predict better.
+Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothesis>& hypotheses) {
+  const Observations& observations = inquiry.observations;
+  std::vector<Chosen> kept = kept_of(inquiry, found);
+  Fit best = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary);
+  if (kept.size() > inquiry.given.chosen.size()) {
+    const Fit rest = fit(observations, std::move(kept), kSteps, &inquiry.dictionary);
+    Fit beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary);
+    if (best.chosen.empty() ||
+        (!beside.chosen.empty() && predicts_better(observations, best, beside))) {
+      best = std::move(beside);
+    }
+  }
+  return best.chosen.empty() || predicts_better(observations, best, found) ? Fit{} : best;
+}
+
+}  // namespace
+
+bool is_like_noise(const Observations& observations, double ratio) {
+  return !observations.noise_is_known || ratio < kNoiseLike + 3 * observations.noise_uncertainty;
+}
+
+bool are_many(const Inquiry& inquiry, const Fit& found) {
+  const auto count =
+      std::count_if(found.chosen.begin(), found.chosen.end(),
+                    [&](const Chosen& each) { return is_number_of_family(inquiry, each); });
+  return static_cast<std::size_t>(count) >= kMany;
+}
+
+void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+           Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  const Dictionary& dictionary = inquiry.dictionary;
+  const bool is_begun = !diagnosis->choice.begun.chosen.empty();
+  const Fit& found = is_begun ? diagnosis->choice.begun : diagnosis->choice.fit;
+  if (is_begun || are_many(inquiry, found)) {
+    take_members(inquiry, together(inquiry, found, hypotheses), 0, diagnosis);
+  }
+  if (diagnosis->is_weighed_whole || diagnosis->verdict == "explained") {
+    return;
+  }
+  const std::size_t findings = diagnosis->choice.findings.size();
+  diagnosis->retuned = retune(observations, diagnosis->choice.fit, hypotheses, dictionary);
+  take_members(inquiry, Fit(diagnosis->retuned), findings, diagnosis);
+  if (findings > 0) {
+    const Fit afresh = retune_whole(observations, inquiry.given, hypotheses, dictionary);
+    if (!afresh.chosen.empty() && predicts_better(observations, diagnosis->updated(), afresh)) {
+      take_members(inquiry, afresh, diagnosis->choice.findings.size(), diagnosis);
+    }
+  }
+}
+
+}  // namespace flexcomp::diagnosis
