@@ -9,6 +9,7 @@
 #include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
+#include "diagnosis/select/forms.hpp"
 #include "diagnosis/select/standards.hpp"
 
 namespace flexcomp::diagnosis {
@@ -226,6 +227,9 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     }
     refit(inquiry, hypotheses, &diagnosis);
     diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
+  }
+  if (!diagnosis.is_weighed_whole) {
+    settle_forms(inquiry, &diagnosis.choice);
   }
   diagnosis.trials = weigh_trials(inquiry, diagnosis.choice);
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
