@@ -60,7 +60,7 @@ class Portrait {
         data +
             fmt::format("set multiplot layout 1,2\nset grid lc rgb '#dddddd'\nset xlabel '{}'\n"
                         "set ylabel 'error at the place, {}'\n"
-                        "set key bottom\nset xrange [{:.6g}:{:.6g}]\n",
+                        "set key below\nset xrange [{:.6g}:{:.6g}]\n",
                         words_.front(), scale.unit, low(), high()) +
             plots + "unset multiplot\n",
         900, 340);
