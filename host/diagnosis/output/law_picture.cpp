@@ -14,15 +14,15 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr Eigen::Index kClasses = 30;
+constexpr Eigen::Index kBins = 30;
 constexpr double kFewest = 4;  // samples of a mean that is drawn
 constexpr std::array<const char*, 3> kDots = {"#c0392b", "#1f6fb4", "#222222"};
 
 /// Sums over the samples of a class: errors by levers, and levers squared.
 struct Means {
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(kClasses);
-  Eigen::VectorXd weight = Eigen::VectorXd::Zero(kClasses);
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(kClasses);
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(kBins);
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(kBins);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(kBins);
 };
 
 /// A law's place, the signals that it follows along the samples, and what is left there.
@@ -116,7 +116,7 @@ class Portrait {
         continue;
       }
       const double place = (drivers_.front()[i] - low()) / std::max(high() - low(), 1e-300);
-      const auto k = std::min(static_cast<Eigen::Index>(place * kClasses), kClasses - 1);
+      const auto k = std::min(static_cast<Eigen::Index>(place * kBins), kBins - 1);
       means.product[k] += lever_[i] * values[i];
       means.weight[k] += lever_[i] * lever_[i];
       means.count[k] += 1;
@@ -132,9 +132,9 @@ class Portrait {
 
   std::string block(const std::string& name, const Means& means, double scale) const {
     std::string text = fmt::format("${} << EOD\n", name);
-    for (Eigen::Index k = 0; k < kClasses; ++k) {
+    for (Eigen::Index k = 0; k < kBins; ++k) {
       if (means.count[k] >= kFewest) {
-        const double at = low() + (static_cast<double>(k) + 0.5) * (high() - low()) / kClasses;
+        const double at = low() + (static_cast<double>(k) + 0.5) * (high() - low()) / kBins;
         text += fmt::format("{:.6g} {:.6g}\n", at, scale * means.product[k] / means.weight[k]);
       }
     }
