@@ -18,6 +18,15 @@ constexpr Eigen::Index kBins = 30;
 constexpr double kFewest = 4;  // samples of a mean that is drawn
 constexpr std::array<const char*, 3> kDots = {"#c0392b", "#1f6fb4", "#222222"};
 
+/// A text between gnuplot's single quotes, where an apostrophe is written twice.
+std::string quoted(const std::string& text) {
+  std::string all = "'";
+  for (const char each : text) {
+    all += each == '\'' ? "''" : std::string(1, each);
+  }
+  return all + "'";
+}
+
 /// Sums over the samples of a class: errors by levers, and levers squared.
 struct Means {
   Eigen::VectorXd product = Eigen::VectorXd::Zero(kBins);
@@ -58,10 +67,10 @@ class Portrait {
     }
     return report::plot_svg(
         data +
-            fmt::format("set multiplot layout 1,2\nset grid lc rgb '#dddddd'\nset xlabel '{}'\n"
+            fmt::format("set multiplot layout 1,2\nset grid lc rgb '#dddddd'\nset xlabel {}\n"
                         "set ylabel 'error at the place, {}'\n"
                         "set key below\nset xrange [{:.6g}:{:.6g}]\n",
-                        words_.front(), scale.unit, low(), high()) +
+                        quoted(words_.front()), scale.unit, low(), high()) +
             plots + "unset multiplot\n",
         900, 340);
   }
