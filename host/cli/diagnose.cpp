@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -19,7 +20,9 @@
 #include "diagnosis/output/report.hpp"
 #include "diagnosis/output/sentences.hpp"
 #include "diagnosis/search/tried_law.hpp"
+#include "effects/law.hpp"
 #include "error.hpp"
+#include "files/one_line.hpp"
 #include "files/text_file.hpp"
 
 namespace flexcomp::cli {
@@ -34,6 +37,7 @@ struct DiagnoseOptions {
   std::vector<std::string> recordings;
   std::vector<std::string> holdouts;
   std::vector<std::string> laws;
+  std::vector<std::string> without;
   std::string out;
   double false_discovery = 0.01;
 };
@@ -123,6 +127,9 @@ std::string command_line(const DiagnoseOptions& options) {
   for (const std::string& file : options.laws) {
     line += " --law " + file;
   }
+  for (const std::string& effect : options.without) {
+    line += " --without " + effect;
+  }
   return line +
          fmt::format(" --out {} --false-discovery {:g}", options.out, options.false_discovery);
 }
@@ -171,6 +178,23 @@ void summarize(const model::Robot& robot, const diagnosis::Observations& observa
   fmt::print("{}/report.html, diagnosis.json, updated_model.yaml\n", folder);
 }
 
+/// Leaves effects out of what is sought.
+void leave_out(const std::vector<std::string>& effects,
+               std::vector<diagnosis::Hypothesis>* hypotheses) {
+  const auto& all = effects::catalogue();
+  for (const std::string& effect : effects) {
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const effects::Effect& each) { return each.name == effect; })) {
+      throw InputError(
+          fmt::format("--without: '{}' is no effect of the catalogue", files::one_line(effect)));
+    }
+    hypotheses->erase(
+        std::remove_if(hypotheses->begin(), hypotheses->end(),
+                       [&](const diagnosis::Hypothesis& each) { return each.effect() == effect; }),
+        hypotheses->end());
+  }
+}
+
 int run(const DiagnoseOptions& options) {
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
@@ -187,6 +211,7 @@ int run(const DiagnoseOptions& options) {
   diagnosis::Observations observations(std::move(machine), std::move(scenes),
                                        options.holdouts.size());
   std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
+  leave_out(options.without, &hypotheses);
   for (const std::string& file : options.laws) {
     hypotheses.push_back(diagnosis::read_tried_law(file, observations));
   }
@@ -233,6 +258,11 @@ void add_diagnose(CLI::App* app, Action* action) {
           "--law", options->laws,
           "a law of your own to weigh beside all others: a file with its place, its formula "
           "and\nthe ranges of its parameters; may be given again")
+      ->take_all();
+  command
+      ->add_option("--without", options->without,
+                   "effect that is not sought, to see which law is found instead; may be given "
+                   "again")
       ->take_all();
   command->add_option("--out", options->out, "folder to write to")->required();
   command->add_option("--false-discovery", options->false_discovery,

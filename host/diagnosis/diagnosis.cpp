@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/grammar/causes.hpp"
+#include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
 #include "diagnosis/select/forms.hpp"
@@ -140,6 +142,49 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   }
 }
 
+bool is_open(const Diagnosis& diagnosis) {
+  return diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained";
+}
+
+/// The diagnosis with laws that nobody listed in the place of its findings, if these leave much
+/// less; else as it was.
+Diagnosis with_laws(const Observations& observations, const Diagnosis& before, Choice laws) {
+  const Fit& found = before.choice.fit;
+  if (laws.findings.empty() || bic_gain(observations, found, laws.fit) < kFarMoreEvidence ||
+      !predicts_better(observations, found, laws.fit)) {
+    return before;
+  }
+  laws.ranking = before.choice.ranking;
+  Diagnosis diagnosis = before;
+  diagnosis.choice = std::move(laws);
+  diagnosis.nearest.clear();
+  diagnosis.indistinguishable.clear();
+  diagnosis.proposal.clear();
+  find_groups(&diagnosis);
+  judge(observations, &diagnosis);
+  return diagnosis.verdict == "unexplained" ? before : diagnosis;
+}
+
+/// Seeks laws that nobody listed beside what was found and, where that ends far from the noise,
+/// without it: what was found may stand for a law. Where a machine's numbers together account for
+/// more than any finding, these come first.
+void seek_laws(const Inquiry& inquiry, const Tell& tell, Diagnosis* diagnosis) {
+  constexpr double kFar = 2;  // times the noise
+  const Observations& observations = inquiry.observations;
+  if (!diagnosis->choice.begun.chosen.empty()) {
+    return;
+  }
+  if (!diagnosis->choice.findings.empty()) {
+    *diagnosis = with_laws(observations, *diagnosis,
+                           grammar::choose_laws(inquiry, diagnosis->choice.fit, tell));
+  }
+  const double left = largest_ratio(observations, diagnosis->choice.fit.remainder);
+  if (is_open(*diagnosis) && (diagnosis->choice.findings.empty() || left > kFar)) {
+    *diagnosis =
+        with_laws(observations, *diagnosis, grammar::choose_laws(inquiry, inquiry.given, tell));
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -172,8 +217,10 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   }
   find_groups(&diagnosis);
   judge(*observations, &diagnosis);
-  const bool leaves_something =
-      diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained";
+  if (is_open(diagnosis)) {
+    seek_laws(inquiry, settings.choosing, &diagnosis);
+  }
+  const bool leaves_something = is_open(diagnosis);
   if (leaves_something || are_many(inquiry, diagnosis.choice.fit)) {
     if (leaves_something && diagnosis.proposal.empty()) {
       diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
@@ -190,6 +237,11 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     if (diagnosis.suggested_experiment.empty() && !others.empty() &&
         others.front().delta_bic < kSameEvidence) {
       diagnosis.suggested_experiment = suggest_experiment(*observations, diagnosis, i);
+    }
+  }
+  for (const Finding& finding : diagnosis.choice.findings) {
+    if (diagnosis.suggested_experiment.empty()) {
+      diagnosis.suggested_experiment = grammar::next_recording(finding.chosen);
     }
   }
   return diagnosis;

@@ -7,6 +7,7 @@
 
 #include "diagnosis/output/courses.hpp"
 #include "diagnosis/output/errors.hpp"
+#include "diagnosis/output/law_picture.hpp"
 #include "diagnosis/output/pictures.hpp"
 #include "diagnosis/output/sentences.hpp"
 #include "diagnosis/output/words.hpp"
@@ -282,6 +283,7 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
                       escaped(headline(observations, diagnosis)), in_words(diagnosis.verdict),
                       diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
   html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
+  html += law_pictures(observations, diagnosis);
   html += trials_html(observations, diagnosis) + retuned(observations, diagnosis);
   html += errors_html(observations, diagnosis);
   html += "<h2>Where the mismatch is</h2>\n" + location_table(observations, diagnosis.location);

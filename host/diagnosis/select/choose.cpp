@@ -49,6 +49,19 @@ Fit fit_of(const Observations& observations, std::vector<Finding>* findings) {
 
 }  // namespace
 
+Choice conclude(const Inquiry& inquiry, const Attempt& grown) {
+  const Observations& observations = inquiry.observations;
+  Proved proved = prove(inquiry, prune(inquiry, fit(observations, grown.fit.chosen, kLastSteps)));
+  Choice choice;
+  choice.findings = simplify(inquiry, grown.sought, std::move(proved.selection)).findings;
+  strongest_first(&choice.findings);
+  choice.fit = fit_of(observations, &choice.findings);
+  choice.withdrawn = std::move(proved.withdrawn);
+  choice.explained = proved.explained;
+  choice.mispredicts = proved.mispredicts;
+  return choice;
+}
+
 Choice choose(const Inquiry& inquiry, const Tell& tell) {
   const Observations& observations = inquiry.observations;
   const bool is_fresh = inquiry.given.chosen.empty();
@@ -61,14 +74,10 @@ Choice choose(const Inquiry& inquiry, const Tell& tell) {
   } else if (is_fresh && !is_settled(observations, best.fit)) {
     best = best_of_pairs(inquiry, std::move(best), tell);
   }
-  Proved proved = prove(inquiry, prune(inquiry, fit(observations, best.fit.chosen, kLastSteps)));
-  choice.findings = simplify(inquiry, best.sought, std::move(proved.selection)).findings;
-  strongest_first(&choice.findings);
-  choice.fit = fit_of(observations, &choice.findings);
-  choice.withdrawn = std::move(proved.withdrawn);
-  choice.explained = proved.explained;
-  choice.mispredicts = proved.mispredicts;
-  return choice;
+  Choice concluded = conclude(inquiry, best);
+  concluded.ranking = std::move(choice.ranking);
+  concluded.begun = std::move(choice.begun);
+  return concluded;
 }
 
 }  // namespace flexcomp::diagnosis

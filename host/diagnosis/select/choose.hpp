@@ -36,4 +36,7 @@ struct Choice {
 /// enough; select/standards.hpp says by how much.
 Choice choose(const Inquiry& inquiry, const Tell& tell);
 
+/// Prunes and simplifies (3 and 4) what has grown.
+Choice conclude(const Inquiry& inquiry, const Attempt& grown);
+
 }  // namespace flexcomp::diagnosis

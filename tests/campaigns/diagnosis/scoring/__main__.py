@@ -14,7 +14,7 @@ import time
 from generator import case
 from generator.effects import CATALOGUE
 
-from . import figures, table, trial
+from . import figures, table, trial, without
 
 SOURCE = pathlib.Path(__file__).resolve().parents[4]
 EPILOG = """\
@@ -57,6 +57,9 @@ def arguments():
                         metavar="FILE", help="what is scored (default: build/release/bin/flexcomp)")
     parser.add_argument("--limit", type=float, default=300.0, metavar="S",
                         help="seconds after which a run counts as failed (default 300)")
+    parser.add_argument("--without", choices=list(CATALOGUE), metavar="EFFECT",
+                        help="leave an effect out of the catalogue, and compare with it on --single "
+                        "cases that conceal it")
     options = parser.parse_args()
     if not os.access(options.tool, os.X_OK):
         parser.error(f"{options.tool} is not there; run tools/build first")
@@ -139,6 +142,8 @@ def main():
     options = arguments()
     folder = (options.keep or SOURCE / "build/diagnosis-trials").resolve()
     folder.mkdir(parents=True, exist_ok=True)
+    if options.without:
+        return without.score(options, folder)
     try:
         results = collect(options, folder)
     except KeyboardInterrupt:

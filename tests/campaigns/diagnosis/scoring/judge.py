@@ -31,7 +31,7 @@ class Result:
     findings: int = 0
     right_findings: int = 0
     alarm: bool = False  # anything but no_mismatch
-    claims: bool = False  # any finding at all
+    claims: bool = False  # any finding by a name of the catalogue
     holdout_ratio: dict = dataclasses.field(default_factory=dict)  # channel -> rms / noise
     covered: int = 0  # parameters whose 95 % interval holds the truth
     compared: int = 0
@@ -95,7 +95,8 @@ def judge(truth, answer, seconds):
     effects = truth["effects"]
     result.verdict, result.seconds = answer.verdict, seconds
     result.named = "+".join(label(place) for place in answer.named)
-    result.alarm, result.claims = answer.verdict != "no_mismatch", bool(answer.named)
+    result.alarm = answer.verdict != "no_mismatch"
+    result.claims = any(effect != "law" for effect, _ in answer.named)
     result.findings = len(answer.named)
     result.first = _first(answer, effects) if effects else ("wrong" if answer.named else "nothing")
     result.found = sum(any(match(place, effect) in RIGHT for place in answer.named)

@@ -1,0 +1,258 @@
+#include "diagnosis/grammar/compose.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/grammar/causes.hpp"
+#include "diagnosis/grammar/known.hpp"
+#include "effects/formula_law.hpp"
+#include "parallel/in_parallel.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+namespace {
+
+constexpr int kRefinements = 5;      // halvings of the step around the best start
+constexpr double kMostHalves = 0.8;  // in which a richer law must predict better
+constexpr double kWorthwhile = 6;  // squares over the noise that it must gain for each number more
+
+/// A shape of a lead along all rows, by its parameters.
+class Fitted {
+ public:
+  Fitted(const Observations& observations, const Rows& rows, const Lead& lead, const Shape& shape,
+         bool has_constant)
+      : observations_(observations),
+        rows_(rows),
+        lead_(lead),
+        shape_(shape),
+        has_constant_(has_constant) {}
+
+  Eigen::MatrixXd courses(const Values& parameters) const {
+    Eigen::MatrixXd courses = courses_of(shape_, *lead_.driver, rows_, observations_, parameters);
+    if (has_constant_) {
+      courses.conservativeResize(Eigen::NoChange, courses.cols() + 1);
+      courses.rightCols<1>().setOnes();
+    }
+    if (lead_.factor.course.size() > 0) {
+      courses.array().colwise() *= lead_.factor.course.array();
+    }
+    return courses;
+  }
+
+  double gain(const Values& parameters) const {
+    const Eigen::MatrixXd all = courses(parameters);
+    if (!all.allFinite()) {
+      return 0;
+    }
+    const Normal normal = normal_of(*lead_.seat, all);
+    return normal.gain(normal.amplitude());
+  }
+
+  /// The best parameters: the best start, and around it in ever smaller steps.
+  Values best() const {
+    const std::vector<Values> starts = starts_of(shape_, *lead_.driver, observations_, lead_.wave);
+    Values best = starts.front();
+    double most = -1;
+    for (const Values& start : starts) {
+      const double own = starts.size() > 1 ? gain(start) : 0;
+      if (own > most) {
+        most = own;
+        best = start;
+      }
+    }
+    return refined(std::move(best), most);
+  }
+
+ private:
+  Values refined(Values best, double most) const {
+    const std::vector<Bounds> bounds = bounds_of(shape_, *lead_.driver, observations_);
+    for (std::size_t i = 0; i < best.size(); ++i) {
+      const bool is_place = shape_.parameters[i].sought == Sought::threshold ||
+                            shape_.parameters[i].sought == Sought::wave;
+      double step = is_place ? bounds[i].step * 5 : 0.4 * best[i];
+      for (int k = 0; k < kRefinements; ++k, step /= 2) {
+        for (const double change : {-step, step}) {
+          Values moved = best;
+          moved[i] = std::clamp(moved[i] + change, bounds[i].lower, bounds[i].upper);
+          const double own = gain(moved);
+          if (own > most) {
+            most = own;
+            best = std::move(moved);
+          }
+        }
+      }
+    }
+    return best;
+  }
+
+  const Observations& observations_;
+  const Rows& rows_;
+  const Lead& lead_;
+  const Shape& shape_;
+  bool has_constant_;
+};
+
+Composed composed_of(const Observations& observations, const Rows& rows, const Lead& lead,
+                     const Shape& shape, bool has_constant, Values parameters) {
+  const Fitted fitted(observations, rows, lead, shape, has_constant);
+  Composed law{lead, &shape, has_constant, std::move(parameters), {}, 0, {}};
+  const Eigen::MatrixXd courses = fitted.courses(law.parameters);
+  if (!courses.allFinite()) {
+    return law;
+  }
+  const Normal normal = normal_of(*lead.seat, courses);
+  law.amplitude = normal.amplitude();
+  law.gain = normal.gain(law.amplitude);
+  law.unseen = unseen_gains(normals_by_stretch(*lead.seat, rows, courses));
+  return law;
+}
+
+/// Does a law that says more predict better, and in most of the halves?
+bool is_worth(const Composed& richer, const Composed& simpler) {
+  int better = 0;
+  for (std::size_t i = 0; i < richer.unseen.size(); ++i) {
+    better += richer.unseen[i] > simpler.unseen[i] ? 1 : 0;
+  }
+  const double more = mean(richer.unseen) - mean(simpler.unseen);
+  const auto numbers = static_cast<double>(richer.complexity() - simpler.complexity());
+  return better >= kMostHalves * static_cast<double>(richer.unseen.size()) &&
+         more > kWorthwhile * numbers;
+}
+
+/// Moves the best to the front: of laws that say as much the one that predicts best, of others the
+/// simplest that no richer one is worth more than.
+void best_first(std::vector<Composed>* laws) {
+  std::stable_sort(laws->begin(), laws->end(), [](const Composed& a, const Composed& b) {
+    return a.complexity() != b.complexity() ? a.complexity() < b.complexity()
+                                            : mean(a.unseen) > mean(b.unseen);
+  });
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < laws->size(); ++i) {
+    if (is_worth((*laws)[i], (*laws)[best])) {
+      best = i;
+    }
+  }
+  std::rotate(laws->begin(), laws->begin() + static_cast<std::ptrdiff_t>(best),
+              laws->begin() + static_cast<std::ptrdiff_t>(best) + 1);
+}
+
+std::vector<Composed> laws_of(const Observations& observations, const Rows& rows, const Lead& lead,
+                              const std::set<std::string>& effects) {
+  std::vector<Composed> laws;
+  for (const Shape& shape : shapes()) {
+    if (!shape.fits(*lead.seat, *lead.driver) || effects.count(known_as(lead, shape)) > 0) {
+      continue;
+    }
+    const Values parameters = Fitted(observations, rows, lead, shape, true).best();
+    for (const bool has_constant : {false, true}) {
+      Composed law = composed_of(observations, rows, lead, shape, has_constant, parameters);
+      if (law.gain > 0) {
+        laws.push_back(std::move(law));
+      }
+    }
+  }
+  return laws;
+}
+
+/// The formula's text, and its parameters: the amplitudes, then those of the shape.
+std::string formula_of(const Composed& law, std::vector<std::string>* names) {
+  constexpr const char* kAmplitudes[] = {"a", "b", "c", "e"};
+  std::vector<std::string> terms = terms_of(*law.shape, *law.lead.driver);
+  if (law.has_constant) {
+    terms.emplace_back();
+  }
+  const std::string factor = law.lead.factor.text.empty() ? "" : "*" + law.lead.factor.text;
+  std::string text;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const char* amplitude = kAmplitudes[i];
+    names->emplace_back(amplitude);
+    text += (i == 0 ? "" : " + ") + std::string(amplitude) +
+            (terms[i].empty() ? "" : "*" + terms[i]) + factor;
+  }
+  for (const ShapeParameter& each : law.shape->parameters) {
+    names->emplace_back(each.name);
+  }
+  return text;
+}
+
+/// Where an amplitude is sought: far around what was found, and through zero.
+Bounds bounds_of_amplitude(double value) {
+  constexpr double kFar = 50;
+  constexpr double kStep = 0.05;
+  const double size = std::max(std::abs(value), 1e-12);
+  return {-kFar * size, kFar * size, kStep * size};
+}
+
+/// A law that says besides what usually causes it.
+effects::LawPointer with_cause(const effects::LawPointer& law, const std::string& cause) {
+  if (cause.empty()) {
+    return law;
+  }
+  effects::Law told = *law;
+  told.statement = [law, cause](int joint) { return law->statement(joint) + ", " + cause; };
+  return std::make_shared<const effects::Law>(std::move(told));
+}
+
+}  // namespace
+
+std::vector<Composed> compose(const Observations& observations, const Rows& rows,
+                              const std::vector<Lead>& leads, const std::set<std::string>& effects,
+                              std::size_t* looked_at) {
+  std::vector<std::vector<Composed>> by_lead(leads.size());
+  in_parallel(
+      leads.size(), [](std::size_t, std::size_t) {},
+      [&](std::size_t i) {
+        by_lead[i] = laws_of(observations, rows, leads[i], effects);
+        best_first(&by_lead[i]);
+      });
+  std::vector<Composed> all;
+  for (std::vector<Composed>& each : by_lead) {
+    *looked_at += each.size();
+    if (!each.empty()) {
+      all.push_back(std::move(each.front()));
+    }
+  }
+  std::vector<Composed> sorted;
+  while (!all.empty()) {
+    best_first(&all);
+    sorted.push_back(std::move(all.front()));
+    all.erase(all.begin());
+  }
+  return sorted;
+}
+
+Chosen chosen_of(const Observations& observations, const Composed& composed) {
+  std::vector<std::string> names;
+  model::WrittenLaw written;
+  written.place = composed.lead.seat->name;
+  written.axis = composed.lead.seat->axis;
+  written.formula = formula_of(composed, &names);
+  const model::Robot& robot = observations.machine.robot;
+  const int joint = composed.lead.seat->place.joint;
+  const auto bound = std::make_shared<const effects::BoundFormula>(
+      effects::bind_law(written, robot, joint, names));
+  Hypothesis hypothesis(with_cause(effects::formula_law(bound, effects::Unvalued::not_a_number),
+                                   usual_cause(composed.lead, *composed.shape)),
+                        joint, robot);
+  std::vector<Bounds> bounds;
+  for (const double amplitude : composed.amplitude) {
+    bounds.push_back(bounds_of_amplitude(amplitude));
+  }
+  for (const Bounds& each : bounds_of(*composed.shape, *composed.lead.driver, observations)) {
+    bounds.push_back(each);
+  }
+  Values values(composed.amplitude.data(), composed.amplitude.data() + composed.amplitude.size());
+  values.insert(values.end(), composed.parameters.begin(), composed.parameters.end());
+  std::vector<Bounds> ordered;
+  Values begun;
+  for (const Parameter& each : hypothesis.parameters) {
+    const auto at = std::find(names.begin(), names.end(), each.name) - names.begin();
+    ordered.push_back(bounds[static_cast<std::size_t>(at)]);
+    begun.push_back(values[static_cast<std::size_t>(at)]);
+  }
+  hypothesis.set_bounds(ordered);
+  hypothesis.starts = {
+      Values(begun.begin() + static_cast<std::ptrdiff_t>(hypothesis.linear), begun.end())};
+  return {std::move(hypothesis), std::move(begun)};
+}
+
+}  // namespace flexcomp::diagnosis::grammar

@@ -1,0 +1,123 @@
+#include "diagnosis/grammar/driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexcomp::diagnosis::grammar {
+namespace {
+
+using effects::SignalKind;
+
+constexpr double kAboveNoise = 4;  // times the noise of a speed or an acceleration
+
+std::vector<std::string> names_of(const Observations& observations) {
+  std::vector<std::string> names;
+  const bool shows_inertia =
+      observations.has(simulation::joint_torque) || observations.has(simulation::joint_deflection);
+  for (int joint = 1; joint <= observations.machine.robot.joints(); ++joint) {
+    names.push_back(fmt::format("q{}", joint));
+    if (!observations.is_static) {
+      names.push_back(fmt::format("v{}", joint));
+      names.push_back(fmt::format("a{}", joint));
+    }
+    if (shows_inertia) {
+      names.push_back(fmt::format("tau{}", joint));
+    }
+    if (observations.has(simulation::tcp_position)) {
+      names.push_back(fmt::format("load{}", joint));
+    }
+  }
+  if (observations.has_wrench()) {
+    for (const char* each : {"fx", "fy", "fz", "mx", "my", "mz"}) {
+      names.emplace_back(each);
+    }
+  }
+  for (const char* each : {"x", "y", "z"}) {
+    names.emplace_back(each);
+  }
+  if (observations.scenes.front().temperature.size() > 0) {
+    names.emplace_back("temp_c");
+  }
+  if (!observations.is_static) {
+    names.emplace_back("t");
+  }
+  return names;
+}
+
+Eigen::VectorXd course_of(const effects::Signal& signal, const Observations& observations,
+                          const Rows& rows) {
+  Eigen::VectorXd course(rows.count);
+  for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
+    const Scene& scene = observations.scenes[s];
+    course.segment(rows.first[s], rows.rows(s)) =
+        rows.of(values_of(signal, scene, observations.simulations[s], observations.predictions[s],
+                          effects::Loads::with_inertia, scene.time[0]));
+  }
+  return course;
+}
+
+/// Noise of a signal that comes by differentiation.
+double noise_of(const effects::Signal& signal, const Observations& observations) {
+  const Scene& scene = observations.scenes.front();
+  const bool is_speed = signal.kind == SignalKind::speed;
+  if (!is_speed && signal.kind != SignalKind::acceleration) {
+    return 0;
+  }
+  const Eigen::RowVectorXd& noise = is_speed ? scene.velocity_noise : scene.acceleration_noise;
+  return noise.size() >= signal.index ? noise[signal.index - 1] : 0;
+}
+
+bool is_of_joint(SignalKind kind) {
+  return kind == SignalKind::angle || kind == SignalKind::speed ||
+         kind == SignalKind::acceleration || kind == SignalKind::torque || kind == SignalKind::load;
+}
+
+/// Is the least variation worth looking at, in the signal's own unit?
+double least_span(SignalKind kind) {
+  switch (kind) {
+    case SignalKind::angle:
+    case SignalKind::position:
+      return 0.01;
+    case SignalKind::speed:
+    case SignalKind::acceleration:
+      return 0.005;
+    default:
+      return 0.5;
+  }
+}
+
+}  // namespace
+
+double Driver::size() const { return std::max(std::abs(low), std::abs(high)); }
+
+std::vector<Driver> drivers_of(const Observations& observations, const Rows& rows) {
+  std::vector<Driver> drivers;
+  for (const std::string& name : names_of(observations)) {
+    const auto signal = effects::find_signal(observations.machine.robot, name);
+    if (!signal) {
+      continue;
+    }
+    Driver driver{name,
+                  signal->kind,
+                  is_of_joint(signal->kind) ? signal->index : 0,
+                  signal->unit,
+                  course_of(*signal, observations, rows),
+                  0,
+                  0};
+    if (driver.course.size() == 0 || !driver.course.allFinite()) {
+      continue;
+    }
+    driver.low = driver.course.minCoeff();
+    driver.high = driver.course.maxCoeff();
+    const double spread = std::sqrt((driver.course.array() - driver.course.mean()).square().mean());
+    if (driver.span() > least_span(driver.kind) &&
+        spread > kAboveNoise * noise_of(*signal, observations)) {
+      drivers.push_back(std::move(driver));
+    }
+  }
+  return drivers;
+}
+
+}  // namespace flexcomp::diagnosis::grammar

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/grammar/seat.hpp"
+#include "effects/signals.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+
+/// A signal that may drive a law, along all rows.
+struct Driver {
+  std::string name;  ///< as formulas have it: q4, tau5, temp_c
+  effects::SignalKind kind = effects::SignalKind::angle;
+  int joint = 0;     ///< from 1 on; 0 where it belongs to none
+  std::string unit;  ///< rad, N·m, …
+  Eigen::VectorXd course;
+  double low = 0, high = 0;  ///< of the course
+
+  double span() const { return high - low; }
+  /// The larger of its ends, without sign.
+  double size() const;
+};
+
+/// The signals that vary along the recordings by more than their noise. Time is none where scenes
+/// are load tests. Of a joint's load that counts which what was measured shows: at rest at the TCP,
+/// with inertia elsewhere.
+std::vector<Driver> drivers_of(const Observations& observations, const Rows& rows);
+
+}  // namespace flexcomp::diagnosis::grammar

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "diagnosis/grammar/screen.hpp"
+#include "diagnosis/grammar/shape.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+
+/// The effect of the catalogue that does what a shape of a lead does; empty where there is none.
+std::string known_as(const Lead& lead, const Shape& shape);
+
+}  // namespace flexcomp::diagnosis::grammar

@@ -1,0 +1,111 @@
+#include "diagnosis/grammar/laws.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/grammar/compose.hpp"
+#include "diagnosis/select/grow.hpp"
+#include "diagnosis/select/standards.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+namespace {
+
+constexpr std::size_t kMostLaws = 5;
+constexpr double kLeastLawShare = 0.3;  // of the power beyond the noise where it shows
+constexpr int kLawSteps = 20;
+constexpr std::size_t kTried = 3;  // composed laws that are fitted before the best is taken
+
+/// What the search of laws needs of the observations, whatever is fitted.
+struct Material {
+  explicit Material(const Inquiry& inquiry)
+      : rows(inquiry.observations), drivers(drivers_of(inquiry.observations, rows)) {
+    for (const Hypothesis& each : inquiry.dictionary.hypotheses) {
+      effects.insert(each.effect());
+    }
+  }
+
+  Rows rows;
+  std::vector<Driver> drivers;
+  std::set<std::string> effects;
+};
+
+/// A fit with one law more that holds; nothing chosen where there is none.
+Fit with_law(const Inquiry& inquiry, const Material& material, const Fit& before) {
+  const Observations& observations = inquiry.observations;
+  const std::vector<Seat> seats = seats_of(observations, material.rows, before);
+  std::size_t looked_at = inquiry.dictionary.entries.size();
+  const std::vector<Lead> leads = screen(seats, material.drivers, &looked_at);
+  const std::vector<Composed> laws =
+      compose(observations, material.rows, leads, material.effects, &looked_at);
+  for (std::size_t i = 0; i < std::min(laws.size(), kTried); ++i) {
+    Fit grown = fit_with(inquiry, before, chosen_of(observations, laws[i]), kLawSteps);
+    const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
+    if (holds(inquiry, evidence) && evidence.share > kLeastLawShare) {
+      return grown;
+    }
+  }
+  return {};
+}
+
+/// A fit with one effect of the catalogue more that holds; nothing chosen where there is none.
+Fit with_effect(const Inquiry& inquiry, const Fit& before) {
+  const Fit grown = best_beside(inquiry, {before, seek(inquiry, before)}, kShortlist);
+  return !grown.chosen.empty() && holds(inquiry, weigh_last(inquiry, before, grown)) ? grown
+                                                                                     : Fit{};
+}
+
+/// The better of a law and an effect, by strong evidence for the law.
+Fit better_of(const Observations& observations, Fit law, Fit effect) {
+  if (law.chosen.empty() || effect.chosen.empty()) {
+    return effect.chosen.empty() ? law : effect;
+  }
+  return bic_gain(observations, effect, law) > kStrongEvidence ? law : effect;
+}
+
+/// A fit with one law or effect more; nothing chosen where none holds.
+Fit with_one(const Inquiry& inquiry, const Material& material, const Fit& before) {
+  return better_of(inquiry.observations, with_law(inquiry, material, before),
+                   with_effect(inquiry, before));
+}
+
+/// Chooses anew what was chosen from `first` on, each beside all others: what was chosen early had
+/// to say what others say by now.
+Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, std::size_t first) {
+  const Observations& observations = inquiry.observations;
+  for (std::size_t i = first; i + 1 < grown.chosen.size(); ++i) {
+    if (!meet(directions(observations, grown, i),
+              directions(observations, grown, grown.chosen.size() - 1))) {
+      continue;
+    }
+    Fit again = with_one(inquiry, material, fit_without(inquiry, grown, i));
+    const bool is_simpler = again.parameters() < grown.parameters();
+    if (!again.chosen.empty() &&
+        bic_gain(observations, grown, again) > (is_simpler ? 0 : kStrongEvidence)) {
+      grown = std::move(again);
+    }
+  }
+  return grown;
+}
+
+}  // namespace
+
+bool is_law(const Hypothesis& hypothesis) { return hypothesis.law->written != nullptr; }
+
+Choice choose_laws(const Inquiry& inquiry, const Fit& begun, const Tell& tell) {
+  const Material material(inquiry);
+  Fit grown = begun;
+  for (std::size_t i = 0; i < kMostLaws; ++i) {
+    Fit next = with_one(inquiry, material, grown);
+    if (next.chosen.empty()) {
+      break;
+    }
+    grown = revised(inquiry, material, std::move(next), begun.chosen.size());
+    tell(grown.chosen.size(), kMostFindings);
+  }
+  Choice choice = conclude(inquiry, {grown, seek(inquiry, grown)});
+  const bool has_law =
+      std::any_of(choice.findings.begin(), choice.findings.end(),
+                  [](const Finding& each) { return is_law(each.chosen.hypothesis); });
+  return has_law ? choice : Choice{};
+}
+
+}  // namespace flexcomp::diagnosis::grammar

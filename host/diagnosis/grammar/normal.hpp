@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/grammar/seat.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+
+/// Normal equations of courses (rows × terms) at a seat.
+struct Normal {
+  Eigen::MatrixXd gram;    ///< terms × terms
+  Eigen::VectorXd moment;  ///< terms
+
+  /// Amplitudes of least squares; terms that others make up have none.
+  Eigen::VectorXd amplitude() const;
+  /// By how much amplitudes lower the sum of squares.
+  double gain(const Eigen::VectorXd& amplitude) const;
+};
+
+/// Of all samples to fit to, beside what is fitted already.
+Normal normal_of(const Seat& seat, const Eigen::MatrixXd& courses);
+
+/// Of each stretch by itself, as if nothing were fitted.
+std::vector<Normal> normals_by_stretch(const Seat& seat, const Rows& rows,
+                                       const Eigen::MatrixXd& courses);
+
+/// By how much courses lower the sum of squares where they were not fitted to: for each of several
+/// random halves of the stretches the gain on the other half (Meinshausen and Bühlmann 2010,
+/// "Stability selection", whose subsamples are single samples). The halves are the same for all
+/// courses.
+std::vector<double> unseen_gains(const std::vector<Normal>& by_stretch);
+
+double mean(const std::vector<double>& values);
+
+}  // namespace flexcomp::diagnosis::grammar

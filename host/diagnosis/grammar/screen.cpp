@@ -1,0 +1,148 @@
+#include "diagnosis/grammar/screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "diagnosis/grammar/wave.hpp"
+#include "parallel/in_parallel.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+namespace {
+
+using effects::PlaceKind;
+using effects::SignalKind;
+
+constexpr Eigen::Index kHats = 9;
+constexpr std::size_t kMostLeads = 10;
+constexpr double kMuchLess = 0.6;  // of the best lead's gain
+
+const Driver* find(const std::vector<Driver>& drivers, const std::string& name) {
+  const auto found = std::find_if(drivers.begin(), drivers.end(),
+                                  [&](const Driver& each) { return each.name == name; });
+  return found == drivers.end() ? nullptr : &*found;
+}
+
+/// Adds factors of a driver that is there: itself, and its sign.
+void add_factor(const std::vector<Driver>& drivers, const std::string& name, bool by_sign,
+                std::vector<Factor>* factors) {
+  const Driver* driver = find(drivers, name);
+  if (driver != nullptr) {
+    factors->push_back(by_sign ? Factor{fmt::format("sign({})", name), driver->course.cwiseSign()}
+                               : Factor{name, driver->course});
+  }
+}
+
+/// What laws at a place may be multiplied with: friction and gains of a drive, springs, forces.
+std::vector<Factor> factors_at(const effects::LawPlace& place, const std::vector<Driver>& drivers) {
+  std::vector<Factor> factors = {{}};
+  const std::string joint = std::to_string(place.joint);
+  if (place.kind == PlaceKind::joint_torque) {
+    add_factor(drivers, "v" + joint, true, &factors);
+    add_factor(drivers, "v" + joint, false, &factors);
+    add_factor(drivers, "tau" + joint, false, &factors);
+    add_factor(drivers, "load" + joint, false, &factors);
+    add_factor(drivers, "a" + joint, false, &factors);
+  } else if (place.kind == PlaceKind::joint_angle) {
+    add_factor(drivers, "load" + joint, false, &factors);
+    add_factor(drivers, "tau" + joint, false, &factors);
+    add_factor(drivers, "v" + joint, true, &factors);
+  } else if (place.kind == PlaceKind::tcp_base || place.kind == PlaceKind::tcp_tool) {
+    for (const char* force : {"fx", "fy", "fz"}) {
+      add_factor(drivers, force, false, &factors);
+    }
+  }
+  return factors;
+}
+
+/// Piecewise linear functions over a driver whose sum is one: in each row two of them.
+class Hats {
+ public:
+  explicit Hats(const Driver& driver) : at_(driver.course.size()), share_(driver.course.size()) {
+    const double spacing = driver.span() / static_cast<double>(kHats - 1);
+    for (Eigen::Index row = 0; row < at_.size(); ++row) {
+      const double place = (driver.course[row] - driver.low) / spacing;
+      at_[row] = std::min(static_cast<Eigen::Index>(place), kHats - 2);
+      share_[row] = place - static_cast<double>(at_[row]);
+    }
+  }
+
+  Normal normal(const Seat& seat, const Factor& factor) const {
+    Normal sum{Eigen::MatrixXd::Zero(kHats, kHats), Eigen::VectorXd::Zero(kHats)};
+    Eigen::MatrixXd shown = Eigen::MatrixXd::Zero(seat.fitted.cols(), kHats);
+    for (Eigen::Index row = 0; row < at_.size(); ++row) {
+      if (!(seat.weight[row] > 0)) {
+        continue;
+      }
+      const double size = factor.course.size() > 0 ? factor.course[row] : 1;
+      const double values[] = {size * (1 - share_[row]), size * share_[row]};
+      for (Eigen::Index i = 0; i < 2; ++i) {
+        sum.moment[at_[row] + i] += values[i] * seat.product[row];
+        for (Eigen::Index k = 0; k < 2; ++k) {
+          sum.gram(at_[row] + i, at_[row] + k) += seat.weight[row] * values[i] * values[k];
+        }
+        shown.col(at_[row] + i) += values[i] * seat.fitted.row(row).transpose();
+      }
+    }
+    sum.gram -= shown.transpose() * shown;
+    return sum;
+  }
+
+ private:
+  Eigen::Matrix<Eigen::Index, Eigen::Dynamic, 1> at_;
+  Eigen::VectorXd share_;
+};
+
+/// What a factor and a driver do at a seat; nothing where a law of them would mean nothing: errors
+/// of sensors follow time alone.
+std::optional<Lead> lead_of(const Seat& seat, const Driver& driver, const Hats& hats,
+                            const Factor& factor) {
+  const bool is_time = driver.kind == SignalKind::time;
+  if (seat.is_sensor() && (!is_time || !factor.text.empty())) {
+    return std::nullopt;
+  }
+  const Normal normal = hats.normal(seat, factor);
+  Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()), 1};
+  if (factor.text.empty() && (is_time ? seat.is_sensor() : driver.kind == SignalKind::angle)) {
+    const Wave wave = best_wave(seat, driver);
+    lead.wave = wave.order;
+    lead.gain = std::max({lead.gain, wave.gain, is_time ? best_step(seat) : 0});
+  }
+  return lead;
+}
+
+}  // namespace
+
+std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Driver>& drivers,
+                         std::size_t* looked_at) {
+  std::vector<Hats> hats(drivers.begin(), drivers.end());
+  std::vector<std::vector<Lead>> by_seat(seats.size());
+  in_parallel(
+      seats.size(), [](std::size_t, std::size_t) {},
+      [&](std::size_t s) {
+        for (const Factor& factor : factors_at(seats[s].place, drivers)) {
+          for (std::size_t d = 0; d < drivers.size(); ++d) {
+            if (const auto lead = lead_of(seats[s], drivers[d], hats[d], factor)) {
+              by_seat[s].push_back(*lead);
+            }
+          }
+        }
+      });
+  std::vector<Lead> leads;
+  for (std::vector<Lead>& each : by_seat) {
+    leads.insert(leads.end(), each.begin(), each.end());
+  }
+  *looked_at += leads.size();
+  std::stable_sort(leads.begin(), leads.end(),
+                   [](const Lead& a, const Lead& b) { return a.gain > b.gain; });
+  const double least = leads.empty() ? 0 : kMuchLess * leads.front().gain;
+  const auto end = std::find_if(leads.begin(), leads.end(),
+                                [&](const Lead& each) { return !(each.gain > least); });
+  leads.erase(end, leads.end());
+  leads.resize(std::min(leads.size(), kMostLeads), Lead{nullptr, nullptr, {}, 0, 0});
+  return leads;
+}
+
+}  // namespace flexcomp::diagnosis::grammar

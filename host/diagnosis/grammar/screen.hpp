@@ -1,0 +1,31 @@
+#pragma once
+
+#include "diagnosis/grammar/driver.hpp"
+#include "diagnosis/grammar/normal.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+
+/// A quantity that a law is multiplied with: the direction of a joint's motion where friction
+/// changes, the load where a gain does.
+struct Factor {
+  std::string text;        ///< of a formula, such as sign(v5); empty where it is one
+  Eigen::VectorXd course;  ///< rows; empty where it is one
+};
+
+/// Something that a law at a seat may follow, whatever the shape.
+struct Lead {
+  const Seat* seat;
+  const Driver* driver;
+  Factor factor;
+  double gain;  ///< in squares, by what is told of it here
+  double wave;  ///< 2π over the period along the driver with which a wave does most
+};
+
+/// The leads for what a fit leaves, the best first: a seat, a driver and a factor of which the
+/// conditional mean (piecewise linear over the driver), a wave over it or, in time, a step lowers
+/// the squares most. Those that do much less than the best are left out. `looked_at` is raised by
+/// the leads that were looked at.
+std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Driver>& drivers,
+                         std::size_t* looked_at);
+
+}  // namespace flexcomp::diagnosis::grammar

@@ -1,0 +1,162 @@
+#include "diagnosis/grammar/seat.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search/search.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+namespace {
+
+constexpr double kMoreThanNoise = 1.1;  // times the noise
+
+/// A place by its words in robot.yaml.
+struct Words {
+  const char* name;
+  const char* axis;
+  int joint;
+};
+
+std::vector<Words> places_of(const Observations& observations) {
+  std::vector<Words> all;
+  for (int joint = 1; joint <= observations.machine.robot.joints(); ++joint) {
+    if (sees_moving_torques(observations)) {
+      all.push_back({"joint_torque", "", joint});
+      all.push_back({"sensor tau", "", joint});
+    }
+    if (sees_angles(observations)) {
+      all.push_back({"joint_angle", "", joint});
+    }
+  }
+  if (observations.has(simulation::tcp_position)) {
+    for (const char* axis : {"x", "y", "z"}) {
+      all.push_back({"tcp_base", axis, 0});
+      all.push_back({"tcp_tool", axis, 0});
+    }
+    for (const char* turn : {"rx", "ry", "rz"}) {
+      all.push_back({"base", turn, 0});
+    }
+    if (!observations.is_static) {
+      for (const char* each : {"sensor x", "sensor y", "sensor z"}) {
+        all.push_back({each, "", 0});
+      }
+    }
+  }
+  if (observations.has_wrench()) {
+    for (const char* each :
+         {"sensor fx", "sensor fy", "sensor fz", "sensor mx", "sensor my", "sensor mz"}) {
+      all.push_back({each, "", 0});
+    }
+  }
+  return all;
+}
+
+/// What a fit leaves of the samples to fit to, without what stands alone.
+Eigen::VectorXd clipped(const Fit& fit, Eigen::Index train) {
+  constexpr double kFar = 6;  // deviations
+  const Eigen::VectorXd all = fit.remainder.head(train);
+  const double limit = kFar * std::max(1.0, all.norm() / std::sqrt(static_cast<double>(train)));
+  return all.cwiseMax(-limit).cwiseMin(limit);
+}
+
+/// An orthonormal base of the changes that a fit's parameters make.
+Eigen::MatrixXd base_of(const Fit& fit, Eigen::Index train) {
+  if (fit.derivative.cols() == 0) {
+    return Eigen::MatrixXd(train, 0);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(fit.derivative.topRows(train));
+  return factors.householderQ() * Eigen::MatrixXd::Identity(train, factors.rank());
+}
+
+}  // namespace
+
+bool Seat::is_sensor() const { return !effects::moves_the_robot(place); }
+
+double Seat::left() const {
+  const auto shown = (weight.array() > 0);
+  const double squares =
+      shown.select(product.array().square() / weight.array().max(1e-300), 0.0).sum();
+  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(shown.count(), 1)));
+}
+
+Rows::Rows(const Observations& observations) {
+  constexpr Eigen::Index kMostRows = 3000;
+  Eigen::Index all = 0;
+  for (const Scene& scene : observations.scenes) {
+    all += scene.rows();
+  }
+  each = std::max<Eigen::Index>(1, (all + kMostRows - 1) / kMostRows);
+  time.resize(all);
+  for (const Scene& scene : observations.scenes) {
+    first.push_back(count);
+    for (Eigen::Index row = 0; row < scene.rows(); row += each) {
+      stretch.push_back(stretches + static_cast<int>(stretch_of(row, scene.rows())));
+      time[count++] = scene.time[row];
+    }
+    stretches += static_cast<int>(kHoldoutStretches);
+  }
+  time.conservativeResize(count);
+}
+
+Eigen::VectorXd Rows::of(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd taken((values.size() + each - 1) / each);
+  for (Eigen::Index i = 0; i < taken.size(); ++i) {
+    taken[i] = values[i * each];
+  }
+  return taken;
+}
+
+Eigen::Index Rows::at(std::size_t scene, Eigen::Index row) const {
+  return row % each == 0 ? first[scene] + row / each : -1;
+}
+
+Eigen::Index Rows::rows(std::size_t scene) const {
+  return (scene + 1 < first.size() ? first[scene + 1] : count) - first[scene];
+}
+
+Eigen::VectorXd levers_of(const Observations& observations, const effects::LawPlace& place) {
+  std::vector<Prediction> moved;
+  for (const Simulation& at : observations.simulations) {
+    Prediction prediction = at.prediction;
+    for (Eigen::MatrixXd& channel : prediction.channel) {
+      channel.setZero();
+    }
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(at.q.rows());
+    effects::add_at(place, ones, ones, at, &prediction);
+    moved.push_back(std::move(prediction));
+  }
+  return observations.stacked(moved);
+}
+
+std::vector<Seat> seats_of(const Observations& observations, const Rows& rows, const Fit& fit) {
+  const Eigen::Index train = observations.train;
+  const Eigen::VectorXd left = clipped(fit, train);
+  const Eigen::MatrixXd base = base_of(fit, train);
+  std::vector<Seat> seats;
+  for (const Words& words : places_of(observations)) {
+    Seat seat{effects::read_place(words.name, words.axis, words.joint),
+              words.name,
+              words.axis,
+              Eigen::VectorXd::Zero(rows.count),
+              Eigen::VectorXd::Zero(rows.count),
+              Eigen::MatrixXd::Zero(rows.count, base.cols())};
+    const Eigen::VectorXd lever = levers_of(observations, seat.place);
+    for (Eigen::Index i = 0; i < train; ++i) {
+      const Sample& at = observations.samples[static_cast<std::size_t>(i)];
+      const Eigen::Index row = rows.at(at.scene, at.row);
+      if (row < 0) {
+        continue;
+      }
+      seat.weight[row] += lever[i] * lever[i];
+      seat.product[row] += lever[i] * left[i];
+      seat.fitted.row(row) += lever[i] * base.row(i);
+    }
+    if (seat.weight.sum() > 0 && seat.left() > kMoreThanNoise) {
+      seats.push_back(std::move(seat));
+    }
+  }
+  return seats;
+}
+
+}  // namespace flexcomp::diagnosis::grammar

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/fit.hpp"
+#include "effects/law_place.hpp"
+
+namespace flexcomp::diagnosis::grammar {
+
+/// Rows of all scenes, one scene after the other, evenly thinned where there are many: courses of
+/// signals and of laws are such columns.
+struct Rows {
+  explicit Rows(const Observations& observations);
+
+  /// Values of all rows of a scene, thinned.
+  Eigen::VectorXd of(const Eigen::VectorXd& values) const;
+  /// Where a row of a scene is; −1 where it is left out.
+  Eigen::Index at(std::size_t scene, Eigen::Index row) const;
+  Eigen::Index rows(std::size_t scene) const;
+
+  Eigen::Index each = 1;            ///< one row in so many is taken
+  Eigen::Index count = 0;           ///< of those that are taken
+  std::vector<Eigen::Index> first;  ///< of each scene
+  Eigen::VectorXd time;             ///< s
+  std::vector<int> stretch;         ///< of each row; no two scenes share one
+  int stretches = 0;
+};
+
+/// A place where a law may act, and how what a fit leaves shows there.
+///
+/// A law whose value is u in a row moves each sample of that row by lever · u. So least squares
+/// over the samples to fit to become sums over rows: those of w·u² and of p·u. Samples that are far
+/// off count as if they were less so.
+struct Seat {
+  effects::LawPlace place;
+  std::string name;         ///< as robot.yaml has it
+  std::string axis;         ///< the same; empty where it has none
+  Eigen::VectorXd weight;   ///< w: squares of the levers; zero in rows that are held out
+  Eigen::VectorXd product;  ///< p: levers times remainder
+  Eigen::MatrixXd fitted;   ///< levers times an orthonormal base of what is fitted already
+
+  /// Is it a sensor's? What is no function of what was recorded is told there, as an error of the
+  /// measurement in time: nobody knows whether the machine moved.
+  bool is_sensor() const;
+  /// Root mean square of what is left there, over the noise.
+  double left() const;
+};
+
+/// By how much (over the noise) each sample moves where a law at a place has the value one.
+Eigen::VectorXd levers_of(const Observations& observations, const effects::LawPlace& place);
+
+/// The places at which what was recorded could show a law, beside a fit; those where little more
+/// than noise is left are not among them.
+std::vector<Seat> seats_of(const Observations& observations, const Rows& rows, const Fit& fit);
+
+}  // namespace flexcomp::diagnosis::grammar

@@ -1,0 +1,144 @@
+// Laws that nobody listed: found where they act, by what drives them, and not where nothing does.
+#include <cmath>
+
+#include "diagnosis/driven_robot.hpp"
+#include "diagnosis/grammar/laws.hpp"
+#include "diagnosis/grammar/normal.hpp"
+#include "diagnosis/grammar/wave.hpp"
+#include "unity_main.hpp"
+
+using flexcomp::diagnosis::Choice;
+using flexcomp::diagnosis::Dictionary;
+using flexcomp::diagnosis::Finding;
+using flexcomp::diagnosis::Fit;
+using flexcomp::diagnosis::Hypothesis;
+using flexcomp::diagnosis::Inquiry;
+using flexcomp::diagnosis::Observations;
+using flexcomp::test::DrivenRobot;
+namespace grammar = flexcomp::diagnosis::grammar;
+namespace simulation = flexcomp::simulation;
+
+namespace {
+
+/// A torque (N·m) of a joint by what the machine does.
+using Torque = Eigen::VectorXd (*)(const simulation::Simulation& at);
+
+Observations observed(const DrivenRobot& robot, int joint, Torque torque) {
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(
+      {simulation::Term::output, [=](const simulation::Scene&, const simulation::Simulation& at,
+                                     simulation::Prediction* prediction) {
+         prediction->channel[simulation::joint_torque].col(joint - 1) += torque(at);
+       }});
+  return robot.observed(truth);
+}
+
+Choice laws_in(const Observations& observations) {
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
+  const Fit given = fit(observations, {}, 0);
+  const Inquiry inquiry{observations, dictionary, 0.01, given};
+  return grammar::choose_laws(inquiry, given, [](std::size_t, std::size_t) {});
+}
+
+/// Part of the held-out error beyond the noise that is left.
+double left_of(const Observations& observations, const Choice& choice) {
+  const auto squares = [&](const Eigen::VectorXd& values) {
+    const Eigen::Index held_out = observations.size() - observations.train;
+    return values.tail(held_out).squaredNorm() - static_cast<double>(held_out);
+  };
+  return squares(choice.fit.remainder) / squares(observations.residual);
+}
+
+/// The only finding of the laws for a torque of joint 5.
+Finding only_law(const Observations& observations) {
+  const Choice choice = laws_in(observations);
+  TEST_ASSERT_EQUAL_UINT64(1, choice.findings.size());
+  TEST_ASSERT_TRUE(left_of(observations, choice) < 0.02);
+  const Finding& finding = choice.findings.front();
+  TEST_ASSERT_EQUAL_STRING("law", finding.chosen.hypothesis.effect().c_str());
+  TEST_ASSERT_EQUAL_INT(5, finding.chosen.hypothesis.joint);
+  TEST_ASSERT_EQUAL_STRING("joint_torque", finding.chosen.hypothesis.law->written->place.c_str());
+  return finding;
+}
+
+void noise_alone_has_no_law() {
+  const DrivenRobot robot;
+  TEST_ASSERT_TRUE(laws_in(robot.observed(robot.machine())).findings.empty());
+}
+
+void a_hose_that_another_joint_pulls_is_a_wave_of_its_angle() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    return Eigen::VectorXd(40 * (3 * at.q.col(3).array() + 0.7).sin());
+  }));
+  TEST_ASSERT_EQUAL_STRING("a*sin(3*q4) + b*cos(3*q4)",
+                           found.chosen.hypothesis.law->written->formula.c_str());
+  TEST_ASSERT_DOUBLE_WITHIN(1, 40 * std::cos(0.7), found.chosen.values[0]);
+  TEST_ASSERT_DOUBLE_WITHIN(1, 40 * std::sin(0.7), found.chosen.values[1]);
+  TEST_ASSERT_TRUE(found.chosen.hypothesis.statement().find("usually a cable or hose") !=
+                   std::string::npos);
+}
+
+void friction_that_another_joints_angle_raises_is_followed() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    return Eigen::VectorXd(at.velocity.col(4).array().sign() * (20 + 60 * at.q.col(2).array()));
+  }));
+  TEST_ASSERT_EQUAL_STRING("a*q3*sign(v5) + b*sign(v5)",
+                           found.chosen.hypothesis.law->written->formula.c_str());
+}
+
+void what_the_catalogue_has_keeps_its_name() {
+  const DrivenRobot robot;
+  const Observations observations = observed(robot, 5, [](const simulation::Simulation& at) {
+    return Eigen::VectorXd(30 * at.velocity.col(4));
+  });
+  TEST_ASSERT_TRUE(laws_in(observations).findings.empty());
+}
+
+void a_tone_is_told_in_time() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(
+      {simulation::Term::output, [](const simulation::Scene& scene, const simulation::Simulation&,
+                                    simulation::Prediction* prediction) {
+         prediction->channel[simulation::joint_torque].col(1) +=
+             (40 * (2 * std::acos(-1.0) * 1.7 * scene.time.array()).sin()).matrix();
+       }});
+  const Choice choice = laws_in(robot.observed(truth));
+  TEST_ASSERT_EQUAL_UINT64(1, choice.findings.size());
+  const auto& found = choice.findings.front().chosen;
+  TEST_ASSERT_EQUAL_STRING("sensor tau", found.hypothesis.law->written->place.c_str());
+  TEST_ASSERT_EQUAL_STRING("a*sin(k*t) + b*cos(k*t)",
+                           found.hypothesis.law->written->formula.c_str());
+  TEST_ASSERT_DOUBLE_WITHIN(1e-3, 2 * std::acos(-1.0) * 1.7, found.values[2]);
+}
+
+void gains_are_told_where_nothing_was_fitted() {
+  // Four stretches whose least squares alone are 1, 1, 1 and 3: whatever the halves, what two of
+  // them say gains on the others what the sums over these give by hand.
+  std::vector<grammar::Normal> stretches;
+  for (const double amplitude : {1.0, 1.0, 1.0, 3.0}) {
+    stretches.push_back(
+        {Eigen::MatrixXd::Constant(1, 1, 2.0), Eigen::VectorXd::Constant(1, 2.0 * amplitude)});
+  }
+  for (const double gain : grammar::unseen_gains(stretches)) {
+    // Halves {1, 1} and {1, 3}: from 1 to (1 + 3) / 2 = 2, or from 2 to 1.
+    const bool is_expected = std::abs(gain - (2 * 8 - 4)) < 1e-6 || std::abs(gain - 0) < 1e-6;
+    TEST_ASSERT_TRUE(is_expected);
+  }
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(noise_alone_has_no_law);
+  RUN_TEST(a_hose_that_another_joint_pulls_is_a_wave_of_its_angle);
+  RUN_TEST(friction_that_another_joints_angle_raises_is_followed);
+  RUN_TEST(what_the_catalogue_has_keeps_its_name);
+  RUN_TEST(a_tone_is_told_in_time);
+  RUN_TEST(gains_are_told_where_nothing_was_fitted);
+  return UNITY_END();
+}
