@@ -9,10 +9,10 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
-constexpr std::size_t kMostLaws = 5;
+constexpr std::size_t kMostLaws = 3;    // beside each other: more take minutes
 constexpr double kLeastLawShare = 0.3;  // of the power beyond the noise where it shows
-constexpr int kLawSteps = 20;
-constexpr std::size_t kTried = 3;  // composed laws that are fitted before the best is taken
+constexpr int kLawSteps = 12;
+constexpr std::size_t kTried = 2;  // composed laws that are fitted before the best is taken
 
 /// What the search of laws needs of the observations, whatever is fitted.
 struct Material {
