@@ -34,6 +34,9 @@ class Ring {
     if (Size - (end - begin_.load(std::memory_order_acquire)) < count) {
       return false;
     }
+    if (count == 0) {
+      return true;  // `items` may be null then, which memcpy may not see
+    }
     const std::size_t before_wrap = std::min(count, Size - end % Size);
     std::memcpy(&items_[end % Size], items, before_wrap * sizeof(Item));
     std::memcpy(items_.data(), items + before_wrap, (count - before_wrap) * sizeof(Item));

@@ -8,7 +8,7 @@
 namespace flexcomp {
 namespace {
 
-constexpr std::size_t kScrubBytes = 16;  // a tick
+constexpr std::size_t kScrubBytes = 64;  // a tick
 constexpr std::size_t kCrcPlace = offsetof(TableHeader, crc);
 
 }  // namespace

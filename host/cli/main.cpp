@@ -52,16 +52,6 @@ int run(const Action& action) {
   }
 }
 
-/// The words of the command line; `help X` is `X --help`.
-std::vector<const char*> words_of(int argc, char** argv) {
-  std::vector<const char*> words(argv, argv + argc);
-  if (argc > 1 && words[1] == std::string("help")) {
-    words.erase(words.begin() + 1);
-    words.push_back("--help");
-  }
-  return words;
-}
-
 int parse_and_run(const std::vector<const char*>& words) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
@@ -154,7 +144,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, end_cleanly);
   std::signal(SIGTERM, end_cleanly);
   try {
-    return parse_and_run(words_of(argc, argv));
+    return parse_and_run({argv, argv + argc});
   } catch (...) {
     std::fputs("flexcomp: internal fault\n", stderr);
     return flexcomp::cli::kInternalFault;

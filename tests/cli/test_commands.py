@@ -36,13 +36,6 @@ class PathCommand(Command):
         return json.loads(self.run_well("circularity", recording, "--columns", "x,z", "--json"))
 
 
-class Help(Command):
-    def test_help_and_the_option_say_the_same(self):
-        self.assertEqual(self.run_well("--help"), self.run_well("help"))
-        self.assertEqual(self.run_well("plan", "circle", "--help"), self.run_well("help", "plan", "circle"))
-        self.assert_refused("help", "bend", saying="unknown command 'bend'")
-
-
 class MainJob(PathCommand):
     def test_the_corrected_circle_keeps_less_than_two_percent_of_the_error(self):
         for robot in ("kr100", "kr270", "kr360", "kr500"):
