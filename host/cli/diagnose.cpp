@@ -40,6 +40,7 @@ struct DiagnoseOptions {
   std::vector<std::string> without;
   std::string out;
   double false_discovery = 0.01;
+  bool seeks_laws = false;
 };
 
 Eigen::Index components(const recording::Recording& recording) {
@@ -130,6 +131,9 @@ std::string command_line(const DiagnoseOptions& options) {
   for (const std::string& effect : options.without) {
     line += " --without " + effect;
   }
+  if (options.seeks_laws) {
+    line += " --seek-laws";
+  }
   return line +
          fmt::format(" --out {} --false-discovery {:g}", options.out, options.false_discovery);
 }
@@ -219,6 +223,7 @@ int run(const DiagnoseOptions& options) {
   Progress choosing("choosing", 5);
   diagnosis::Settings settings;
   settings.false_discovery = options.false_discovery;
+  settings.seeks_laws = options.seeks_laws;
   settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };
   settings.choosing = [&](std::size_t done, std::size_t) { choosing.show(done); };
   const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
@@ -259,6 +264,8 @@ void add_diagnose(CLI::App* app, Action* action) {
           "a law of your own to weigh beside all others: a file with its place, its formula "
           "and\nthe ranges of its parameters; may be given again")
       ->take_all();
+  command->add_flag("--seek-laws", options->seeks_laws,
+                    "compose laws that nobody listed for what effects leave; may take minutes");
   command
       ->add_option("--without", options->without,
                    "effect that is not sought, to see which law is found instead; may be given "

@@ -217,7 +217,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   }
   find_groups(&diagnosis);
   judge(*observations, &diagnosis);
-  if (is_open(diagnosis)) {
+  if (settings.seeks_laws && is_open(diagnosis)) {
     seek_laws(inquiry, settings.choosing, &diagnosis);
   }
   const bool leaves_something = is_open(diagnosis);

@@ -47,6 +47,8 @@ struct Diagnosis {
 
 struct Settings {
   double false_discovery = 0.01;
+  bool seeks_laws =
+      false;        ///< composes laws for what effects leave (grammar/laws.hpp): takes longer
   Tell simulating;  ///< told while hypotheses are simulated
   Tell choosing;    ///< told while they are chosen
 };
