@@ -62,7 +62,7 @@ class CanDecoder {
                                  Stream* whole);
   static bool begins_anew(const FrameLayout& layout, std::uint32_t counter, Stream* whole);
   static const std::uint8_t* add_part(const FrameLayout& layout, const CanFrame& frame,
-                                      std::int64_t now, Stream* stream);
+                                      std::int64_t now, Stream* whole);
 
   std::array<Stream, kFrameGroups> streams_;
   std::uint32_t foreign_frames_ = 0;

@@ -14,7 +14,7 @@ FLOAT = re.compile(r"^SIG_VALTYPE_ (\d+) (\w+) ?: ?1 ?;")
 
 HEAD = """#pragma once
 
-// Generated from flexcomp.dbc.
+// Generated from flexcomp.dbc. NOLINTBEGIN
 
 #include <cstdint>
 #include <cstring>
@@ -155,7 +155,7 @@ def main():
         target.write(HEAD + HELPERS)
         for name, size, signals in frames.values():
             target.write(specialisation(name, size, signals))
-        target.write("\n}  // namespace flexcomp::can\n")
+        target.write("\n}  // namespace flexcomp::can\n// NOLINTEND\n")
 
 
 if __name__ == "__main__":

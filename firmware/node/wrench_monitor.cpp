@@ -12,7 +12,7 @@ bool are_finite(const std::array<double, 6>& numbers) {
   double sum = 0;  // of zeros, or not a number
 #pragma GCC unroll 6
   for (const double number : numbers) {
-    sum += number - number;
+    sum += 0 * number;
   }
   return sum == 0;
 }
