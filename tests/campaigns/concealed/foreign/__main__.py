@@ -9,17 +9,13 @@ and friction, and, where flexcomp's formulas can say it, the concealed law itsel
 
 import argparse
 import json
-import math
-import multiprocessing
 import os
 import pathlib
 import shutil
 import sys
-import time
 
 from campaign import case as campaign
-from protocol import sandbox, seal
-from protocol.cases import leave_signals_to_the_parent
+from protocol import sandbox, seal, workers
 
 from . import cases, judge, table, trial
 
@@ -61,19 +57,6 @@ def _parse(words):
     return options
 
 
-class Progress:
-    """How far a step is: on a terminal, a line that changes; else one each case."""
-
-    def __init__(self, what, total):
-        self._what, self._total, self._begin = what, total, time.monotonic()
-
-    def __call__(self, done):
-        left = (time.monotonic() - self._begin) / done * (self._total - done)
-        end = "\r" if sys.stderr.isatty() and done < self._total else "\n"
-        print(f"{self._what}: {done} of {self._total}, about {math.ceil(left / 60)} min left",
-              end=end, file=sys.stderr, flush=True)
-
-
 def _write(task):
     name, case, folder = task
     try:
@@ -83,46 +66,20 @@ def _write(task):
         return name, None
 
 
-_box = None  # a worker's own sandbox
-
-
-def _enter(*words):
-    """Begins a worker; words: of Sandbox, where it needs one."""
-    global _box
-    leave_signals_to_the_parent()
-    _box = sandbox.Sandbox(*words) if words else None
-
-
 def _diagnose(task):
     tool, limit, case, answers = task
-    trial.diagnose(tool, _box, limit, case, answers)
+    trial.diagnose(tool, workers.box(), limit, case, answers)
 
 
 def _measure(task):
     trial.measure(*task)
 
 
-def _all(jobs, work, tasks, what, box=()):
-    progress, found = Progress(what, len(tasks)), []
-    with multiprocessing.Pool(jobs, _enter, box) as pool:
-        for number, result in enumerate(pool.imap_unordered(work, tasks, chunksize=1), 1):
-            found.append(result)
-            progress(number)
-    return found
-
-
-def _clear(folder):
-    for name in OURS:
-        path = folder / name
-        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-    folder.mkdir(parents=True, exist_ok=True)
-
-
 def _drawn(options):
     """Writes the cases and seals their truth; returns the SealedTruth and the cases' names."""
     tasks = [(f"{number:03d}", case, options.out)
              for number, case in enumerate(cases.draw(options.seed, options.cases))]
-    truths = {name: truth for name, truth in _all(options.jobs, _write, tasks, "written") if truth}
+    truths = {name: truth for name, truth in workers.each(options.jobs, _write, tasks, "written") if truth}
     if len(truths) < len(tasks):
         print(f"{len(tasks) - len(truths)} cases could not be drawn and are left out.")
     sealed = seal.SealedTruth(truths, options.out)
@@ -132,7 +89,7 @@ def _drawn(options):
 
 def main(words=None):
     options = _parse(words)
-    _clear(options.out)
+    workers.clear(options.out, OURS)
     source = options.again or options.out
     if options.again:
         sealed, truths = None, json.loads((source / seal.OPENED).read_text())["truth"]
@@ -143,12 +100,12 @@ def main(words=None):
     tried = sandbox.Sandbox(*box)
     if not tried.isolated:
         print(f"No sandbox: {tried.why_not}.")
-    _all(options.jobs, _diagnose, [
+    workers.each(options.jobs, _diagnose, [
         (options.tool, options.limit, source / "cases" / name, options.out / "answers" / name)
         for name in names], "diagnosed", box)
     if sealed:
         truths = sealed.open()
-    _all(options.jobs, _measure, [
+    workers.each(options.jobs, _measure, [
         (options.tool, source / "cases" / name, source / "floors" / name,
          options.out / "answers" / name, truths[name], not options.no_rivals)
         for name in names], "measured")

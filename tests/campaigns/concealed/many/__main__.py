@@ -7,16 +7,12 @@ best plain refit and of the oracle that knows the structure.
 
 import argparse
 import json
-import math
-import multiprocessing
 import os
 import pathlib
 import shutil
 import sys
-import time
 
-from protocol import sandbox, seal
-from protocol.cases import leave_signals_to_the_parent
+from protocol import sandbox, seal, workers
 
 from . import cases, diagnosed, judge
 
@@ -56,19 +52,6 @@ def _parse(words):
     return options
 
 
-class Progress:
-    """A line every so many seconds; on a terminal, one that changes."""
-
-    def __init__(self, what, total):
-        self._what, self._total, self._begin = what, total, time.monotonic()
-
-    def __call__(self, done):
-        left = (time.monotonic() - self._begin) / done * (self._total - done)
-        end = "\r" if sys.stderr.isatty() and done < self._total else "\n"
-        print(f"{self._what}: {done} of {self._total}, about {math.ceil(left / 60)} min left",
-              end=end, file=sys.stderr, flush=True)
-
-
 def _name(kind, number):
     return f"{kind}-{number:02d}"
 
@@ -78,36 +61,10 @@ def _write(task):
     return _name(kind, number), cases.write(kind, seed, number, folder)
 
 
-_box = None  # a worker's own sandbox
-
-
-def _enter(*words):
-    """Begins a worker; words: of Sandbox, where it needs one."""
-    global _box
-    leave_signals_to_the_parent()
-    _box = sandbox.Sandbox(*words) if words else None
-
-
 def _diagnose(task):
     tool, limit, kind, case, answers = task
-    diagnosed.run(tool, _box, limit, kind, case, answers)
+    diagnosed.run(tool, workers.box(), limit, kind, case, answers)
     return case.name
-
-
-def _all(jobs, work, tasks, what, box=()):
-    progress, found = Progress(what, len(tasks)), []
-    with multiprocessing.Pool(jobs, _enter, box) as pool:
-        for number, result in enumerate(pool.imap_unordered(work, tasks, chunksize=1), 1):
-            found.append(result)
-            progress(number)
-    return found
-
-
-def _clear(folder):
-    for name in OURS:
-        path = folder / name
-        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-    folder.mkdir(parents=True, exist_ok=True)
 
 
 def _print(found):
@@ -141,8 +98,8 @@ def main(words=None):
         shutil.rmtree(options.out / "answers", ignore_errors=True)
         sealed = None
     else:
-        _clear(options.out)
-        truths = dict(_all(options.jobs, _write, tasks, "written"))
+        workers.clear(options.out, OURS)
+        truths = dict(workers.each(options.jobs, _write, tasks, "written"))
         sealed = seal.SealedTruth(truths, options.out)
         print(f"Truth of {len(truths)} cases sealed. SHA-256: {sealed.sha256}", flush=True)
     if options.only_write:
@@ -152,7 +109,7 @@ def main(words=None):
     tried = sandbox.Sandbox(*box)
     if not tried.isolated:
         print(f"No sandbox: {tried.why_not}.")
-    _all(options.jobs, _diagnose, [
+    workers.each(options.jobs, _diagnose, [
         (options.tool, options.limit, kind, folder, options.out / "answers" / folder.name)
         for kind, _, _, folder in tasks], "diagnosed", box)
     if sealed is not None:
