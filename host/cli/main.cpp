@@ -6,7 +6,6 @@
 #include <memory>
 #include <new>
 #include <string>
-#include <vector>
 
 #include "build_info.hpp"
 #include "cli/command.hpp"
@@ -52,7 +51,7 @@ int run(const Action& action) {
   }
 }
 
-int parse_and_run(const std::vector<const char*>& words) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app(
       "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
       "  flexcomp help COMMAND    what a command does and takes\n"
@@ -119,15 +118,13 @@ int parse_and_run(const std::vector<const char*>& words) {
   flexcomp::cli::add_plant(&app, &action);
   flexcomp::cli::add_convert(&app, &action);
   flexcomp::cli::add_diagnose(&app, &action);
-  const auto is_asked_for = [&](const CLI::App* command) {
-    return command->get_name() == words[1];
-  };
-  if (words.size() > 1 && words[1][0] != '-' && app.get_subcommands(is_asked_for).empty()) {
-    complain(fmt::format("unknown command '{}' (see --help)", words[1]));
+  const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked_for).empty()) {
+    complain(fmt::format("unknown command '{}' (see --help)", argv[1]));
     return flexcomp::cli::kUnusableInput;
   }
   try {
-    app.parse(static_cast<int>(words.size()), words.data());
+    app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       return app.exit(error);
@@ -144,7 +141,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, end_cleanly);
   std::signal(SIGTERM, end_cleanly);
   try {
-    return parse_and_run({argv, argv + argc});
+    return parse_and_run(argc, argv);
   } catch (...) {
     std::fputs("flexcomp: internal fault\n", stderr);
     return flexcomp::cli::kInternalFault;

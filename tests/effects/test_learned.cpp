@@ -158,8 +158,9 @@ void a_drift_by_temperature_needs_temperatures() {
   }
 }
 
-/// By how much an effect moves the TCP (n×3, m).
-Eigen::MatrixXd moved_by(const char* form, const effects::Values& values, int joint) {
+/// By how much a law moves the TCP (n×3, m).
+Eigen::MatrixXd moved_by(const char* effect, const char* form, const effects::Values& values,
+                         int joint) {
   const MovingRobot moving;
   const simulation::Scene scene = moving.scene();
   simulation::Machine machine = effects::machine_of(moving.robot, {scene});
@@ -167,32 +168,25 @@ Eigen::MatrixXd moved_by(const char* form, const effects::Values& values, int jo
     return simulation::predict(machine, {scene}).front().channel[simulation::tcp_position];
   };
   const Eigen::MatrixXd before = place();
-  effects::find_law("thermal_drift", form)->apply(values, joint, &machine);
+  effects::find_law(effect, form)->apply(values, joint, &machine);
   return place() - before;
 }
 
+/// Of the temperature over its first hundredth, which are two rows.
+Eigen::VectorXd rise() { return MovingRobot().recording.temperature->array() - 20.005; }
+
 void a_tool_that_grows_moves_the_tcp_along_itself() {
-  const Eigen::VectorXd rise = MovingRobot().recording.temperature->array() - 20.005;
-  const Eigen::VectorXd length = moved_by("tool", {1e-5, 0, 0}, 0).rowwise().norm();
-  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0, (length - 1e-5 * rise.cwiseAbs()).cwiseAbs().maxCoeff());
-  const Eigen::MatrixXd along = moved_by("tool", {1e-5, 0, 0}, 0);
-  const Eigen::MatrixXd across = moved_by("tool", {0, 1e-5, 0}, 0);
+  const Eigen::MatrixXd along = moved_by("thermal_drift", "tool", {1e-5, 0, 0}, 0);
+  const Eigen::MatrixXd across = moved_by("thermal_drift", "tool", {0, 1e-5, 0}, 0);
+  const Eigen::VectorXd length = along.rowwise().norm();
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0, (length - 1e-5 * rise().cwiseAbs()).cwiseAbs().maxCoeff());
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0,
                             along.cwiseProduct(across).rowwise().sum().cwiseAbs().maxCoeff());
 }
 
 void a_zero_that_drifts_is_an_offset_that_grows() {
-  const Eigen::VectorXd rise = MovingRobot().recording.temperature->array() - 20.005;
-  const MovingRobot moving;
-  const simulation::Scene scene = moving.scene();
-  simulation::Machine machine = effects::machine_of(moving.robot, {scene});
-  const auto place = [&] {
-    return simulation::predict(machine, {scene}).front().channel[simulation::tcp_position];
-  };
-  const Eigen::MatrixXd before = place();
-  effects::find_law("joint_offset", "")->apply({1e-5}, 2, &machine);
-  const Eigen::MatrixXd expected = rise.asDiagonal() * (place() - before);
-  const Eigen::MatrixXd found = moved_by("zero", {1e-5}, 2);
+  const Eigen::MatrixXd expected = rise().asDiagonal() * moved_by("joint_offset", "", {1e-5}, 2);
+  const Eigen::MatrixXd found = moved_by("thermal_drift", "zero", {1e-5}, 2);
   TEST_ASSERT_TRUE((found - expected).norm() < 0.01 * expected.norm());
 }
 
