@@ -7,6 +7,7 @@
 
 #include "check/arm.hpp"
 #include "check/motion.hpp"
+#include "recording/sampling.hpp"
 
 namespace flexcomp::check {
 namespace {
@@ -104,6 +105,34 @@ Checks check_gaps(double step, const recording::Recording& recording) {
            "better give stretches that do not hang together as recordings of their own"}};
 }
 
+/// Rows that repeat a sample, and times that are not those of the samples: `diagnose` and
+/// `simulate` make up for both.
+Checks check_sampling(const recording::Recording& recording) {
+  if (!recording.q_meas || counts_rows(recording.time) || !recording.q_meas->allFinite()) {
+    return {};
+  }
+  const recording::Sampling sampling = recording::sampling_of(recording.time, *recording.q_meas);
+  Checks checks;
+  if (!sampling.repeats.empty()) {
+    checks.push_back(
+        {Severity::note, "recording", "time.repeated",
+         fmt::format("{}: {} of {} rows show the sample of the row before once more, "
+                     "though the joints move: the log is faster than what it asks",
+                     recording.place(sampling.repeats.front()), sampling.repeats.size(),
+                     recording.size()),
+         "nothing, they are left out; better log each sample once, with its own time"});
+  }
+  if (sampling.period > 0) {
+    checks.push_back({Severity::note, "recording", "time.uneven",
+                      fmt::format("{}: the angles are smooth over evenly spaced times, {:.4g} ms "
+                                  "apart, and not over those given, which are when rows were "
+                                  "written",
+                                  recording.file, 1e3 * sampling.period),
+                      "nothing, times are taken to be even; better log the robot's own time"});
+  }
+  return checks;
+}
+
 }  // namespace
 
 Checks check_order_of_times(recording::NumberTable* table) {
@@ -155,6 +184,7 @@ Checks check_times(const model::Robot* robot, recording::Recording* recording) {
   }
   if (checks.empty() && !counts_rows(recording->time)) {
     add(check_gaps(step, *recording), &checks);
+    add(check_sampling(*recording), &checks);
   }
   return checks;
 }

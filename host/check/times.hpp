@@ -11,9 +11,11 @@ namespace flexcomp::check {
 /// those rows out of `table`.
 Checks check_order_of_times(recording::NumberTable* table);
 
-/// Are the times seconds, and are there gaps: units.time, time.gap. By how smoothly and how fast
-/// the joints move against their limits; of a load test, whose times count rows, nothing is said.
-/// `recording` is corrected by what is named. Without a robot, by the motion's smoothness alone.
+/// Are the times seconds, are there gaps, does each row hold a sample of its own, and is its time
+/// when that was taken: units.time, time.gap, time.repeated, time.uneven. By how smoothly and how
+/// fast the joints move against their limits; of a load test, whose times count rows, nothing is
+/// said. `recording` is corrected by what is named. Without a robot, by the motion's smoothness
+/// alone.
 Checks check_times(const model::Robot* robot, recording::Recording* recording);
 
 }  // namespace flexcomp::check

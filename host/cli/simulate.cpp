@@ -41,15 +41,13 @@ recording::Recording expected(const model::Robot& robot, const recording::Record
   for (std::size_t channel = 0; channel < values.size(); ++channel) {
     values[channel] = missing(recording.size(), scene.measured[channel].cols());
   }
-  Eigen::Index at = 0;
-  for (Eigen::Index row = 0; row < recording.size() && at < scene.rows(); ++row) {
-    if (recording.time[row] == scene.time[at]) {
-      for (std::size_t channel = 0; channel < values.size(); ++channel) {
-        if (values[channel].cols() > 0) {
-          values[channel].row(row) = prediction.channel[channel].row(at);
-        }
-      }
-      ++at;
+  for (std::size_t channel = 0; channel < values.size(); ++channel) {
+    for (std::size_t at = 0; at < scene.recorded.size() && values[channel].cols() > 0; ++at) {
+      values[channel].row(scene.recorded[at]) =
+          prediction.channel[channel].row(static_cast<Eigen::Index>(at));
+    }
+    for (const Eigen::Index row : preparation.repeats) {
+      values[channel].row(row) = values[channel].row(row - 1);
     }
   }
   if (scene.has(simulation::tcp_position)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "error.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
@@ -115,6 +116,20 @@ Eigen::MatrixXd Changes::columns(const Hypothesis& hypothesis, const Values& sta
   return columns;
 }
 
+namespace {
+
+/// Empty where a machine with it would have no rest: springs that are soft already get no softer.
+Eigen::MatrixXd columns_or_none(const Changes& changes, const Hypothesis& hypothesis,
+                                const Values& start) {
+  try {
+    return changes.columns(hypothesis, start);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
 Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis> all,
                        const std::function<void(std::size_t, std::size_t)>& progress)
     : Dictionary(observations, std::move(all), Changes(observations), progress) {}
@@ -131,14 +146,14 @@ Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis>
   std::vector<std::vector<Eigen::MatrixXd>> blocks(hypotheses.size());
   in_parallel(hypotheses.size(), progress, [&](std::size_t i) {
     for (const Values& start : hypotheses[i].starts) {
-      blocks[i].push_back(changes.columns(hypotheses[i], start));
+      blocks[i].push_back(columns_or_none(changes, hypotheses[i], start));
     }
   });
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     for (std::size_t k = 0; k < blocks[i].size(); ++k) {
-      const bool shows =
-          blocks[i][k].allFinite() && blocks[i][k].topRows(observations.train).norm() > 0;
+      const bool shows = blocks[i][k].rows() > 0 && blocks[i][k].allFinite() &&
+                         blocks[i][k].topRows(observations.train).norm() > 0;
       if (shows) {
         entries.push_back({i, hypotheses[i].starts[k], count, blocks[i][k].cols()});
         count += blocks[i][k].cols();

@@ -211,7 +211,8 @@ double largest_ratio(const Observations& observations, const Eigen::VectorXd& re
   std::array<double, 3> counts{};
   for (Eigen::Index i = 0; i < observations.train; ++i) {
     const Channel channel = observations.samples[static_cast<std::size_t>(i)].channel;
-    const double value = std::clamp(remainder[i], -30.0, 30.0);
+    const double value =
+        std::clamp(remainder[i] * observations.noise[i] / observations.floor[i], -30.0, 30.0);
     sums[channel] += value * value;
     counts[channel] += 1;
   }
@@ -226,6 +227,7 @@ double largest_ratio(const Observations& observations, const Eigen::VectorXd& re
 
 bool predicts_better(const Observations& observations, const Fit& before, const Fit& after) {
   constexpr double kNoticeable = 0.99;
+  constexpr double kRounding = 1e-9;
   double best = 1;
   double worst = 0;
   for (const Channel channel : observations.channels()) {
@@ -234,7 +236,7 @@ bool predicts_better(const Observations& observations, const Fit& before, const 
     best = std::min(best, ratio);
     worst = std::max(worst, ratio);
   }
-  return best < kNoticeable && worst <= 1;
+  return best < kNoticeable && worst <= 1 + kRounding;
 }
 
 }  // namespace flexcomp::diagnosis

@@ -195,8 +195,12 @@ double cancellation(const Observations& observations, const Fit& fit) {
   double parts = 0;
   for (const Chosen& chosen : fit.chosen) {
     const Machine alone = machine_with(observations, {chosen});
-    parts +=
-        (observations.stacked(predict(alone, observations.scenes)) - base).head(n).squaredNorm();
+    try {
+      parts +=
+          (observations.stacked(predict(alone, observations.scenes)) - base).head(n).squaredNorm();
+    } catch (const InputError&) {
+      return std::numeric_limits<double>::infinity();  // no rest without the others
+    }
   }
   return parts / std::max((observations.residual - fit.remainder).head(n).squaredNorm(), 1e-9);
 }

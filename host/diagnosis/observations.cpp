@@ -170,6 +170,7 @@ void Observations::collect(std::size_t holdouts) {
   noise.resize(static_cast<Eigen::Index>(samples.size()));
   noise << Eigen::Map<Eigen::VectorXd>(noises[0].data(), train),
       Eigen::Map<Eigen::VectorXd>(noises[1].data(), noise.size() - train);
+  floor = noise;
 }
 
 void Observations::add_component(const Sample& first, const PredictionNoise& predicted, bool splits,
@@ -365,15 +366,23 @@ void Observations::drop_outliers(const Eigen::VectorXd& values, double limit) {
   for (std::size_t i = 0; i < kept.size(); ++i) {
     samples[i] = samples[static_cast<std::size_t>(kept[i])];
     noise[static_cast<Eigen::Index>(i)] = noise[kept[i]];
+    floor[static_cast<Eigen::Index>(i)] = floor[kept[i]];
   }
   samples.resize(kept.size());
   noise.conservativeResize(static_cast<Eigen::Index>(kept.size()));
+  floor.conservativeResize(static_cast<Eigen::Index>(kept.size()));
   train = kept_train;
   renew_residual();
 }
 
 void Observations::set_noise(double factor) {
   noise *= factor;
+  floor = noise;
+  renew_residual();
+}
+
+void Observations::add_model_error(const Eigen::VectorXd& factors) {
+  noise = noise.cwiseProduct(factors);
   renew_residual();
 }
 

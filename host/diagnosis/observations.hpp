@@ -54,8 +54,11 @@ class Observations {
   /// Measured samples: those to fit to, then those held out; within each part samples of one
   /// component follow in time.
   std::vector<Sample> samples;
-  Eigen::Index train = 0;        ///< how many of the samples are there to fit to
-  Eigen::VectorXd noise;         ///< standard deviation of each sample, SI
+  Eigen::Index train = 0;  ///< how many of the samples are there to fit to
+  /// Standard deviation of each sample, SI: of its measurement, and of what no model here explains
+  /// where that was added.
+  Eigen::VectorXd noise;
+  Eigen::VectorXd floor;         ///< that of the measurement alone
   Eigen::VectorXd residual;      ///< measured less predicted, over the noise
   std::size_t outliers = 0;      ///< samples that were left out
   bool noise_is_known = true;    ///< false in a load test, whose noise only a fit can tell
@@ -92,6 +95,8 @@ class Observations {
   void drop_outliers(const Eigen::VectorXd& values, double limit);
   /// Sets the noise of a load test from what the fullest fit leaves.
   void set_noise(double factor);
+  /// Counts for noise what is left of the samples all the same; `factors` are of each one's noise.
+  void add_model_error(const Eigen::VectorXd& factors);
 
  private:
   /// Change of the predictions, by channel, for another course of a scene's motion.

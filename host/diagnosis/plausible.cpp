@@ -138,6 +138,9 @@ std::string why_impossible(const Observations& observations, const Fit& fit, std
 }
 
 bool could_be(const Observations& observations, const Fit& fit, std::size_t index) {
+  if (fit.chosen[index].hypothesis.is_regression) {
+    return true;
+  }
   const bool is_body = fit.chosen[index].hypothesis.traits().is_body;
   return why_not_so(observations, fit, index, is_body ? kBoundIsPossible : kBoundTellsNothing)
       .empty();

@@ -29,9 +29,9 @@ struct Fit;
 /// along the recordings.
 std::string why_impossible(const Observations& observations, const Fit& fit, std::size_t index);
 
-/// Could it be so, though nothing is found by it? Unlike above a number of a body may rest on its
-/// bound: torques tell masses in combinations only, and one of several that fit the same lies
-/// there.
+/// Could it be so, though nothing is found by it? Numbers of a regression need not. Unlike above a
+/// number of a body may rest on its bound: torques tell masses in combinations only, and one of
+/// several that fit the same lies there.
 bool could_be(const Observations& observations, const Fit& fit, std::size_t index);
 
 }  // namespace flexcomp::diagnosis

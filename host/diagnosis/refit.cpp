@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "diagnosis/model_error.hpp"
 #include "diagnosis/select/members.hpp"
 #include "diagnosis/select/standards.hpp"
 
@@ -92,8 +93,18 @@ bool are_many(const Inquiry& inquiry, const Fit& found) {
   return static_cast<std::size_t>(count) >= kMany;
 }
 
-void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
-           Diagnosis* diagnosis) {
+namespace {
+
+/// A dictionary over another noise, `factors` times as large.
+Dictionary over_noise(Dictionary dictionary, const Eigen::VectorXd& factors, Eigen::Index train) {
+  dictionary.columns = factors.cwiseInverse().asDiagonal() * dictionary.columns;
+  const auto to_fit = dictionary.columns.topRows(train);
+  dictionary.gram = to_fit.transpose() * to_fit;
+  return dictionary;
+}
+
+void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+              Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
   const Dictionary& dictionary = inquiry.dictionary;
   const bool is_begun = !diagnosis->choice.begun.chosen.empty();
@@ -113,6 +124,54 @@ void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
       take_members(inquiry, afresh, diagnosis->choice.findings.size(), diagnosis);
     }
   }
+}
+
+/// Refits where what is left of each component counts for noise: `factors` times its noise.
+Diagnosis refit_over(const Eigen::VectorXd& factors, const Inquiry& inquiry,
+                     const std::vector<Hypothesis>& hypotheses, Diagnosis diagnosis) {
+  const Eigen::Index train = inquiry.observations.train;
+  Observations doubtful = inquiry.observations;
+  doubtful.add_model_error(factors);
+  const Dictionary dictionary = over_noise(inquiry.dictionary, factors, train);
+  const Fit given = over_noise(inquiry.given, factors, train);
+  const auto convert = [train](const Eigen::VectorXd& by, Fit* fit) {
+    if (fit->remainder.size() > 0) {
+      *fit = over_noise(std::move(*fit), by, train);
+    }
+  };
+  convert(factors, &diagnosis.choice.fit);
+  convert(factors, &diagnosis.choice.begun);
+  refit_in({doubtful, dictionary, inquiry.false_discovery, given}, hypotheses, &diagnosis);
+  const Eigen::VectorXd back = factors.cwiseInverse();
+  convert(back, &diagnosis.choice.fit);
+  convert(back, &diagnosis.choice.begun);
+  convert(back, &diagnosis.retuned);
+  for (Finding& finding : diagnosis.choice.findings) {
+    if (diagnosis.is_weighed_whole) {  // those before were weighed over the noise itself
+      convert(back, &finding.without);
+    }
+  }
+  return diagnosis;
+}
+
+}  // namespace
+
+void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+           Diagnosis* diagnosis) {
+  constexpr double kMuchLess = 0.8;
+  const Observations& observations = inquiry.observations;
+  const Eigen::VectorXd expected = least_model_error(inquiry, hypotheses);
+  Diagnosis first = refit_over(expected, inquiry, hypotheses, *diagnosis);
+  const Eigen::VectorXd found =
+      model_error(observations, first.updated().remainder.head(observations.train));
+  // A coupled drive or a delay is no number, so that less is left than was thought.
+  if (first.verdict != "explained" && (found.array() < kMuchLess * expected.array()).any()) {
+    Diagnosis second = refit_over(found, inquiry, hypotheses, *diagnosis);
+    if (!predicts_better(observations, second.updated(), first.updated())) {
+      first = std::move(second);
+    }
+  }
+  *diagnosis = std::move(first);
 }
 
 }  // namespace flexcomp::diagnosis

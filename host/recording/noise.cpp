@@ -98,10 +98,10 @@ double quantisation_step(const Eigen::VectorXd& signal) {
   return static_cast<double>(whole) > kMostly * static_cast<double>(sizes.size()) ? step : 0;
 }
 
-double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) {
+Eigen::VectorXd neighbour_misses(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) {
   constexpr Eigen::Index kSide = 3;
   if (angle.size() <= 2 * kSide) {
-    return 0;
+    return {};
   }
   Eigen::VectorXd misses(angle.size() - 2 * kSide);
   for (Eigen::Index row = kSide; row + kSide < angle.size(); ++row) {
@@ -118,6 +118,14 @@ double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) 
       squares += weight * weight;
     }
     misses[row - kSide] = predicted / std::sqrt(squares);
+  }
+  return misses;
+}
+
+double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) {
+  const Eigen::VectorXd misses = neighbour_misses(time, angle);
+  if (misses.size() == 0) {
+    return 0;
   }
   // The error of rounding is spread evenly over a step.
   return std::max(robust_deviation(misses), quantisation_step(angle) / std::sqrt(12.0));

@@ -83,10 +83,23 @@ void find_standing_in_noise(const Eigen::VectorXd& time, const recording::Sample
   }
 }
 
+/// Order of the polynomials about a row near an end of a recording, where a window has less on one
+/// side. There a fifth order would amplify the noise up to 75 times as much as in the middle; of
+/// these orders, none does more than half as much again.
+int order_near_end(const Eigen::VectorXd& time, const Window& window) {
+  constexpr double kNearlyWhole = 0.9;  // of the longer side
+  constexpr double kHalf = 0.45;
+  const double before = time[window.row] - time[window.first];
+  const double after = time[window.last] - time[window.row];
+  const double whole = std::min(before, after) / std::max(before, after);
+  return whole > kNearlyWhole ? kOrder : whole > kHalf ? kOrder - 1 : 2;
+}
+
 /// Polynomials about a row; what one order more would change of the acceleration, beyond noise, is
 /// how far it may be wrong where the motion is too abrupt for the samples.
 LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
-                          const Eigen::RowVectorXd& angle_noise, const Window& window) {
+                          const Eigen::RowVectorXd& angle_noise, const Window& window,
+                          int order = kOrder) {
   constexpr int kCount = kOrder + 1;
   const Eigen::Index row = window.row;
   const double span = std::max(time[window.last] - time[row], time[row] - time[window.first]);
@@ -118,14 +131,22 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
     }
   }
   using Square = Eigen::Matrix<double, kCount, kCount>;
-  const auto factors = gram.topLeftCorner<kCount, kCount>().ldlt();
+  // Powers beyond the order neither act nor vary.
+  Square used_gram = gram.topLeftCorner<kCount, kCount>();
+  for (int k = order + 1; k < kCount; ++k) {
+    used_gram.row(k).setZero();
+    used_gram.col(k).setZero();
+    used_gram(k, k) = 1;
+    moment.row(k).setZero();
+  }
+  const auto factors = used_gram.ldlt();
   const Columns<double, kCount> fit = factors.solve(moment.topRows<kCount>());
   motion.values.row(0) = fit.row(1) / span;
   motion.values.row(1) = 2 * fit.row(2) / (span * span);
   const Square covariance = factors.solve(Square::Identity());
   motion.gain << std::sqrt(covariance(1, 1)) / span,
       2 * std::sqrt(covariance(2, 2)) / (span * span);
-  if (used > kCount) {
+  if (used > kCount && order == kOrder) {
     const auto higher = gram.ldlt();
     const Columns<double, 1> change = higher.solve(moment).row(2) - fit.row(2);
     // Nested least squares: the variance of the change is the difference of the variances.
@@ -164,16 +185,22 @@ Eigen::ArrayXd mean_square_noise(const Probes& probes, const Eigen::RowVectorXd&
          angle_noise.array().square().transpose();
 }
 
-/// The window whose noise and cut together are least; `scale` is of the noise's variance.
+/// By how much a longer window's mean square differs from a shorter one's beyond their noise,
+/// whose variance is `scale` times as large as it was taken for.
+Eigen::ArrayXd cut_beyond(const Eigen::ArrayXXd& difference, const Eigen::ArrayXd& gone,
+                          const Eigen::ArrayXd& scale) {
+  constexpr double kSlack = 1.2;  // of variances: probes tell them to a tenth
+  return (difference.square().colwise().mean().transpose() - kSlack * scale * gone).max(0);
+}
+
+/// The window whose noise and cut together are least, of mean squares.
 std::size_t best_of(Eigen::Index joint, const std::vector<Eigen::ArrayXd>& noise,
-                    const std::vector<Eigen::ArrayXd>& cut, double scale) {
+                    const std::vector<Eigen::ArrayXd>& cut) {
   constexpr double kMuchBetter = 0.5;  // of the mean square error of the shortest
   std::size_t best = 0;
-  double least = kMuchBetter * scale * noise[0][joint];
+  double least = kMuchBetter * noise[0][joint];
   for (std::size_t k = 1; k < noise.size(); ++k) {
-    const double gone = noise[0][joint] - noise[k][joint];
-    const double error =
-        std::max(cut[k][joint] - (scale - 1) * gone, 0.0) + scale * noise[k][joint];
+    const double error = cut[k][joint] + noise[k][joint];
     if (error < least) {
       least = error;
       best = k;
@@ -188,11 +215,12 @@ LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& 
                          const Eigen::RowVectorXd& angle_noise, double half_window,
                          Eigen::Index row) {
   const Window window = window_about(time, half_window, row);
-  LocalMotion motion = differentiate(time, q, angle_noise, window);
-  if (half_window > kHalfWindows.front()) {
+  if (half_window > kHalfWindows.front()) {  // noise rules
+    LocalMotion motion = differentiate(time, q, angle_noise, window, order_near_end(time, window));
     find_standing_in_noise(time, q, angle_noise, window, &motion);
     return motion;
   }
+  LocalMotion motion = differentiate(time, q, angle_noise, window);
   find_standing(time, q, angle_noise, window, &motion);
   return motion;
 }
@@ -200,27 +228,40 @@ LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& 
 std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recording::Samples& q,
                                       const Eigen::RowVectorXd& angle_noise) {
   const Eigen::Index joints = q.cols();
-  const Probes shortest = probe(time, q, kHalfWindows[0]);
-  // For each window tried: noise of the accelerations, and what differs from the shortest by more.
-  std::vector<Eigen::ArrayXd> noise = {mean_square_noise(shortest, angle_noise)};
-  std::vector<Eigen::ArrayXd> cut = {Eigen::ArrayXd::Zero(joints)};
+  std::vector<Probes> probes = {probe(time, q, kHalfWindows[0])};
+  std::vector<Eigen::ArrayXd> noise = {mean_square_noise(probes[0], angle_noise)};
   Eigen::ArrayXd scale = Eigen::ArrayXd::Constant(joints, kMostNoiseScale);
   for (std::size_t k = 1; k < kHalfWindows.size(); ++k) {
-    const Probes longer = probe(time, q, kHalfWindows[k]);
-    noise.push_back(mean_square_noise(longer, angle_noise));
+    probes.push_back(probe(time, q, kHalfWindows[k]));
+    noise.push_back(mean_square_noise(probes[k], angle_noise));
     const Eigen::ArrayXd gone = (noise[0] - noise[k]).max(0);
-    const Eigen::ArrayXXd difference = longer.acceleration - shortest.acceleration;
-    cut.emplace_back(difference.square().colwise().mean().transpose() - gone);
+    const Eigen::ArrayXd differs = (probes[k].acceleration - probes[0].acceleration)
+                                       .array()
+                                       .square()
+                                       .colwise()
+                                       .mean()
+                                       .transpose();
     scale = scale.min(
-        (gone > kEnoughGone * noise[0]).select(1 + cut[k].max(0) / gone.max(kTiny), scale));
+        (gone > kEnoughGone * noise[0]).select((differs / gone.max(kTiny)).max(1), scale));
     // A longer window cuts more still.
-    if ((cut[k] > 2 * kMostNoiseScale * noise[0]).all()) {
+    if ((differs > (2 * kMostNoiseScale + 1) * noise[0]).all()) {
       break;
     }
   }
+  std::vector<Eigen::ArrayXd> cut(probes.size(), Eigen::ArrayXd::Zero(joints));
+  for (std::size_t k = 1; k < probes.size(); ++k) {
+    for (std::size_t shorter = 0; shorter < k; ++shorter) {
+      const Eigen::ArrayXd gone = (noise[shorter] - noise[k]).max(0);
+      cut[k] = cut[k].max(
+          cut_beyond((probes[k].acceleration - probes[shorter].acceleration).array(), gone, scale));
+    }
+  }
+  for (Eigen::ArrayXd& each : noise) {
+    each *= scale;
+  }
   std::vector<std::size_t> best;
   for (Eigen::Index joint = 0; joint < joints; ++joint) {
-    best.push_back(best_of(joint, noise, cut, scale[joint]));
+    best.push_back(best_of(joint, noise, cut));
   }
   return best;
 }

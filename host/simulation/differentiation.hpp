@@ -46,11 +46,11 @@ LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& 
 /// least wrong: a short one lets the angles' noise through, a long one cuts the motion's corners.
 ///
 /// Both are measured. The noise of an acceleration is that of the angles times the polynomial's
-/// gain. What two windows differ by beyond it is what the longer one cuts: of nested least squares
-/// the variance of the difference is the difference of the variances (Lepski 1991 chooses so).
-/// Where all windows differ by the same part of that variance, the noise is larger than it was
-/// taken for: corners are cut the more the longer a window is. The shortest is kept unless noise
-/// rules it.
+/// gain. What a window differs by from any shorter one beyond their noise is what it cuts (Lepski
+/// 1991; Goldenshluger and Lepski 2011): of nested least squares the variance of the difference is
+/// the difference of the variances. The shortest alone would not do, since its noise hides what
+/// the longer ones cut. Where all windows differ from the shortest by the same part of that
+/// variance, the noise is larger than it was taken for. The shortest is kept unless noise rules it.
 std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recording::Samples& q,
                                       const Eigen::RowVectorXd& angle_noise);
 

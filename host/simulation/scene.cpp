@@ -13,6 +13,7 @@
 #include "error.hpp"
 #include "model/chain.hpp"
 #include "recording/noise.hpp"
+#include "recording/sampling.hpp"
 #include "simulation/differentiation.hpp"
 
 namespace flexcomp::simulation {
@@ -142,12 +143,11 @@ std::vector<Eigen::Index> thinned(const recording::Recording& recording,
   return kept;
 }
 
-std::vector<Eigen::Index> usable_rows(const recording::Recording& recording,
-                                      const recording::Samples& q, Eigen::Index most_rows,
+std::vector<Eigen::Index> usable_rows(const recording::Recording& recording, Eigen::Index most_rows,
                                       Preparation* preparation) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index row = 0; row < recording.size(); ++row) {
-    if (q.row(row).allFinite() && (!recording.wrench || recording.wrench->row(row).allFinite())) {
+    if (!recording.wrench || recording.wrench->row(row).allFinite()) {
       rows.push_back(row);
     }
   }
@@ -156,7 +156,6 @@ std::vector<Eigen::Index> usable_rows(const recording::Recording& recording,
                                  recording.wrench ? " and the whole wrench" : ""));
   }
   const auto count = static_cast<Eigen::Index>(rows.size());
-  preparation->rows = recording.size();
   preparation->incomplete = recording.size() - count;
   preparation->kept_each = std::max<Eigen::Index>(1, (count + most_rows - 1) / most_rows);
   return thinned(recording, rows, preparation->kept_each);
@@ -187,15 +186,57 @@ void take(const LocalMotion& motion, Eigen::Index joint, Eigen::Index row, Scene
   scene->stands(row, joint) = motion.stands[joint];
 }
 
-Scene scene_of(const recording::Recording& recording, Eigen::Index most_rows,
+const recording::Samples& angles_of(const recording::Recording& recording) {
+  return recording.q_meas ? *recording.q_meas : *recording.q_cmd;
+}
+
+/// The rows that have all joint angles and samples of their own, at the times of these; which rows
+/// they are of the recording.
+recording::Recording sampled(const recording::Recording& recording, std::vector<Eigen::Index>* rows,
+                             Preparation* preparation) {
+  std::vector<Eigen::Index> whole;
+  for (Eigen::Index row = 0; row < recording.size(); ++row) {
+    if (angles_of(recording).row(row).allFinite()) {
+      whole.push_back(row);
+    }
+  }
+  recording::Recording own = picked(recording, whole);
+  // A command that stays is meant so.
+  if (recording.q_meas && !is_load_test(recording.time)) {
+    const recording::Sampling sampling = recording::sampling_of(own.time, angles_of(own));
+    own = picked(own, sampling.rows);
+    own.time = sampling.time;
+    preparation->period = sampling.period;
+    for (const Eigen::Index row : sampling.repeats) {
+      preparation->repeats.push_back(whole[static_cast<std::size_t>(row)]);
+    }
+    std::vector<Eigen::Index> kept;
+    for (const Eigen::Index row : sampling.rows) {
+      kept.push_back(whole[static_cast<std::size_t>(row)]);
+    }
+    whole = std::move(kept);
+  }
+  *rows = std::move(whole);
+  return own;
+}
+
+Scene scene_of(const recording::Recording& given, Eigen::Index most_rows,
                Preparation* preparation) {
-  const recording::Samples& q = recording.q_meas ? *recording.q_meas : *recording.q_cmd;
-  const std::vector<Eigen::Index> rows = usable_rows(recording, q, most_rows, preparation);
+  std::vector<Eigen::Index> recorded;
+  const recording::Recording recording = sampled(given, &recorded, preparation);
+  const recording::Samples& q = angles_of(recording);
+  const std::vector<Eigen::Index> rows = usable_rows(recording, most_rows, preparation);
+  preparation->rows = given.size();
+  preparation->incomplete +=
+      given.size() - recording.size() - static_cast<Eigen::Index>(preparation->repeats.size());
   describe_times(recording.time, preparation);
   Scene scene;
   scene.file = recording.file;
+  for (const Eigen::Index row : rows) {
+    scene.recorded.push_back(recorded[static_cast<std::size_t>(row)]);
+  }
   scene.time = picked(recording.time, rows);
-  scene.is_static = is_load_test(recording.time);
+  scene.is_static = is_load_test(given.time);
   scene.follows_command = !recording.q_meas;
   scene.has_wrench = recording.wrench.has_value();
   scene.q = picked(q, rows);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "recording/recording.hpp"
 
@@ -19,7 +20,8 @@ constexpr std::array<const char*, 3> kChannelUnits = {"m", "N·m", "rad"};
 /// of angles and torques holds for travels (m) and forces (N) of joints that slide.
 struct Scene {
   std::string file;
-  Eigen::VectorXd time;          ///< n, s
+  std::vector<Eigen::Index> recorded;  ///< n, the row of the recording that each came from
+  Eigen::VectorXd time;                ///< n, s, when samples were taken
   bool is_static = false;        ///< a load test: one row a pose and load, no motion between rows
   bool follows_command = false;  ///< `q` is the command, because there are no encoders
   bool has_wrench = false;
@@ -51,9 +53,11 @@ struct Scene {
 struct Preparation {
   Eigen::Index rows = 0;        ///< in the file
   Eigen::Index incomplete = 0;  ///< left out: without all joint angles or without the whole wrench
-  Eigen::Index kept_each = 1;   ///< of the rest, one row of so many is used
-  double largest_gap = 0;       ///< s, between rows that follow each other
-  double median_step = 0;       ///< s
+  std::vector<Eigen::Index> repeats;  ///< left out: rows that show the sample of the row before
+  double period = 0;                  ///< s, by which times were evened; 0 where they are as given
+  Eigen::Index kept_each = 1;         ///< of the rest, one row of so many is used
+  double largest_gap = 0;             ///< s, between rows that follow each other
+  double median_step = 0;             ///< s
 };
 
 /// Makes a recording ready; with more than `most_rows` usable rows, ones that are spread over them
@@ -62,7 +66,8 @@ struct Preparation {
 /// Velocities and accelerations come from all rows: polynomials of fifth order through the
 /// neighbours within 16 ms, at their true times (Savitzky and Golay 1964), or within as much more
 /// as a joint's noise asks for. They have no delay. Of a sensor slower than the log that repeats
-/// its last sample, the first of each counts. Throws InputError where the recording has no joint
+/// its last sample, the first of each counts; of angles so, at the times at which they were taken
+/// (recording/sampling.hpp). Throws InputError where the recording has no joint
 /// angles or nothing to compare a simulation with.
 Scene prepare(const recording::Recording& recording, Eigen::Index most_rows,
               Preparation* preparation);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/plausible.hpp"
 
@@ -28,6 +29,9 @@ bool could_matter(const Hypothesis& hypothesis, const Eigen::MatrixXd& columns,
 double usual_width(const Observations& observations, const Hypothesis& hypothesis,
                    std::size_t parameter) {
   constexpr double kWidths = 4;  // standard deviations that a plausible range is wide
+  if (hypothesis.is_regression) {
+    return std::numeric_limits<double>::infinity();
+  }
   const Parameter& own = hypothesis.parameters[parameter];
   const model::Robot& robot = observations.machine.robot;
   const double usual =

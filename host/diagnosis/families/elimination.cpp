@@ -328,7 +328,7 @@ std::vector<Chosen> Elimination::chosen_of(const Set& set) {
     const Member& member = members_[index];
     all.push_back(member.chosen);
     Chosen& chosen = all.back();
-    if (!member.is_given) {
+    if (!member.is_given && !chosen.hypothesis.is_regression) {
       chosen.hypothesis.edge = kEdge / spread_;
     }
     for (std::size_t i = 0; i < member.columns.size(); ++i) {
@@ -391,6 +391,13 @@ Elimination::Set Elimination::best_set() {
   learn_widths();
   Set learnt = best_of_tolerances();
   return wide.error < kClearlyLess * learnt.error ? wide : learnt;
+}
+
+Eigen::VectorXd Elimination::fullest_remainder() {
+  constexpr double kUsual = 3;  // of kTolerances
+  tolerance_ = kUsual;
+  solve(all_members());
+  return remainder_;
 }
 
 std::vector<Chosen> Elimination::best() { return chosen_of(best_set()); }

@@ -36,6 +36,9 @@ class Elimination {
   /// The members of the best set with their values, each within its bounds and with its tolerance.
   std::vector<Chosen> best();
 
+  /// What all members together leave of the samples to fit to, held by their usual tolerances.
+  Eigen::VectorXd fullest_remainder();
+
   /// Robust sum of squares that the best set leaves in stretches that it was not fitted to.
   double least_error();
 

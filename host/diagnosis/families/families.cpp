@@ -9,6 +9,7 @@
 #include "diagnosis/families/elimination.hpp"
 #include "diagnosis/families/latecomers.hpp"
 #include "diagnosis/families/possible_bodies.hpp"
+#include "diagnosis/families/regression.hpp"
 #include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
@@ -23,7 +24,10 @@ constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the join
 constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
 constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
-constexpr int kExtraSteps = 0;        // before the numbers are beside them
+constexpr double kNearNoise = 1.15;  // times the noise: nothing that a regression could better
+constexpr double kClearlyBetter =
+    0.97;                       // of the held-out error, that bodies which cannot be are worth
+constexpr int kExtraSteps = 0;  // before the numbers are beside them
 constexpr double kLeastShare = 0.01;  // of the sum of squares, that a coupling is worth trying for
 
 /// Physics that is far from linear, so that it must be there before the numbers are fitted.
@@ -244,6 +248,21 @@ Fit joined(const Observations& observations, Fit best, std::size_t findings,
   return predicts_better(observations, best, with) ? with : best;
 }
 
+/// The plain refit in the place of a fit whose bodies can be, where that leaves far more. Its first
+/// `given` stay.
+Fit or_regression(const Observations& observations, Fit best, std::size_t given,
+                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
+  if (largest_ratio(observations, best.remainder) < kNearNoise) {
+    return best;
+  }
+  const auto end = best.chosen.begin() + static_cast<std::ptrdiff_t>(given);
+  const Fit stays = fit(observations, {best.chosen.begin(), end}, 0);
+  Fit plain = fit_regression(observations, stays, hypotheses, dictionary);
+  const double before = observations.rms(best.remainder, simulation::joint_torque, true);
+  const double after = observations.rms(plain.remainder, simulation::joint_torque, true);
+  return after < kClearlyBetter * before ? plain : best;
+}
+
 /// Findings, and behind them the numbers of the families that stay beside them.
 Fit fit_beside(const Observations& observations, const Fit& findings,
                const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
@@ -286,7 +305,8 @@ Fit fit_families(const Observations& observations, const Fit& findings,
     given = std::move(more);
     current = std::move(next_dictionary);
   }
-  return joined(observations, std::move(best), given.size(), dictionary);
+  best = joined(observations, std::move(best), given.size(), dictionary);
+  return or_regression(observations, std::move(best), given.size(), hypotheses, current);
 }
 
 }  // namespace flexcomp::diagnosis

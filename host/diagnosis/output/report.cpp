@@ -132,19 +132,28 @@ std::string location_table(const Observations& observations, const Location& loc
 std::string quality_table(const Observations& observations, const Diagnosis& diagnosis,
                           const std::vector<Quality>& qualities) {
   std::string html =
-      "<table><tr><th>recording</th><th>rows</th><th>incomplete</th><th>used</th>"
+      "<table><tr><th>recording</th><th>rows</th><th>incomplete</th><th>repeated</th><th>used</th>"
       "<th>median step, s</th><th>largest gap, s</th></tr>\n";
   for (const Quality& each : qualities) {
     const simulation::Preparation& done = each.preparation;
     html += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td>"
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td>"
         "<td>{:.4g}</td></tr>\n",
-        escaped(each.file), done.rows, done.incomplete,
+        escaped(each.file), done.rows, done.incomplete, done.repeats.size(),
         done.kept_each > 1 ? fmt::format("one in {}", done.kept_each) : "all", done.median_step,
         done.largest_gap);
   }
+  html += "</table>\n";
+  for (const Quality& each : qualities) {
+    if (each.preparation.period > 0) {
+      html += fmt::format(
+          "<p>{}: the angles are smooth over evenly spaced times, {:.4g} ms apart, and not over "
+          "those given; these were evened.</p>\n",
+          escaped(each.file), 1e3 * each.preparation.period);
+    }
+  }
   html += fmt::format(
-      "</table>\n<p>{} samples stood alone, far from their neighbours, and were "
+      "<p>{} samples stood alone, far from their neighbours, and were "
       "left out.</p>\n",
       observations.outliers);
   for (const ClockCheck& clock : diagnosis.clocks) {

@@ -85,11 +85,17 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
     const Hypothesis& number = fit.chosen[i].hypothesis;
     numbers.push_back(place_in_words(number.effect(), number.joint));
   }
+  const bool is_regression =
+      std::any_of(fit.chosen.begin(), fit.chosen.end(),
+                  [](const Chosen& each) { return each.hypothesis.is_regression; });
   return fmt::format(
       "No finding, but a stand-in until one is made{}: with other numbers in updated_model.yaml "
-      "({}) {}.",
+      "({}) {}.{}",
       found == 0 ? "" : " of what is left", first_few(numbers),
-      fall(observations, diagnosis.choice.fit, fit));
+      fall(observations, diagnosis.choice.fit, fit),
+      is_regression ? " Its masses are numbers of a regression, which predict better than those of "
+                      "any bodies."
+                    : "");
 }
 
 std::string statement_of_band(const Observations& observations, const Diagnosis& diagnosis) {

@@ -25,8 +25,9 @@ double explained_everywhere(const Observations& observations, const Fit& whole) 
   for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Channel channel = observations.samples[static_cast<std::size_t>(i)].channel;
     Squares& part = parts[{channel, i >= observations.train}];
-    part.before += observations.residual[i] * observations.residual[i];
-    part.after += whole.remainder[i] * whole.remainder[i];
+    const double times = std::pow(observations.noise[i] / observations.floor[i], 2);
+    part.before += times * observations.residual[i] * observations.residual[i];
+    part.after += times * whole.remainder[i] * whole.remainder[i];
     part.count += 1;
   }
   double least = 1;
@@ -86,7 +87,7 @@ std::vector<Finding> standing_alone(const Inquiry& inquiry, const Fit& whole,
                                     const Without& without) {
   std::vector<Finding> standing;
   for (std::size_t i = 0; i < whole.chosen.size(); ++i) {
-    if (!is_told_apart(whole, i)) {
+    if (whole.chosen[i].hypothesis.is_regression || !is_told_apart(whole, i)) {
       continue;
     }
     Finding finding = judge_linearly(inquiry, whole, without, i, {i});

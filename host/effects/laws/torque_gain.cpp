@@ -28,7 +28,8 @@ Forms laws::torque_gain() {
           {},
           {{"", " gain ",
             [](const Subject&) {
-              return Range{-0.5, 1};
+              constexpr double kUsual = 0.1;
+              return Range{-0.5, 1, Rest::nowhere, "", kUsual};
             },
             "torque constants vary by a tenth (Gautier and Briot 2014); none is off twofold"}}};
 }

@@ -1,0 +1,173 @@
+#include "recording/sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "recording/noise.hpp"
+
+namespace flexcomp::recording {
+namespace {
+
+constexpr Eigen::Index kAround = 5;       // steps on either side that tell how a joint moves
+constexpr double kSteady = 0.5;           // of the median step around, that the next ones have
+constexpr Eigen::Index kFewestEven = 50;  // rows, to draw a line through
+constexpr double kGap = 2.5;              // usual steps without a row, where a line ends
+constexpr double kMostLag = 5;            // periods, between the earliest stamp and the latest
+constexpr double kMuchSmoother = 0.5;  // of the mean square by which angles miss their neighbours'
+constexpr double kLeastMiss = 1e-12;   // rad: angles computed and not measured
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The steps of a joint before and after rows first … last, which show the same; fewer at the ends.
+std::vector<double> steps_around(const Samples& angles, Eigen::Index joint, Eigen::Index first,
+                                 Eigen::Index last) {
+  std::vector<double> steps;
+  for (Eigen::Index i = std::max<Eigen::Index>(1, first - kAround + 1); i <= first; ++i) {
+    steps.push_back(angles(i, joint) - angles(i - 1, joint));
+  }
+  for (Eigen::Index i = last + 1; i < std::min(angles.rows(), last + 1 + kAround); ++i) {
+    steps.push_back(angles(i, joint) - angles(i - 1, joint));
+  }
+  return steps;
+}
+
+/// Does a joint move on steadily before the first of some rows and after the last?
+bool moves_about(const Samples& angles, Eigen::Index joint, Eigen::Index first, Eigen::Index last) {
+  if (first == 0 || last + 1 >= angles.rows()) {
+    return false;
+  }
+  const std::vector<double> steps = steps_around(angles, joint, first, last);
+  const double usual = median(steps);
+  const double least = kSteady * std::abs(usual);
+  const double before = angles(first, joint) - angles(first - 1, joint);
+  const double after = angles(last + 1, joint) - angles(last, joint);
+  return before * usual > 0 && after * usual > 0 && std::abs(before) >= least &&
+         std::abs(after) >= least &&
+         std::all_of(steps.begin(), steps.end(), [&](double step) { return step * usual > 0; });
+}
+
+bool is_like_before(const Samples& angles, Eigen::Index row) {
+  return (angles.row(row).array() == angles.row(row - 1).array()).all();
+}
+
+void find_repeats(const Samples& angles, Sampling* sampling) {
+  for (Eigen::Index row = 0; row < angles.rows();) {
+    Eigen::Index last = row;
+    while (last + 1 < angles.rows() && is_like_before(angles, last + 1)) {
+      ++last;
+    }
+    bool repeats = false;
+    for (Eigen::Index joint = 0; last > row && joint < angles.cols() && !repeats; ++joint) {
+      repeats = moves_about(angles, joint, row, last);
+    }
+    sampling->rows.push_back(row);
+    for (Eigen::Index i = row + 1; i <= last; ++i) {
+      (repeats ? sampling->repeats : sampling->rows).push_back(i);
+    }
+    row = last + 1;
+  }
+}
+
+/// Times on a straight line over the index of first … last; their spacing is the period. False
+/// where the stamps are too far from any line.
+bool even_out(Eigen::Index first, Eigen::Index last, Eigen::VectorXd* time) {
+  const Eigen::Index count = last - first + 1;
+  const Eigen::ArrayXd stamps = time->segment(first, count).array();
+  const Eigen::ArrayXd index = Eigen::ArrayXd::LinSpaced(count, 0, static_cast<double>(count - 1)) -
+                               static_cast<double>(count - 1) / 2;
+  const double period = (index * stamps).sum() / index.square().sum();
+  const Eigen::ArrayXd even = stamps.mean() + period * index;
+  const Eigen::ArrayXd lag = stamps - even;
+  time->segment(first, count) = even.matrix();
+  return lag.maxCoeff() - lag.minCoeff() < kMostLag * period;
+}
+
+/// All times evened between gaps; empty where that cannot be.
+Eigen::VectorXd evened(const Sampling& sampling, const Eigen::VectorXd& stamps) {
+  const Eigen::Index n = sampling.time.size();
+  std::vector<double> steps;
+  for (Eigen::Index i = 1; i < n; ++i) {
+    steps.push_back(sampling.time[i] - sampling.time[i - 1]);
+  }
+  const double usual = median(steps);
+  Eigen::VectorXd time = sampling.time;
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 1; i <= n; ++i) {
+    // Rows that repeated a sample are no gap.
+    const auto at = static_cast<std::size_t>(i);
+    const bool is_gap =
+        i == n || stamps[sampling.rows[at]] - stamps[sampling.rows[at] - 1] > kGap * usual;
+    if (is_gap) {
+      if (i - first >= kFewestEven && !even_out(first, i - 1, &time)) {
+        return {};
+      }
+      first = i;
+    }
+  }
+  for (Eigen::Index i = 1; i < n; ++i) {
+    if (!(time[i] > time[i - 1])) {
+      return {};
+    }
+  }
+  return time;
+}
+
+/// Are most joints' angles much smoother over other times?
+bool is_much_smoother(const Samples& angles, const Eigen::VectorXd& before,
+                      const Eigen::VectorXd& after) {
+  std::vector<double> ratios;
+  for (Eigen::Index joint = 0; joint < angles.cols(); ++joint) {
+    const double missed = neighbour_misses(before, angles.col(joint)).squaredNorm();
+    const double left = neighbour_misses(after, angles.col(joint)).squaredNorm();
+    if (missed > kLeastMiss * kLeastMiss * static_cast<double>(angles.rows())) {
+      ratios.push_back(left / missed);
+    }
+  }
+  return !ratios.empty() && median(ratios) < kMuchSmoother;
+}
+
+template <typename Group>
+void pick(const std::vector<Eigen::Index>& rows, std::optional<Group>* group) {
+  if (*group) {
+    *group = Group((**group)(rows, Eigen::all));
+  }
+}
+
+}  // namespace
+
+Sampling sampling_of(const Eigen::VectorXd& time, const Samples& angles) {
+  Sampling sampling;
+  find_repeats(angles, &sampling);
+  sampling.time = time(sampling.rows);
+  if (sampling.time.size() < kFewestEven) {
+    return sampling;
+  }
+  const Eigen::VectorXd even = evened(sampling, time);
+  if (even.size() > 0 && is_much_smoother(angles(sampling.rows, Eigen::all), sampling.time, even)) {
+    sampling.period = (even[even.size() - 1] - even[0]) / static_cast<double>(even.size() - 1);
+    sampling.time = even;
+  }
+  return sampling;
+}
+
+Recording picked(const Recording& recording, const std::vector<Eigen::Index>& rows) {
+  Recording some = recording;
+  some.time = recording.time(rows);
+  if (!recording.lines.empty()) {
+    some.lines.clear();
+    for (const Eigen::Index row : rows) {
+      some.lines.push_back(recording.lines[static_cast<std::size_t>(row)]);
+    }
+  }
+  for (auto* group : {&some.q_cmd, &some.q_meas, &some.q_link, &some.tau, &some.wrench,
+                      &some.position, &some.temperature, &some.program_line}) {
+    pick(rows, group);
+  }
+  return some;
+}
+
+}  // namespace flexcomp::recording

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "recording/recording.hpp"
+
+namespace flexcomp::recording {
+
+/// Which rows of a log hold a sample of their own, and when that was taken.
+///
+/// A log that asks a robot faster than the robot answers shows the same sample again, and the time
+/// of a row is when it was asked for, not when the sample was taken. Differentiated twice, both
+/// are accelerations that never were.
+struct Sampling {
+  std::vector<Eigen::Index> rows;     ///< that hold a sample of their own
+  std::vector<Eigen::Index> repeats;  ///< that show the sample of the row before once more
+  Eigen::VectorXd time;               ///< s, of `rows`
+  double period = 0;                  ///< s between samples where times were evened; 0 as they are
+};
+
+/// Finds the rows that repeat the angles before though the joints move: every angle stays the same
+/// to the bit, where before and after it moves on steadily. A joint that stands or creeps by an
+/// encoder's steps repeats nothing.
+///
+/// Times become evenly spaced between gaps (a straight line through the stamps) where the angles
+/// are much smoother over them, for the joints in the middle of all; else they stay as they are.
+Sampling sampling_of(const Eigen::VectorXd& time, const Samples& angles);
+
+/// Some rows of a recording.
+Recording picked(const Recording& recording, const std::vector<Eigen::Index>& rows);
+
+}  // namespace flexcomp::recording

@@ -1,0 +1,169 @@
+// Rows that repeat a sample and times that are not those of the samples, against the clock by which
+// made-up joints were sampled.
+#include <cmath>
+#include <random>
+
+#include "recording/sampling.hpp"
+#include "unity_main.hpp"
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using flexcomp::recording::picked;
+using flexcomp::recording::Recording;
+using flexcomp::recording::Samples;
+using flexcomp::recording::Sampling;
+using flexcomp::recording::sampling_of;
+
+namespace {
+
+constexpr Index kRows = 600;
+constexpr Index kJoints = 3;
+constexpr double kLogged = 0.030;     // s, between rows
+constexpr double kAnswered = 0.0311;  // s, between samples
+
+double angle_of(Index joint, double time) {
+  const double omega = 0.7 + 0.4 * static_cast<double>(joint);
+  return 0.8 * std::sin(omega * time + static_cast<double>(joint)) + 0.2 * std::sin(2.3 * time);
+}
+
+VectorXd even(Index rows, double step) {
+  return VectorXd::LinSpaced(rows, 0, step * static_cast<double>(rows - 1));
+}
+
+/// What the joints show at some times.
+Samples at(const VectorXd& times) {
+  Samples angles(times.size(), kJoints);
+  for (Index row = 0; row < times.size(); ++row) {
+    for (Index joint = 0; joint < kJoints; ++joint) {
+      angles(row, joint) = angle_of(joint, times[row]);
+    }
+  }
+  return angles;
+}
+
+/// When the sample of each row was taken by a robot that answers more slowly than it is asked.
+VectorXd answered() { return kAnswered * (even(kRows, kLogged).array() / kAnswered + 0.5).floor(); }
+
+void a_sample_that_a_log_shows_twice_is_found_where_joints_move() {
+  const VectorXd taken = answered();
+  const Sampling sampling = sampling_of(even(kRows, kLogged), at(taken));
+  std::vector<Index> expected;
+  for (Index row = 1; row < kRows; ++row) {
+    if (taken[row] == taken[row - 1]) {
+      expected.push_back(row);
+    }
+  }
+  TEST_ASSERT_TRUE(expected.size() > 15);
+  // Near the turn of a joint its steps are no steady motion; others move on there.
+  TEST_ASSERT_TRUE(sampling.repeats == expected);
+  TEST_ASSERT_EQUAL_INT64(kRows, static_cast<Index>(sampling.rows.size() + expected.size()));
+}
+
+void times_are_those_of_the_samples_then() {
+  const VectorXd taken = answered();
+  const Sampling sampling = sampling_of(even(kRows, kLogged), at(taken));
+  TEST_ASSERT_DOUBLE_WITHIN(1e-5, kAnswered, sampling.period);
+  for (std::size_t i = 1; i < sampling.rows.size(); ++i) {
+    const double step =
+        sampling.time[static_cast<Index>(i)] - sampling.time[static_cast<Index>(i) - 1];
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, kAnswered, step);
+  }
+}
+
+void stamps_that_jitter_are_evened() {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> late(0, 0.01);
+  const VectorXd taken = even(kRows, kLogged);
+  VectorXd stamps = taken;
+  for (double& stamp : stamps) {
+    stamp += late(random);
+  }
+  const Sampling sampling = sampling_of(stamps, at(taken));
+  TEST_ASSERT_TRUE(sampling.repeats.empty());
+  TEST_ASSERT_DOUBLE_WITHIN(2e-5, kLogged, sampling.period);
+  for (Index row = 1; row < kRows; ++row) {
+    TEST_ASSERT_DOUBLE_WITHIN(2e-5, kLogged, sampling.time[row] - sampling.time[row - 1]);
+  }
+}
+
+void times_that_are_uneven_indeed_stay() {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> late(0, 0.01);
+  VectorXd times = even(kRows, kLogged);
+  for (double& time : times) {
+    time += late(random);
+  }
+  const Sampling sampling = sampling_of(times, at(times));
+  TEST_ASSERT_TRUE(sampling.time == times);
+  TEST_ASSERT_EQUAL_DOUBLE(0, sampling.period);
+}
+
+void a_gap_stays_where_the_times_about_it_are_evened() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> late(0, 0.01);
+  VectorXd taken = even(kRows, kLogged);
+  taken.tail(kRows / 2).array() += 1.5;
+  VectorXd stamps = taken;
+  for (double& stamp : stamps) {
+    stamp += late(random);
+  }
+  const Sampling sampling = sampling_of(stamps, at(taken));
+  TEST_ASSERT_TRUE(sampling.period > 0);
+  const double gap = sampling.time[kRows / 2] - sampling.time[kRows / 2 - 1];
+  TEST_ASSERT_DOUBLE_WITHIN(0.003, 1.5 + kLogged, gap);
+}
+
+void a_dwell_repeats_nothing() {
+  // Up, a rest of a second, and on, with ramps of 0.3 s.
+  VectorXd angle(kRows);
+  for (Index row = 0; row < kRows; ++row) {
+    const double time = kLogged * static_cast<double>(row);
+    const auto ramped = [](double t) { return t < 0 ? 0.0 : t < 0.3 ? t * t / 0.6 : t - 0.15; };
+    angle[row] = ramped(time - 1) - ramped(time - 4) + ramped(time - 5);
+  }
+  Samples angles = Samples::Zero(kRows, kJoints);
+  angles.col(1) = angle;
+  const Sampling sampling = sampling_of(even(kRows, kLogged), angles);
+  TEST_ASSERT_TRUE(sampling.repeats.empty());
+}
+
+void steps_of_an_encoder_repeat_nothing() {
+  constexpr double kCount = 1e-3;  // rad
+  const VectorXd times = even(kRows, kLogged);
+  for (const double speed : {0.01, 0.04, 0.1}) {  // rad/s: up to three counts a row
+    Samples angles = Samples::Zero(kRows, kJoints);
+    angles.col(0) = kCount * (speed * times.array() / kCount).round();
+    angles.col(2) = kCount * (1.3 * speed * times.array() / kCount).round();
+    TEST_ASSERT_TRUE(sampling_of(times, angles).repeats.empty());
+  }
+}
+
+void rows_that_are_picked_keep_all_they_have() {
+  Recording recording;
+  recording.file = "made.csv";
+  recording.lines = {2, 3, 5};
+  recording.time = even(3, 1);
+  recording.q_meas = at(recording.time);
+  recording.wrench = Samples::Constant(3, 6, 7);
+  const Recording some = picked(recording, {0, 2});
+  TEST_ASSERT_EQUAL_INT64(2, some.size());
+  TEST_ASSERT_EQUAL_UINT64(5, some.lines[1]);
+  TEST_ASSERT_TRUE(some.q_meas->row(1) == recording.q_meas->row(2));
+  TEST_ASSERT_EQUAL_INT64(2, some.wrench->rows());
+  TEST_ASSERT_FALSE(some.tau.has_value());
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(a_sample_that_a_log_shows_twice_is_found_where_joints_move);
+  RUN_TEST(times_are_those_of_the_samples_then);
+  RUN_TEST(stamps_that_jitter_are_evened);
+  RUN_TEST(times_that_are_uneven_indeed_stay);
+  RUN_TEST(a_gap_stays_where_the_times_about_it_are_evened);
+  RUN_TEST(a_dwell_repeats_nothing);
+  RUN_TEST(steps_of_an_encoder_repeat_nothing);
+  RUN_TEST(rows_that_are_picked_keep_all_they_have);
+  return UNITY_END();
+}
