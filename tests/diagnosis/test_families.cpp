@@ -1,5 +1,6 @@
 // A machine's families of numbers fitted at once: its friction as it is, and bodies that can be.
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -158,12 +159,25 @@ void a_body_that_cannot_be_is_moved_to_where_it_can() {
   TEST_ASSERT_TRUE(settled.train_sum < 1.05 * body.fitted(1e-4).train_sum);
 }
 
+/// A plain refit predicts them, so that the updated model is not behind it.
+void torques_that_no_body_has_are_predicted_by_a_regression() {
+  const ImpossibleBody body;
+  const Observations& observations = body.observations;
+  const Fit fit = fitted(observations);
+  const double noise =
+      observations.rms(Eigen::VectorXd::Ones(observations.size()), simulation::joint_torque, true);
+  TEST_ASSERT_TRUE(observations.rms(fit.remainder, simulation::joint_torque, true) < 1.2 * noise);
+  TEST_ASSERT_TRUE(std::any_of(fit.chosen.begin(), fit.chosen.end(),
+                               [](const Chosen& each) { return each.hypothesis.is_regression; }));
+}
+
 }  // namespace
 
 int main() {
   UNITY_BEGIN();
   RUN_TEST(a_body_with_an_edge_is_held_within_what_can_be);
   RUN_TEST(a_body_that_cannot_be_is_moved_to_where_it_can);
+  RUN_TEST(torques_that_no_body_has_are_predicted_by_a_regression);
   RUN_TEST(gains_are_told_beside_what_they_multiply);
   RUN_TEST(friction_that_falls_with_speed_joins_the_family_at_its_joint);
   RUN_TEST(friction_of_all_joints_is_told_and_nothing_else_beside_it);
