@@ -51,3 +51,12 @@ def moved(x=0.0, y=0.0, z=0.0):
 def turned(axis, angle):
     """axis: x, y or z; angle in rad."""
     return Frame(turn(np.eye(3)["xyz".index(axis)], angle))
+
+
+def rigid_fit(model, seen):
+    """Rotation (3, 3) and shift (3,) that take points (n, 3) of the model to those seen (n, 3),
+    with least squares (Arun, Huang and Blostein 1987)."""
+    middle, seen_middle = model.mean(axis=0), seen.mean(axis=0)
+    u, _, v = np.linalg.svd((model - middle).T @ (seen - seen_middle))
+    rotation = v.T @ np.diag([1, 1, np.linalg.det(v.T @ u.T)]) @ u.T
+    return rotation, seen_middle - rotation @ middle

@@ -4,6 +4,7 @@ import csv
 import gzip
 
 import numpy as np
+import scipy.io
 import yaml
 
 
@@ -252,3 +253,65 @@ def hilti_jaibot(folder, spring=2e-5, poses=24):
     for site in ("flat", "pallet"):
         (folder / f"{site}.yaml").write_text(yaml.safe_dump(document))
     return arm
+
+
+MA1400_LINKS = ((0, -0.263, 15, -90), (0.150, 1.4159, -90, 0), (0.614, 0, 180, -90), (0.200, 0, -90, 0),
+                (0, -0.640, 90, 0), (0.030, 0, 90, -90), (0, 0.200, 0, 0))
+
+
+def ma1400_reflector(turntable, angles, arm):
+    """Where an arm's reflector is (3,), m, by the toolbox's table: a, d, alpha, angle at zero."""
+    matrix, side = np.eye(4), 1 if arm == "right" else -1
+    for number, (angle, (length, offset, twist, zero)) in enumerate(zip((turntable, *angles), MA1400_LINKS)):
+        twist *= side if number == 0 else 1
+        matrix = matrix @ dh(angle + np.radians(zero), length, offset, np.radians(twist))
+    last = dh(-0.38, 0.045, 0.245, 0) if arm == "right" else dh(0, 0.050, 0.250, 0)
+    return (matrix @ last)[:3, 3]
+
+
+def motoman_ma1400(folder, poses=24):
+    """A rigid arm seen from a tracker elsewhere. A row a marker, one to three of them a pose; the fifth pose was not
+    seen. Returns the angles (n, 6) of the poses that were, of both arms alike."""
+    folder.mkdir(parents=True, exist_ok=True)
+    angles, turntable = swing(0.3 * np.arange(poses), 6, amplitude=0.6), 0.02
+    tracker = dh(0.7, 3.0, 1.0, 0.0)
+    for arm, columns in (("right", slice(7, 13)), ("left", slice(13, 19))):
+        rows = []
+        for number, pose in enumerate(angles):
+            row = np.zeros(26)
+            row[[0, 6]], row[columns] = (10 * number, turntable), pose
+            row[19:22] = (tracker @ [*ma1400_reflector(turntable, pose, arm), 1])[:3] if number != 4 else np.nan
+            rows += [row] * (1 + number % 3)
+        scipy.io.savemat(folder / f"leica_{arm}_hand_6x6x6_dataset.mat", {"dataset": np.array(rows)},
+                         do_compression=True)
+    return np.delete(angles, 4, axis=0)
+
+
+TIAGO_LINK = """<link name="{link}"><inertial><mass value="{mass}"/><origin xyz="0.1 0 0.05" rpy="0 0 0.5"/>
+ <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0.01" iyz="0" ixz="0"/></inertial></link>
+<joint name="{joint}_joint" type="{kind}"><parent link="{parent}"/><child link="{link}"/>
+ <origin xyz="0.2 0 0.1" rpy="{roll} 0 0"/><axis xyz="0 0 1"/>
+ <limit lower="-3" upper="3" effort="100" velocity="5"/></joint>"""
+TIAGO_FINGER = 0.063  # kg
+
+
+def pal_tiago(folder):
+    """Currents of 1 to 8 A. On the last link a finger slides. Returns the angles (n, 8) while it
+    moves."""
+    chain = [("torso_fixed_link", "torso_lift", "prismatic")]
+    chain += [("torso_lift_link" if number == 1 else f"arm_{number - 1}_link", f"arm_{number}", "revolute")
+              for number in range(1, 8)]
+    links = [TIAGO_LINK.format(parent=parent, joint=joint, link=f"{joint}_link", kind=kind, mass=2,
+                               roll=1.571 if number % 2 else 0)
+             for number, (parent, joint, kind) in enumerate(chain)]
+    finger = TIAGO_LINK.format(parent="arm_7_link", joint="finger", link="finger_link", kind="prismatic",
+                               mass=TIAGO_FINGER, roll=0)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "tiago_48_schunk.urdf").write_text(
+        '<robot name="tiago"><link name="torso_fixed_link"/>' + "\n".join([*links, finger]) + "</robot>")
+    time = 0.05 * np.arange(1500)
+    angles = swing(0.2 * time, 8)
+    for kind, values in (("position", angles), ("effort", np.tile(np.arange(1.0, 9.0), (len(time), 1)))):
+        write_csv(folder / f"tiago_{kind}.csv", {"t": time, **{
+            f"- {joint}_joint_{kind}": column for (_, joint, _), column in zip(chain, values.T)}})
+    return angles[(time >= 9.2) & (time <= 67.9)]

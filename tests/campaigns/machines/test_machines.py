@@ -11,6 +11,7 @@ import unittest
 import xml.etree.ElementTree as xml
 
 import numpy as np
+import scipy.io
 import yaml
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -255,6 +256,45 @@ class Readers(Scratch):
             np.testing.assert_allclose(group(held_out, "xyz"), expected, atol=1e-9)
             np.testing.assert_allclose(tcp(experiment.model, arm[1::4]), expected, atol=1e-9)
 
+    def test_motomans_arms_are_brought_from_the_trackers_frame_to_their_own(self):
+        experiments, angles = self.written("motoman_ma1400")
+        self.assertEqual(["right", "left"], [experiment.name for experiment in experiments])
+        for experiment in experiments:
+            held_out = tables.read_recording(experiment.holdout)
+            np.testing.assert_allclose(group(held_out, "q_cmd"), angles[3::4], atol=1e-9)
+            expected = [synthetic.ma1400_reflector(0.02, pose, experiment.name) for pose in angles[3::4]]
+            np.testing.assert_allclose(group(held_out, "xyz"), expected, atol=1e-9)
+            np.testing.assert_allclose(tcp(experiment.model, angles[3::4]), expected, atol=1e-9)
+
+    def test_motomans_forearm_lies_between_elbow_and_wrist(self):
+        """Of the estimated masses, the one whose place a sign would turn over."""
+        (right, _), _ = self.written("motoman_ma1400")
+        place = kinematics.posture(robots.load(right.model), np.zeros((1, 6)))
+        (body,) = robots.load(right.model).bodies[3]
+        center = place.origin[3, 0] + place.rotation[3, 0] @ body.com
+        elbow, wrist = place.origin[3, 0], place.origin[4, 0]
+        self.assertAlmostEqual(0.64, np.linalg.norm(wrist - elbow), 9)
+        np.testing.assert_allclose(center, elbow + (0.39 / 0.64) * (wrist - elbow), atol=1e-9)
+
+    def test_tiago_has_torques_where_motors_report_currents(self):
+        (experiment,), angles = self.written("pal_tiago")
+        parts = [tables.read_recording(path) for path in (*experiment.recordings, experiment.holdout)]
+        np.testing.assert_allclose(np.vstack([group(part, "q_meas") for part in parts]), angles, atol=1e-9)
+        self.assertAlmostEqual(0.7, len(parts[0]["t"]) / len(angles), delta=0.01)
+        np.testing.assert_allclose(group(parts[1], "tau")[0],
+                                   [np.nan, 2 * 13.6, 3 * 13.6, -4 * 8.7, -5 * 8.7, np.nan, np.nan, np.nan])
+
+    def test_what_hangs_on_an_arm_by_joints_of_its_own_is_part_of_it(self):
+        (experiment,), _ = self.written("pal_tiago")
+        root = xml.parse(experiment.model.parent / "robot.urdf").getroot()
+        masses = [float(mass.get("value")) for mass in root.iter("mass")]
+        np.testing.assert_allclose(masses, 7 * [2] + [2 + synthetic.TIAGO_FINGER])
+        kinds = [joint.get("type") for joint in root.findall("joint")]
+        self.assertEqual(["prismatic"] + 7 * ["revolute"] + ["fixed"], kinds)
+        center = [float(word) for word in root.find("link[@name='link_8']/inertial/origin").get("xyz").split()]
+        share = synthetic.TIAGO_FINGER / (2 + synthetic.TIAGO_FINGER)
+        np.testing.assert_allclose(center, [0.1 + 0.2 * share, 0, 0.05 + 0.1 * share], atol=1e-9)
+
     def test_jaibots_sensors_tell_the_springs(self):
         self.written("hilti_jaibot")
         found = tilt.springs(self.folder / "data" / jaibot.FOLDER, "flat")
@@ -342,6 +382,7 @@ class Command(Scratch):
             "hilti_jaibot": ("trailblazer.urdf", "</robot>", "", "no robot description"),
             "unisa_ur10": ("ur10_exciting_trajectory.csv", "tau_6", "tau", "no column 'tau_6'"),
             "unisa_panda": ("panda_exciting_trajectory.csv", "\n0.03", "\n-0.03", "does not grow"),
+            "pal_tiago": ("tiago_effort.csv", "arm_4_joint", "arm_joint", "no column '- arm_4_joint_effort'"),
         }
         for name, (file, before, after, saying) in damages.items():
             with self.subTest(name):
@@ -361,6 +402,33 @@ class Command(Scratch):
                              ("column_heights: {}", "poses at 3.87 m")):
             path.write_text(text)
             done = self.run_command("hilti_jaibot")
+            self.assert_refused(done, saying)
+            self.assertEqual(1, done.stderr.count("\n"), done.stderr)
+
+    def test_damaged_tables_of_matlab_give_one_line(self):
+        self.make("motoman_ma1400")
+        path = self.data / "motoman_ma1400" / "leica_left_hand_6x6x6_dataset.mat"
+        table = scipy.io.loadmat(path)["dataset"]
+        whole = path.read_bytes()
+        for damage, saying in ((lambda: path.write_bytes(whole[:300]), "no table 'dataset'"),
+                               (lambda: path.write_bytes(b""), "no table 'dataset'"),
+                               (lambda: path.write_text("dataset\n1,2\n"), "no table 'dataset'"),
+                               (lambda: scipy.io.savemat(path, {"data": table}), "no table 'dataset'"),
+                               (lambda: scipy.io.savemat(path, {"dataset": table[:, 1:]}), "found 48 by 25"),
+                               (lambda: scipy.io.savemat(path, {"dataset": table[:9]}), "4 poses that were seen")):
+            damage()
+            done = self.run_command("motoman_ma1400")
+            self.assert_refused(done, saying)
+            self.assertEqual(1, done.stderr.count("\n"), done.stderr)
+
+    def test_an_arm_that_its_description_has_not_is_told(self):
+        for before, after, saying in (("arm_6_link", "arm_six", "no robot description"),
+                                      ('<axis xyz="0 0 1"/>', '<axis xyz="0 1 0"/>', "its z axis"),
+                                      ('<mass value="2"/>', "", "no robot description")):
+            self.make("pal_tiago")
+            path = self.data / "pal_tiago" / "tiago_48_schunk.urdf"
+            path.write_text(path.read_text().replace(before, after, 1))
+            done = self.run_command("pal_tiago")
             self.assert_refused(done, saying)
             self.assertEqual(1, done.stderr.count("\n"), done.stderr)
 
@@ -515,6 +583,12 @@ class RealFiles(Scratch):
         recording = tables.read_recording(experiment.holdout)
         errors = group(recording, "xyz") - tcp(experiment.model, group(recording, "q_cmd"))
         self.assertAlmostEqual(2.6e-3, study.mean_norm(errors), delta=1e-4)
+
+    def test_motomans_models_come_within_a_millimetre(self):
+        for experiment in self.experiments("motoman_ma1400"):
+            recording = tables.read_recording(experiment.holdout)
+            errors = group(recording, "xyz") - tcp(experiment.model, group(recording, "q_cmd"))
+            self.assertLess(np.linalg.norm(errors, axis=1).max(), 1e-3)
 
     def test_jaibots_column_gives_and_its_base_hardly(self):
         self.experiments("hilti_jaibot")

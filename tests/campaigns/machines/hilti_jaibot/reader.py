@@ -18,6 +18,7 @@ in the poses to learn from. That takes along the part of the tilt that all poses
 
 import numpy as np
 
+from ..geometry import rigid_fit
 from ..robot_files import write_robot
 from ..study import Experiment
 from ..tables import write_recording
@@ -31,15 +32,6 @@ FILES = ["trailblazer.urdf", *(f"{site}.yaml" for site in SITES)]
 
 HEIGHT = 3.87  # m
 BRANCH = 7
-
-
-def rigid_fit(model, seen):
-    """Rotation (3, 3) and shift (3,) that take points (n, 3) of the model to those seen (n, 3),
-    with least squares (Arun, Huang and Blostein 1987)."""
-    middle, seen_middle = model.mean(axis=0), seen.mean(axis=0)
-    u, _, v = np.linalg.svd((model - middle).T @ (seen - seen_middle))
-    rotation = v.T @ np.diag([1, 1, np.linalg.det(v.T @ u.T)]) @ u.T
-    return rotation, seen_middle - rotation @ middle
 
 
 def write(data, folder):

@@ -13,12 +13,11 @@ filter, and once as every tenth row of what was recorded.
 
 import gzip
 import math
-import xml.etree.ElementTree as xml
 
 import numpy as np
 
-from ..chain import JOINTS, Body, Chain, Joint, tensor
-from ..geometry import Frame, rotation_of
+from ..chain import JOINTS
+from ..published_urdf import read_chain
 from ..robot_files import write_robot
 from ..study import Experiment
 from ..tables import Damaged, write_recording
@@ -36,35 +35,6 @@ EVERY = 10  # rows
 CUTOFF = 40.0  # Hz
 HALF_WINDOW = 500  # rows
 TRAINING_PART = 0.6
-
-
-def _numbers(text):
-    return np.array([float(word) for word in text.split()])
-
-
-def _joint(root, number):
-    """A joint of the published URDF with the body that it moves."""
-    joint = root.find(f"joint[@name='joint_{number}']")
-    inertial = root.find(f"link[@name='link_{number}']/inertial")
-    place, limit = joint.find("origin"), joint.find("limit")
-    center, entries = inertial.find("origin"), inertial.find("inertia")
-    turn = rotation_of(_numbers(center.get("rpy")))
-    about = tensor(*(float(entries.get(name))
-                     for name in ("ixx", "iyy", "izz", "ixy", "iyz", "ixz")))
-    body = Body(float(inertial.find("mass").get("value")), _numbers(center.get("xyz")),
-                turn @ about @ turn.T)
-    return Joint(Frame(rotation_of(_numbers(place.get("rpy"))), _numbers(place.get("xyz"))), [body],
-                 float(limit.get("lower")), float(limit.get("upper")))
-
-
-def chain(path):
-    """The arm of the published URDF."""
-    try:
-        root = xml.parse(path).getroot()
-        joints = [_joint(root, number) for number in range(1, JOINTS + 1)]
-        return Chain("Staubli TX40", joints, Frame())
-    except (xml.ParseError, AttributeError, TypeError, ValueError) as error:  # something missing
-        raise Damaged(f"{path}: no robot description as published: {error}") from error
 
 
 def read_rows(path):
@@ -99,7 +69,7 @@ def low_passed(values):
 
 def write(data, folder):
     """Two experiments, low-passed and as recorded; the last two fifths are held out."""
-    model = write_robot(folder, chain(data / MODEL))
+    model = write_robot(folder, read_chain(data / MODEL, "Staubli TX40", "base_link", f"link_{JOINTS}"))
     motor_angles, motor_torques = read_rows(data / ANGLES), read_rows(data / TORQUES)
     if len(motor_angles) != len(motor_torques):
         raise Damaged(f"{data / TORQUES}: {len(motor_torques)} rows, but {len(motor_angles)} angles")

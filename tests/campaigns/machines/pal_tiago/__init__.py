@@ -1,0 +1,3 @@
+"""PAL TIAGo."""
+
+from . import goals, pictures, reader  # noqa: F401
