@@ -24,6 +24,7 @@ constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the join
 constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
 constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
+constexpr double kHopeless = 1.1;  // of the held-out error, that choosing anew does not make up for
 constexpr double kNearNoise = 1.15;  // times the noise: nothing that a regression could better
 constexpr double kClearlyBetter =
     0.97;                       // of the held-out error, that bodies which cannot be are worth
@@ -248,6 +249,11 @@ Fit joined(const Observations& observations, Fit best, std::size_t findings,
   return predicts_better(observations, best, with) ? with : best;
 }
 
+/// Root mean square error (N·m) of what was held out.
+double held_out_torque(const Observations& observations, const Fit& fit) {
+  return observations.rms(fit.remainder, simulation::joint_torque, true);
+}
+
 /// The plain refit in the place of a fit whose bodies can be, where that leaves far more. Its first
 /// `given` stay.
 Fit or_regression(const Observations& observations, Fit best, std::size_t given,
@@ -258,9 +264,9 @@ Fit or_regression(const Observations& observations, Fit best, std::size_t given,
   const auto end = best.chosen.begin() + static_cast<std::ptrdiff_t>(given);
   const Fit stays = fit(observations, {best.chosen.begin(), end}, 0);
   Fit plain = fit_regression(observations, stays, hypotheses, dictionary);
-  const double before = observations.rms(best.remainder, simulation::joint_torque, true);
-  const double after = observations.rms(plain.remainder, simulation::joint_torque, true);
-  return after < kClearlyBetter * before ? plain : best;
+  return held_out_torque(observations, plain) < kClearlyBetter * held_out_torque(observations, best)
+             ? plain
+             : best;
 }
 
 /// Findings, and behind them the numbers of the families that stay beside them.
@@ -291,11 +297,12 @@ Fit fit_families(const Observations& observations, const Fit& findings,
     Dictionary next_dictionary = more.back().hypothesis.traits().is_clock
                                      ? current
                                      : with_coupled_drive(observations, current, more.back());
-    Fit next =
-        refined(observations,
-                fit_beside(observations, fit(observations, more, kExtraSteps, &next_dictionary),
-                           hypotheses, next_dictionary),
-                more.size(), hypotheses);
+    Fit next = fit_beside(observations, fit(observations, more, kExtraSteps, &next_dictionary),
+                          hypotheses, next_dictionary);
+    if (held_out_torque(observations, next) > kHopeless * held_out_torque(observations, best)) {
+      break;
+    }
+    next = refined(observations, std::move(next), more.size(), hypotheses);
     if (!(bic_gain(observations, best, next) > kStrongEvidence) ||
         !predicts_better(observations, best, next) ||
         !is_real(observations, next, more.size() - 1)) {
