@@ -41,7 +41,7 @@ Eigen::VectorXd compliances(const RobotModel<double, 6>& model, const SoughtSpri
 }
 
 InformedTest candidate_of(const RobotModel<double, 6>& model, const LoadTest& test,
-                       const PlanRequest& request) {
+                          const PlanRequest& request) {
   // The difference of a loaded and an unloaded reading has twice the variance of one.
   return {test, spring_columns(model, test, request.sought) *
                     compliances(model, request.sought).asDiagonal() /
@@ -81,9 +81,10 @@ double growth(const InformedTest& candidate, const Eigen::MatrixXd& inverse) {
 }
 
 const InformedTest& best_of(const std::vector<InformedTest>& all, const Eigen::MatrixXd& inverse) {
-  return *std::max_element(all.begin(), all.end(), [&](const InformedTest& a, const InformedTest& b) {
-    return growth(a, inverse) < growth(b, inverse);
-  });
+  return *std::max_element(all.begin(), all.end(),
+                           [&](const InformedTest& a, const InformedTest& b) {
+                             return growth(a, inverse) < growth(b, inverse);
+                           });
 }
 
 void check(const PlanRequest& request) {

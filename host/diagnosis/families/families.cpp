@@ -26,9 +26,9 @@ constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
 constexpr double kNearNoise = 1.15;  // times the noise: nothing that a regression could better
 constexpr double kClearlyBetter =
-    0.97;                       // of the held-out error, that bodies which cannot be are worth
-constexpr int kExtraSteps = 0;  // before the numbers are beside them
-constexpr double kLeastShare = 0.01;  // of the sum of squares, that a coupling is worth trying for
+    0.97;                            // of the held-out error, that bodies which cannot be are worth
+constexpr int kExtraSteps = 0;       // before the numbers are beside them
+constexpr double kLeastGain = 0.01;  // of the sum of squares, that a coupling is worth trying for
 
 /// Physics that is far from linear, so that it must be there before the numbers are fitted.
 struct Extra {
@@ -283,7 +283,7 @@ Fit fit_families(const Observations& observations, const Fit& findings,
   Dictionary current = dictionary;
   while (true) {
     const std::vector<Extra> extras = propose_extras(observations, best, hypotheses);
-    if (extras.empty() || extras.front().gain < kLeastShare * best.train_sum) {
+    if (extras.empty() || extras.front().gain < kLeastGain * best.train_sum) {
       break;
     }
     std::vector<Chosen> more = given;
