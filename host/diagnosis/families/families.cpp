@@ -24,7 +24,7 @@ constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the join
 constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
 constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
-constexpr double kNearNoise = 1.15;  // times the noise: nothing that a regression could better
+constexpr double kLikeNoise = 1.15;  // times the noise: nothing that a regression could better
 constexpr double kClearlyBetter =
     0.97;                            // of the held-out error, that bodies which cannot be are worth
 constexpr int kExtraSteps = 0;       // before the numbers are beside them
@@ -252,7 +252,7 @@ Fit joined(const Observations& observations, Fit best, std::size_t findings,
 /// `given` stay.
 Fit or_regression(const Observations& observations, Fit best, std::size_t given,
                   const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  if (largest_ratio(observations, best.remainder) < kNearNoise) {
+  if (largest_ratio(observations, best.remainder) < kLikeNoise) {
     return best;
   }
   const auto end = best.chosen.begin() + static_cast<std::ptrdiff_t>(given);
