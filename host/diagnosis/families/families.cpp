@@ -19,7 +19,6 @@ constexpr double kCloser = 0.3;           // times the tolerances of a body that
 constexpr int kHoldingRounds = 4;         // of holding closer, before a body is left out after all
 constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
 constexpr int kRoundsAnew = 2;            // of choosing the numbers about those that were fitted
-constexpr int kSimulatedSteps = 8;        // of the fit by simulation, from close by
 constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the joint before its own
 constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
 constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
