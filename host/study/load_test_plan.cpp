@@ -20,7 +20,7 @@ constexpr double kInformed = 1e-6;  // more than the prior, by far
 constexpr int kMostSprings = 18;
 
 /// A candidate and what it adds: its columns over the noise, per part of the model's compliance.
-struct Candidate {
+struct InformedTest {
   LoadTest test;
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMostSprings> columns;  ///< 3 × springs
 };
@@ -40,17 +40,17 @@ Eigen::VectorXd compliances(const RobotModel<double, 6>& model, const SoughtSpri
       .cwiseMax(kLeastCompliance);
 }
 
-Candidate candidate_of(const RobotModel<double, 6>& model, const LoadTest& test,
-                       const PlanRequest& request) {
+InformedTest candidate_of(const RobotModel<double, 6>& model, const LoadTest& test,
+                          const PlanRequest& request) {
   // The difference of a loaded and an unloaded reading has twice the variance of one.
   return {test, spring_columns(model, test, request.sought) *
                     compliances(model, request.sought).asDiagonal() /
                     (std::sqrt(2) * request.noise)};
 }
 
-Eigen::MatrixXd information_of(const std::vector<Candidate>& chosen, Eigen::Index springs) {
+Eigen::MatrixXd information_of(const std::vector<InformedTest>& chosen, Eigen::Index springs) {
   Eigen::MatrixXd information = kPrior * Eigen::MatrixXd::Identity(springs, springs);
-  for (const Candidate& each : chosen) {
+  for (const InformedTest& each : chosen) {
     information += each.columns.transpose() * each.columns;
   }
   return information;
@@ -74,16 +74,17 @@ Eigen::VectorXd half_widths(const Eigen::MatrixXd& information) {
 }
 
 /// Logarithm of the determinant's growth by a candidate, of an information with that inverse.
-double growth(const Candidate& candidate, const Eigen::MatrixXd& inverse) {
+double growth(const InformedTest& candidate, const Eigen::MatrixXd& inverse) {
   const Eigen::Matrix3d inner =
       Eigen::Matrix3d::Identity() + candidate.columns * inverse * candidate.columns.transpose();
   return std::log(std::max(inner.determinant(), 1e-300));
 }
 
-const Candidate& best_of(const std::vector<Candidate>& all, const Eigen::MatrixXd& inverse) {
-  return *std::max_element(all.begin(), all.end(), [&](const Candidate& a, const Candidate& b) {
-    return growth(a, inverse) < growth(b, inverse);
-  });
+const InformedTest& best_of(const std::vector<InformedTest>& all, const Eigen::MatrixXd& inverse) {
+  return *std::max_element(all.begin(), all.end(),
+                           [&](const InformedTest& a, const InformedTest& b) {
+                             return growth(a, inverse) < growth(b, inverse);
+                           });
 }
 
 void check(const PlanRequest& request) {
@@ -138,7 +139,7 @@ class Planner {
     // No plan tells a spring that interval holds zero of even if each of its tests were the best
     // one for this spring and nothing else were sought.
     Eigen::ArrayXd most_told = Eigen::ArrayXd::Zero(springs_);
-    for (const Candidate& each : candidates_) {
+    for (const InformedTest& each : candidates_) {
       most_told = most_told.max(each.columns.colwise().squaredNorm().transpose().array());
     }
     const auto most = static_cast<double>(request.most);
@@ -156,7 +157,7 @@ class Planner {
     std::normal_distribution<double> step(0, 0.2);  // rad
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       const Eigen::MatrixXd inverse = inverse_without(i);
-      const Candidate& other = best_of(candidates_, inverse);
+      const InformedTest& other = best_of(candidates_, inverse);
       if (growth(other, inverse) > growth(chosen_[i], inverse)) {
         chosen_[i] = other;
       }
@@ -165,7 +166,7 @@ class Planner {
         for (double& angle : test.q) {
           angle += step(random_);
         }
-        Candidate moved = candidate_of(model_, test, request_);
+        InformedTest moved = candidate_of(model_, test, request_);
         if (is_allowed(model_, request_, test.q) &&
             growth(moved, inverse) > growth(chosen_[i], inverse)) {
           chosen_[i] = std::move(moved);
@@ -191,7 +192,7 @@ class Planner {
     return true;
   }
 
-  const std::vector<Candidate>& chosen() const { return chosen_; }
+  const std::vector<InformedTest>& chosen() const { return chosen_; }
 
  private:
   Eigen::MatrixXd inverse_without(std::size_t index) const {
@@ -205,8 +206,8 @@ class Planner {
   const RobotModel<double, 6>& model_;
   const PlanRequest& request_;
   std::mt19937 random_;
-  std::vector<Candidate> candidates_;
-  std::vector<Candidate> chosen_;
+  std::vector<InformedTest> candidates_;
+  std::vector<InformedTest> chosen_;
   Eigen::Index springs_ = 0;
   Eigen::VectorXd best_widths_;  ///< with all candidates
   Eigen::Array<bool, Eigen::Dynamic, 1> matters_;
@@ -243,7 +244,7 @@ std::vector<LoadTest> random_tests(const RobotModel<double, 6>& model, const Pla
 Eigen::VectorXd expected_half_widths(const RobotModel<double, 6>& model,
                                      const std::vector<LoadTest>& tests,
                                      const PlanRequest& request) {
-  std::vector<Candidate> all;
+  std::vector<InformedTest> all;
   all.reserve(tests.size());
   for (const LoadTest& test : tests) {
     all.push_back(candidate_of(model, test, request));
@@ -269,7 +270,7 @@ LoadTestPlan plan_load_tests(const RobotModel<double, 6>& model, const PlanReque
     progress(planner.chosen().size(), request.most);
   }
   plan.half_width = planner.widths();
-  for (const Candidate& each : planner.chosen()) {
+  for (const InformedTest& each : planner.chosen()) {
     plan.tests.push_back(each.test);
   }
   return plan;

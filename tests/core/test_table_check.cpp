@@ -30,6 +30,8 @@ using Words = std::vector<std::uint32_t>;
 constexpr GainBasis kProcess{-0.0002F, 0.0012F, 0.002F, 0.004F, 60, 0.004F};
 constexpr std::uint32_t kOneIn = FLEXCOMP_FEW_CASES ? 5 : 1;  // parts of a record
 constexpr int kAngles = FLEXCOMP_FEW_CASES ? 300 : 3000;      // tried about the chords of a table
+constexpr int kSteps = FLEXCOMP_FEW_CASES ? 15 : 40;          // of a program: a check takes all
+constexpr double kTolerance = FLEXCOMP_FEW_CASES ? 4e-5 : 1e-5;  // m, rad
 constexpr float kLastPlace = 1e-7F;  // m or rad: what a unit in the last place of an angle can do
 constexpr std::size_t kHeaderWords = sizeof(TableHeader) / 4;
 constexpr std::size_t kFirstNumber = offsetof(TableHeader, grid_lower) / 4;
@@ -43,14 +45,15 @@ struct Subject {
 
 Subject path_subject(const Model& model) {
   Subject subject{model, Words(1 << 16), {}};
-  for (int i = 0; i <= 40; ++i) {
+  for (int i = 0; i <= kSteps; ++i) {
     subject.setpoints.push_back(loop_angles<double>(0.02 * i));
   }
   std::size_t size = 0;
-  TEST_ASSERT_EQUAL(Result::ok, (build_path_table<double, 6>(
-                                    model, subject.setpoints.data(), subject.setpoints.size(),
-                                    {1600, 20, 1e-5, 1e-5, gain_limit(kProcess).safe, kProcess},
-                                    subject.words.data(), 4 << 16, &size)));
+  TEST_ASSERT_EQUAL(Result::ok,
+                    (build_path_table<double, 6>(
+                        model, subject.setpoints.data(), subject.setpoints.size(),
+                        {1600, 20, kTolerance, kTolerance, gain_limit(kProcess).safe, kProcess},
+                        subject.words.data(), 4 << 16, &size)));
   subject.words.resize(size / 4);
   return subject;
 }
@@ -58,15 +61,15 @@ Subject path_subject(const Model& model) {
 Subject grid_subject() {
   Subject subject{kr270<double>(), Words(1 << 16), {}};
   const GridRange<double> ranges[4] = {{-1.25, -1.15}, {1.25, 1.35}, {0.3, 0.3}, {0.8, 0.8}};
-  for (int i = 0; i <= 40; ++i) {
+  for (int i = 0; i <= kSteps; ++i) {
     Angles q;
     q << 0.3 + 0.01 * i, -1.25 + 0.0025 * i, 1.35 - 0.0025 * i, 0.3, 0.8, 0.02 * i;
     subject.setpoints.push_back(q);
   }
   std::size_t size = 0;
-  TEST_ASSERT_EQUAL(Result::ok,
-                    (build_grid_table<double, 6>(subject.model, ranges, {1600, 20, 1e-5, 1e-5},
-                                                 subject.words.data(), 4 << 16, &size)));
+  TEST_ASSERT_EQUAL(Result::ok, (build_grid_table<double, 6>(
+                                    subject.model, ranges, {1600, 20, kTolerance, kTolerance},
+                                    subject.words.data(), 4 << 16, &size)));
   subject.words.resize(size / 4);
   return subject;
 }

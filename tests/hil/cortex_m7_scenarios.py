@@ -7,6 +7,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
@@ -18,6 +19,7 @@ HERE = pathlib.Path(__file__).parent
 OUTSIDE = pathlib.Path(os.environ["FLEXCOMP_BOARD"])
 IN_FIXED_MEMORY = 3
 NOT_SIGNED, FORGED = 40, 41
+COARSE = 1e-5  # m, tolerance of a table that is half as long on its way
 
 
 def ask(order, **values):
@@ -63,7 +65,7 @@ class Firmware(HilTest):
 
 class InLockstep(Firmware):
     def test_it_keeps_the_circle_as_round_as_flexcompd_does(self):
-        job = Job(self.folder, "kr270", 0.1)
+        job = Job(self.folder, "kr270", 0.1, radius=0.05)
         self.start(job, "--trigger", "lockstep")
         before, _ = mill(job, self.folder / "without.csv", "--table", job.table, "--without-compensation")
         after, _ = mill(job, self.folder / "with.csv", "--bus", f"can:{BUS}", "--lockstep")
@@ -71,15 +73,24 @@ class InLockstep(Firmware):
         self.assertLessEqual(after / before, LARGEST_SHARE)
 
 
-class Fed(Firmware):
-    """Periods of 20 ms: the line goes through a guest and back."""
+class AtThePaceOfTheClock(Firmware):
+    """Periods of 20 ms: the line goes through a guest and back. All tests have one job, which takes a guest two
+    seconds to make."""
 
     PERIOD = 0.02
 
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.job = Job(scratch.name, period=cls.PERIOD)
+        cls.job.be_patient()
+
+
+class Fed(AtThePaceOfTheClock):
     def setUp(self):
         super().setUp()
-        self.job = Job(self.folder, period=self.PERIOD)
-        self.job.be_patient()
         self.start(self.job)
         self.peer = self.client()
         self.feeder = Feeder(self.job, self.peer)
@@ -113,7 +124,7 @@ class InRealTime(Fed):
         self.assertLessEqual(stack[0], 4096)
 
     def test_a_table_over_the_bus_is_swapped_in_while_correcting(self):
-        frames = table_frames(self.peer, other_table(self.job))
+        frames = table_frames(self.peer, other_table(self.job, COARSE))
         self.bring_up()
         received, replies = transfer(self.feeder, frames)
         self.assertEqual([0, 0], [reply["result"] for reply in replies])
@@ -123,7 +134,7 @@ class InRealTime(Fed):
         self.assertEqual(1, beats[-1])
 
     def test_a_damaged_table_is_refused_and_the_one_in_use_stays(self):
-        data = bytearray(other_table(self.job))
+        data = bytearray(other_table(self.job, COARSE))
         data[500] ^= 1
         frames = table_frames(self.peer, bytes(data))
         self.bring_up()
@@ -173,7 +184,7 @@ class WithAKey(Fed):
         self.key = self.folder / "key"
         self.key.touch(0o600)
         self.key.write_text(self.KEY + "\n")
-        other_table(job)
+        other_table(job, COARSE)
         self.sign(job.table, 5)
         super().start(job, "--key", self.key, *options)
         self.assertEqual(0o600, (self.folder / "settings.bin").stat().st_mode & 0o777)
@@ -186,7 +197,7 @@ class WithAKey(Fed):
         return replies[-1]["result"]
 
     def test_a_table_over_the_bus_must_be_signed(self):
-        other = self.folder / "other.fct"
+        other = self.job.folder / "other.fct"
         unsigned = other.read_bytes()
         self.sign(other, 6)
         self.bring_up()
@@ -197,18 +208,14 @@ class WithAKey(Fed):
         self.assertEqual(0, self.answer(other.read_bytes()))
 
 
-class ThePlant(Firmware):
+class ThePlant(AtThePaceOfTheClock):
     """The robot moves by corrections that cease in the midst of the contour."""
-
-    PERIOD = 0.02
 
     def mill_while(self, order):
         """Motion of the robot's second joint, in rad, while `order` happens to the board."""
-        job = Job(self.folder, "kr270", 0.1, period=self.PERIOD)
-        job.be_patient()
-        self.start(job)
+        self.start(self.job)
         run = self.folder / "run.csv"
-        plant = subprocess.Popen([BIN / "flexcomp", "plant", "--model", job.model, "--path", job.path,
+        plant = subprocess.Popen([BIN / "flexcomp", "plant", "--model", self.job.model, "--path", self.job.path,
                                   "--period", str(self.PERIOD), "--bus", f"can:{BUS}", "--out", run],
                                  stdout=subprocess.DEVNULL)
         time.sleep(6)  # it stands, arms and enters the cut for less than three; the contour takes six

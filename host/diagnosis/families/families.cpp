@@ -19,17 +19,16 @@ constexpr double kCloser = 0.3;           // times the tolerances of a body that
 constexpr int kHoldingRounds = 4;         // of holding closer, before a body is left out after all
 constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
 constexpr int kRoundsAnew = 2;            // of choosing the numbers about those that were fitted
-constexpr int kSimulatedSteps = 8;        // of the fit by simulation, from close by
 constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the joint before its own
 constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
 constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
 constexpr double kHopeless = 1.1;  // of the held-out error, that choosing anew does not make up for
-constexpr double kNearNoise = 1.15;  // times the noise: nothing that a regression could better
+constexpr double kLikeNoise = 1.15;  // times the noise: nothing that a regression could better
 constexpr double kClearlyBetter =
-    0.97;                       // of the held-out error, that bodies which cannot be are worth
-constexpr int kExtraSteps = 0;  // before the numbers are beside them
-constexpr double kLeastShare = 0.01;  // of the sum of squares, that a coupling is worth trying for
+    0.97;                            // of the held-out error, that bodies which cannot be are worth
+constexpr int kExtraSteps = 0;       // before the numbers are beside them
+constexpr double kLeastGain = 0.01;  // of the sum of squares, that a coupling is worth trying for
 
 /// Physics that is far from linear, so that it must be there before the numbers are fitted.
 struct Extra {
@@ -258,7 +257,7 @@ double held_out_torque(const Observations& observations, const Fit& fit) {
 /// `given` stay.
 Fit or_regression(const Observations& observations, Fit best, std::size_t given,
                   const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  if (largest_ratio(observations, best.remainder) < kNearNoise) {
+  if (largest_ratio(observations, best.remainder) < kLikeNoise) {
     return best;
   }
   const auto end = best.chosen.begin() + static_cast<std::ptrdiff_t>(given);
@@ -289,7 +288,7 @@ Fit fit_families(const Observations& observations, const Fit& findings,
   Dictionary current = dictionary;
   while (true) {
     const std::vector<Extra> extras = propose_extras(observations, best, hypotheses);
-    if (extras.empty() || extras.front().gain < kLeastShare * best.train_sum) {
+    if (extras.empty() || extras.front().gain < kLeastGain * best.train_sum) {
       break;
     }
     std::vector<Chosen> more = given;

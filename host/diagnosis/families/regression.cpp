@@ -7,8 +7,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kFarAway = 1e6;    // steps: no number gets there
-constexpr int kSimulatedSteps = 8;  // of the fit by simulation, from close by
+constexpr double kFarAway = 1e6;  // steps: no number gets there
 
 /// The hypotheses with links' masses that nothing holds. A payload adds nothing to those of the
 /// last link.

@@ -5,6 +5,8 @@
 
 namespace flexcomp::diagnosis {
 
+constexpr int kSimulatedSteps = 8;  ///< of the fit of a family by simulation, from close by
+
 /// The plain refit of identification: masses, first moments and inertias of all links as the
 /// numbers of a regression, whatever bodies they would be of, with friction, rotors and
 /// zeros (Khalil and Dombre 2002, ch. 12). Bodies that can be explain less than it where torques
