@@ -38,7 +38,8 @@ Choice laws_in(const Observations& observations) {
   const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
   const Fit given = fit(observations, {}, 0);
   const Inquiry inquiry{observations, dictionary, 0.01, given};
-  return grammar::choose_laws(inquiry, given, [](std::size_t, std::size_t) {});
+  grammar::Budget budget(600);
+  return grammar::choose_laws(inquiry, given, &budget, [](std::size_t, std::size_t) {});
 }
 
 /// Part of the held-out error beyond the noise that is left.

@@ -31,7 +31,7 @@ def diagnose(tool, box, limit, case, answers):
             shutil.copyfile(case / f"{part}.csv", work / f"{part}.csv")
         before = _processor()
         done = box.run([str(tool), "diagnose", "--model", "model/robot.yaml", "--recording",
-                        "train.csv", "--holdout", "holdout.csv", "--out", "out", "--seek-laws"], work, limit)
+                        "train.csv", "--holdout", "holdout.csv", "--out", "out"], work, limit)
         answers.mkdir(parents=True, exist_ok=True)
         for name in KEPT:
             path = work / "out" / name

@@ -67,7 +67,7 @@ def compare(task):
     if concealed["effect"] != effect:
         return None
     whole = _answer(own, truth, own.folder / "with", [])
-    less = _answer(own, truth, own.folder / "without", ["--without", effect, "--seek-laws"])
+    less = _answer(own, truth, own.folder / "without", ["--without", effect])
     laws = [finding for finding in less["findings"] if finding["effect"] == "law"]
     return Pair(own.seed, truth["kind"], f"{effect} {concealed['joint'] or ''}".strip(),
                 _error(whole, truth), _error(less, truth),
