@@ -105,6 +105,12 @@ bool is_outdone(const Observations& observations, const Fit& findings, const Pro
   return bic_gain(samples, findings.train_sum, rival.fit.train_sum, 0) > kFarMoreEvidence;
 }
 
+bool has_law(const Diagnosis& diagnosis) {
+  const std::vector<Finding>& findings = diagnosis.choice.findings;
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& each) { return grammar::is_law(each.chosen.hypothesis); });
+}
+
 std::string reason_of_nothing(const Choice& choice) {
   if (choice.mispredicts) {
     return "what fits the recordings does not predict what was held out";
@@ -131,7 +137,8 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   } else {
     diagnosis->verdict = is_noise ? "explained" : "partly_explained";
     diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
-    if (found.chosen.size() > 1 && after > kNearNoise) {
+    // A law is such a form itself, with proof.
+    if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
       Proposal rival = propose(observations, fit(observations, {}, 0));
       if (is_outdone(observations, found, rival)) {
         withdraw(observations, "a form that no known effect has accounts for more of it",
@@ -209,12 +216,6 @@ void settle(const Inquiry& inquiry, const Settings& settings, Diagnosis* diagnos
   if (settings.law_seconds > 0 && asks_for_laws(inquiry.observations, *diagnosis)) {
     seek_laws(inquiry, settings, diagnosis);
   }
-}
-
-bool has_law(const Diagnosis& diagnosis) {
-  const std::vector<Finding>& findings = diagnosis.choice.findings;
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const Finding& each) { return grammar::is_law(each.chosen.hypothesis); });
 }
 
 }  // namespace

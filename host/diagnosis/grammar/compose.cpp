@@ -101,15 +101,23 @@ class Fitted {
   Form form_;
 };
 
+/// For each term the amplitude by which it does as much as the term that does most.
+Eigen::VectorXd reach_of(const Normal& normal, const Eigen::VectorXd& amplitude) {
+  constexpr double kTiny = 1e-300;
+  const Eigen::VectorXd size = normal.gram.diagonal().cwiseMax(kTiny).cwiseSqrt();
+  return amplitude.cwiseAbs().cwiseProduct(size).maxCoeff() * size.cwiseInverse();
+}
+
 Composed composed_of(const Material& material, const Lead& lead, const Form& form,
                      Values parameters) {
-  Composed law{lead, form, std::move(parameters), {}, 0, {}};
+  Composed law{lead, form, std::move(parameters), {}, {}, 0, {}};
   const Eigen::MatrixXd courses = Fitted(material, lead, form).courses(law.parameters);
   if (!courses.allFinite()) {
     return law;
   }
   const Normal normal = normal_of(*lead.seat, courses);
   law.amplitude = normal.amplitude();
+  law.reach = reach_of(normal, law.amplitude);
   law.gain = normal.gain(law.amplitude);
   law.unseen = unseen_gains(normals_by_stretch(*lead.seat, material.rows, courses));
   return law;
@@ -260,11 +268,12 @@ std::string formula_of(const Composed& law, std::vector<std::string>* names) {
   return text;
 }
 
-/// Where an amplitude is sought: far around what was found, and through zero.
-Bounds bounds_of_amplitude(double value) {
+/// Where an amplitude is sought: through zero, and far beyond its reach. What other numbers of the
+/// law do may turn one term into another.
+Bounds bounds_of_amplitude(double reach) {
   constexpr double kFar = 50;
   constexpr double kStep = 0.05;
-  const double size = std::max(std::abs(value), 1e-12);
+  const double size = std::max(reach, 1e-12);
   return {-kFar * size, kFar * size, kStep * size};
 }
 
@@ -318,8 +327,8 @@ Chosen chosen_of(const Observations& observations, const Composed& composed) {
                                    usual_cause(composed.lead, *composed.form.shape)),
                         joint, robot);
   std::vector<Bounds> bounds;
-  for (const double amplitude : composed.amplitude) {
-    bounds.push_back(bounds_of_amplitude(amplitude));
+  for (const double reach : composed.reach) {
+    bounds.push_back(bounds_of_amplitude(reach));
   }
   for (const Bounds& each : bounds_of(*composed.form.shape, *composed.lead.driver, observations)) {
     bounds.push_back(each);

@@ -27,9 +27,10 @@ struct Form {
 struct Composed {
   Lead lead;
   Form form;
-  Values parameters;           ///< of the shape
-  Eigen::VectorXd amplitude;   ///< of the terms
-  double gain = 0;             ///< in squares
+  Values parameters;          ///< of the shape
+  Eigen::VectorXd amplitude;  ///< of the terms
+  Eigen::VectorXd reach;  ///< amplitude by which each term does as much as the one that does most
+  double gain = 0;        ///< in squares
   std::vector<double> unseen;  ///< gains where it was not fitted to (normal.hpp)
 
   std::size_t numbers() const {
