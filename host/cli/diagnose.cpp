@@ -33,9 +33,6 @@ namespace {
 constexpr Eigen::Index kMostRows = 8000;
 constexpr Eigen::Index kMostSamples = 48000;
 
-/// Processor time for laws that nobody listed, unless said.
-constexpr double kLawSeconds = 40;
-
 struct DiagnoseOptions {
   RobotChoice model;
   std::vector<std::string> recordings;
@@ -44,7 +41,7 @@ struct DiagnoseOptions {
   std::vector<std::string> without;
   std::string out;
   double false_discovery = 0.01;
-  double law_seconds = kLawSeconds;
+  double law_seconds = 0;
 };
 
 Eigen::Index components(const recording::Recording& recording) {
@@ -135,7 +132,7 @@ std::string command_line(const DiagnoseOptions& options) {
   for (const std::string& effect : options.without) {
     line += " --without " + effect;
   }
-  if (options.law_seconds != kLawSeconds) {
+  if (options.law_seconds > 0) {
     line += fmt::format(" --law-seconds {:g}", options.law_seconds);
   }
   return line +
@@ -275,9 +272,8 @@ void add_diagnose(CLI::App* app, Action* action) {
           "and\nthe ranges of its parameters; may be given again")
       ->take_all();
   command->add_option("--law-seconds", options->law_seconds,
-                      fmt::format("processor time (s) for composing laws that nobody listed, where "
-                                  "effects leave a\nmismatch; 0: none are (default {:g})",
-                                  kLawSeconds));
+                      "processor time (s) for composing laws that nobody listed, where effects "
+                      "leave a mismatch;\nnone are unless it is given, and 40 is enough");
   command
       ->add_option("--without", options->without,
                    "effect that is not sought, to see which law is found instead; may be given "
