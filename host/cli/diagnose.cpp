@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -40,7 +41,7 @@ struct DiagnoseOptions {
   std::vector<std::string> without;
   std::string out;
   double false_discovery = 0.01;
-  bool seeks_laws = false;
+  double law_seconds = 0;
 };
 
 Eigen::Index components(const recording::Recording& recording) {
@@ -131,8 +132,8 @@ std::string command_line(const DiagnoseOptions& options) {
   for (const std::string& effect : options.without) {
     line += " --without " + effect;
   }
-  if (options.seeks_laws) {
-    line += " --seek-laws";
+  if (options.law_seconds > 0) {
+    line += fmt::format(" --law-seconds {:g}", options.law_seconds);
   }
   return line +
          fmt::format(" --out {} --false-discovery {:g}", options.out, options.false_discovery);
@@ -176,6 +177,9 @@ void summarize(const model::Robot& robot, const diagnosis::Observations& observa
   if (!band.empty()) {
     say(band);
   }
+  if (result.laws_stopped) {
+    say(diagnosis::kLawsStopped);
+  }
   if (!result.suggested_experiment.empty()) {
     say(result.suggested_experiment);
   }
@@ -203,6 +207,9 @@ int run(const DiagnoseOptions& options) {
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
   }
+  if (!(options.law_seconds >= 0 && std::isfinite(options.law_seconds))) {
+    throw InputError("--law-seconds: expected a number of seconds, or 0");
+  }
   const model::Robot robot = load_robot(options.model);
   const std::vector<recording::Recording> recordings = read_recordings(options, robot.joints());
   diagnosis::Origin origin;
@@ -223,7 +230,7 @@ int run(const DiagnoseOptions& options) {
   Progress choosing("choosing", 5);
   diagnosis::Settings settings;
   settings.false_discovery = options.false_discovery;
-  settings.seeks_laws = options.seeks_laws;
+  settings.law_seconds = options.law_seconds;
   settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };
   settings.choosing = [&](std::size_t done, std::size_t) { choosing.show(done); };
   const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
@@ -264,8 +271,9 @@ void add_diagnose(CLI::App* app, Action* action) {
           "a law of your own to weigh beside all others: a file with its place, its formula "
           "and\nthe ranges of its parameters; may be given again")
       ->take_all();
-  command->add_flag("--seek-laws", options->seeks_laws,
-                    "compose laws that nobody listed for what effects leave; may take minutes");
+  command->add_option("--law-seconds", options->law_seconds,
+                      "processor time (s) for composing laws that nobody listed, where effects "
+                      "leave a mismatch;\nnone are unless it is given, and 40 is enough");
   command
       ->add_option("--without", options->without,
                    "effect that is not sought, to see which law is found instead; may be given "

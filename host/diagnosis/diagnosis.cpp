@@ -105,6 +105,12 @@ bool is_outdone(const Observations& observations, const Fit& findings, const Pro
   return bic_gain(samples, findings.train_sum, rival.fit.train_sum, 0) > kFarMoreEvidence;
 }
 
+bool has_law(const Diagnosis& diagnosis) {
+  const std::vector<Finding>& findings = diagnosis.choice.findings;
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& each) { return grammar::is_law(each.chosen.hypothesis); });
+}
+
 std::string reason_of_nothing(const Choice& choice) {
   if (choice.mispredicts) {
     return "what fits the recordings does not predict what was held out";
@@ -131,7 +137,8 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   } else {
     diagnosis->verdict = is_noise ? "explained" : "partly_explained";
     diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
-    if (found.chosen.size() > 1 && after > kNearNoise) {
+    // A law is such a form itself, with proof.
+    if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
       Proposal rival = propose(observations, fit(observations, {}, 0));
       if (is_outdone(observations, found, rival)) {
         withdraw(observations, "a form that no known effect has accounts for more of it",
@@ -165,23 +172,49 @@ Diagnosis with_laws(const Observations& observations, const Diagnosis& before, C
   return diagnosis.verdict == "unexplained" ? before : diagnosis;
 }
 
-/// Seeks laws that nobody listed beside what was found and, where that ends far from the noise,
-/// without it: what was found may stand for a law. Where a machine's numbers together account for
-/// more than any finding, these come first.
-void seek_laws(const Inquiry& inquiry, const Tell& tell, Diagnosis* diagnosis) {
-  constexpr double kFar = 2;  // times the noise
+/// Which of two diagnoses with laws: the second only by strong evidence, or with fewer numbers that
+/// none speaks against.
+const Diagnosis& better_of(const Observations& observations, const Diagnosis& one,
+                           const Diagnosis& other) {
+  const Fit& a = one.choice.fit;
+  const Fit& b = other.choice.fit;
+  const double gain = bic_gain(observations, a, b);
+  return gain > kStrongEvidence || (gain > 0 && b.parameters() < a.parameters()) ? other : one;
+}
+
+/// Seeks laws that nobody listed in the place of what was found, which may stand for a law, and
+/// beside it. Where a machine's numbers together account for more than any finding, laws must
+/// account for all.
+void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
-  if (!diagnosis->choice.begun.chosen.empty()) {
-    return;
-  }
-  if (!diagnosis->choice.findings.empty()) {
-    *diagnosis = with_laws(observations, *diagnosis,
-                           grammar::choose_laws(inquiry, diagnosis->choice.fit, tell));
-  }
-  const double left = largest_ratio(observations, diagnosis->choice.fit.remainder);
-  if (is_open(*diagnosis) && (diagnosis->choice.findings.empty() || left > kFar)) {
+  grammar::Budget budget(settings.law_seconds);
+  const bool is_of_families = !diagnosis->choice.begun.chosen.empty();
+  const Diagnosis afresh =
+      with_laws(observations, *diagnosis,
+                grammar::choose_laws(inquiry, inquiry.given, &budget, settings.choosing));
+  if (is_open(afresh) && !is_of_families && !diagnosis->choice.findings.empty()) {
     *diagnosis =
-        with_laws(observations, *diagnosis, grammar::choose_laws(inquiry, inquiry.given, tell));
+        with_laws(observations, *diagnosis,
+                  grammar::choose_laws(inquiry, diagnosis->choice.fit, &budget, settings.choosing));
+  }
+  if (!is_of_families || !is_open(afresh)) {
+    *diagnosis = better_of(observations, *diagnosis, afresh);
+  }
+  diagnosis->laws_stopped = budget.has_stopped();
+}
+
+/// May a law be missing? A load test's noise is learnt from what effects leave, and holds what they
+/// cannot say: there findings are weighed against laws too.
+bool asks_for_laws(const Observations& observations, const Diagnosis& diagnosis) {
+  return is_open(diagnosis) || (observations.is_static && !diagnosis.choice.findings.empty());
+}
+
+/// Judges what was chosen, and seeks laws for what it leaves.
+void settle(const Inquiry& inquiry, const Settings& settings, Diagnosis* diagnosis) {
+  find_groups(diagnosis);
+  judge(inquiry.observations, diagnosis);
+  if (settings.law_seconds > 0 && asks_for_laws(inquiry.observations, *diagnosis)) {
+    seek_laws(inquiry, settings, diagnosis);
   }
 }
 
@@ -209,16 +242,23 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   diagnosis.excitation = excitation(*observations, hypotheses, dictionary);
   diagnosis.location = locate(*observations, given.remainder);
   diagnosis.choice = choose(inquiry, settings.choosing);
-  for (int round = 0; round < kNoiseRounds && lower_noise(observations, diagnosis.choice.fit);
-       ++round) {
+  const auto choose_anew = [&] {
     given = fit(*observations, given.chosen, kSteps);
     dictionary = Dictionary(*observations, hypotheses, given.machine, settings.simulating);
     diagnosis.choice = choose(inquiry, settings.choosing);
+  };
+  for (int round = 0; round < kNoiseRounds && lower_noise(observations, diagnosis.choice.fit);
+       ++round) {
+    choose_anew();
   }
-  find_groups(&diagnosis);
-  judge(*observations, &diagnosis);
-  if (settings.seeks_laws && is_open(diagnosis)) {
-    seek_laws(inquiry, settings.choosing, &diagnosis);
+  settle(inquiry, settings, &diagnosis);
+  for (int round = 0; round < kNoiseRounds && has_law(diagnosis) &&
+                      lower_noise(observations, diagnosis.choice.fit);
+       ++round) {
+    choose_anew();
+    diagnosis.nearest.clear();
+    diagnosis.indistinguishable.clear();
+    settle(inquiry, settings, &diagnosis);
   }
   const bool leaves_something = is_open(diagnosis);
   if (leaves_something || are_many(inquiry, diagnosis.choice.fit)) {

@@ -38,6 +38,7 @@ struct Diagnosis {
   std::vector<std::vector<Place>> indistinguishable;
   std::string suggested_experiment;  ///< empty where none is needed
   std::vector<Trial> trials;         ///< of laws that a person suspected
+  bool laws_stopped = false;         ///< the search for laws ended for want of time
 
   /// The fit behind the updated model: the findings, and the numbers that stand in for the rest.
   const Fit& updated() const { return retuned.chosen.empty() ? choice.fit : retuned; }
@@ -47,8 +48,9 @@ struct Diagnosis {
 
 struct Settings {
   double false_discovery = 0.01;
-  bool seeks_laws =
-      false;        ///< composes laws for what effects leave (grammar/laws.hpp): takes longer
+  /// Processor time (s) in which laws are composed for what effects leave (grammar/laws.hpp); none
+  /// are for 0.
+  double law_seconds = 0;
   Tell simulating;  ///< told while hypotheses are simulated
   Tell choosing;    ///< told while they are chosen
 };

@@ -237,7 +237,8 @@ bool BoundFormula::follows(SignalKind kind) const {
 }
 
 bool BoundFormula::needs_levers() const {
-  return follows(SignalKind::torque) || follows(SignalKind::load) || follows(SignalKind::position);
+  return follows(SignalKind::torque) || follows(SignalKind::load) ||
+         follows(SignalKind::tool_wrench) || follows(SignalKind::position);
 }
 
 BoundFormula bind_law(const model::WrittenLaw& written, const model::Robot& robot, int joint,

@@ -31,13 +31,19 @@ struct OfMachine {
   const char* words;
 };
 
-constexpr std::array<OfMachine, 11> kOfMachine = {
+constexpr std::array<OfMachine, 17> kOfMachine = {
     {{"fx", SignalKind::wrench, 0, "N", "the force along x"},
      {"fy", SignalKind::wrench, 1, "N", "the force along y"},
      {"fz", SignalKind::wrench, 2, "N", "the force along z"},
      {"mx", SignalKind::wrench, 3, "N·m", "the moment about x"},
      {"my", SignalKind::wrench, 4, "N·m", "the moment about y"},
      {"mz", SignalKind::wrench, 5, "N·m", "the moment about z"},
+     {"fx_tool", SignalKind::tool_wrench, 0, "N", "the force along the tool's x"},
+     {"fy_tool", SignalKind::tool_wrench, 1, "N", "the force along the tool's y"},
+     {"fz_tool", SignalKind::tool_wrench, 2, "N", "the force along the tool's z"},
+     {"mx_tool", SignalKind::tool_wrench, 3, "N·m", "the moment about the tool's x"},
+     {"my_tool", SignalKind::tool_wrench, 4, "N·m", "the moment about the tool's y"},
+     {"mz_tool", SignalKind::tool_wrench, 5, "N·m", "the moment about the tool's z"},
      {"x", SignalKind::position, 0, "m", "the TCP's place along x"},
      {"y", SignalKind::position, 1, "m", "the TCP's place along y"},
      {"z", SignalKind::position, 2, "m", "the TCP's place along z"},
@@ -55,6 +61,18 @@ Eigen::VectorXd positions(const Simulation& at, int axis) {
   Eigen::VectorXd all(static_cast<Eigen::Index>(at.bent.size()));
   for (Eigen::Index row = 0; row < all.size(); ++row) {
     all[row] = at.bent[static_cast<std::size_t>(row)].tcp.position[axis];
+  }
+  return all;
+}
+
+/// A component of the wrench, in the tool frame.
+Eigen::VectorXd along_tool(const Simulation& at, int component) {
+  const int half = component < 3 ? 0 : 3;
+  Eigen::VectorXd all(static_cast<Eigen::Index>(at.bent.size()));
+  for (Eigen::Index row = 0; row < all.size(); ++row) {
+    const Vector3<double> axis =
+        at.bent[static_cast<std::size_t>(row)].tcp.rotation.col(component - half);
+    all[row] = at.wrench.row(row).segment<3>(half).dot(axis);
   }
   return all;
 }
@@ -106,6 +124,8 @@ Eigen::VectorXd values_of(const Signal& signal, const Scene& scene, const Simula
       return prediction.load.col(column);
     case SignalKind::wrench:
       return at.wrench.col(signal.index);
+    case SignalKind::tool_wrench:
+      return along_tool(at, signal.index);
     case SignalKind::position:
       return positions(at, signal.index);
     case SignalKind::temperature:

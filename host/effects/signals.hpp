@@ -19,6 +19,7 @@ enum class SignalKind {
   torque,        ///< tau1…: of the drive, without friction
   load,          ///< load1…: of wrench and weight on the joint's spring, at rest
   wrench,        ///< fx fy fz mx my mz: on the tool, at the TCP, base frame
+  tool_wrench,   ///< fx_tool … mz_tool: the same, tool frame
   position,      ///< x y z: the TCP of the bent robot, base frame
   temperature,   ///< temp_c
   time,          ///< t: since the recording's first row

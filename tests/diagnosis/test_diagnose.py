@@ -428,6 +428,7 @@ class Diagnose(unittest.TestCase):
         self.assert_refused(broken, "joint angles are needed")
         good = measured(self.folder, ROBOT, seed=5, poses=30)
         self.assert_refused(good, "--false-discovery", "--false-discovery", "2")
+        self.assert_refused(good, "--law-seconds", "--law-seconds", "-1")
         self.assert_refused(good, "missing.csv", "--holdout", self.folder / "missing.csv")
 
     def test_nothing_is_written_where_one_of_the_files_cannot_be(self):

@@ -1,10 +1,12 @@
 // Laws that nobody listed: found where they act, by what drives them, and not where nothing does.
 #include <cmath>
+#include <cstdlib>
 
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/grammar/normal.hpp"
 #include "diagnosis/grammar/wave.hpp"
+#include "diagnosis/output/law_picture.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::diagnosis::Choice;
@@ -33,12 +35,17 @@ Observations observed(const DrivenRobot& robot, int joint, Torque torque) {
   return robot.observed(truth);
 }
 
-Choice laws_in(const Observations& observations) {
+Choice laws_in(const Observations& observations, grammar::Budget* budget) {
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
   const Fit given = fit(observations, {}, 0);
   const Inquiry inquiry{observations, dictionary, 0.01, given};
-  return grammar::choose_laws(inquiry, given, [](std::size_t, std::size_t) {});
+  return grammar::choose_laws(inquiry, given, budget, [](std::size_t, std::size_t) {});
+}
+
+Choice laws_in(const Observations& observations) {
+  grammar::Budget budget(600);
+  return laws_in(observations, &budget);
 }
 
 /// Part of the held-out error beyond the noise that is left.
@@ -89,6 +96,68 @@ void friction_that_another_joints_angle_raises_is_followed() {
   TEST_ASSERT_TRUE_MESSAGE(formula.rfind("a*q3*sign(v5)", 0) == 0, formula.c_str());
 }
 
+void friction_of_a_gear_that_drives_follows_its_power() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    const Eigen::ArrayXd speed = at.velocity.col(4).array();
+    return Eigen::VectorXd(
+        (speed * at.acceleration.col(4).array() > 0).select(40 * speed.sign(), 0));
+  }));
+  const std::string formula = found.chosen.hypothesis.law->written->formula;
+  for (const char* part : {"(v5*a5)", "sign(v5)"}) {
+    TEST_ASSERT_TRUE_MESSAGE(formula.find(part) != std::string::npos, formula.c_str());
+  }
+}
+
+void a_wave_that_another_joint_turns_round_is_one_law() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    return Eigen::VectorXd(40 * (20 * at.q.col(4).array()).sin() * (3 * at.q.col(3).array()).cos());
+  }));
+  const std::string formula = found.chosen.hypothesis.law->written->formula;
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q5)*cos(3*q4)") != std::string::npos,
+                           formula.c_str());
+}
+
+void what_a_joint_carried_before_is_found_by_a_lag() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    Eigen::VectorXd late = -at.prediction.dynamic_load.col(4);
+    constexpr double kKept = 0.995;  // from one row to the next
+    for (Eigen::Index row = 1; row < late.size(); ++row) {
+      late[row] = kKept * late[row - 1] + (1 - kKept) * late[row];
+    }
+    return Eigen::VectorXd(0.5 * late);
+  }));
+  const std::string formula = found.chosen.hypothesis.law->written->formula;
+  TEST_ASSERT_TRUE_MESSAGE(formula.rfind("a*lag(tau5, T)", 0) == 0, formula.c_str());
+}
+
+void a_search_without_time_says_so_and_finds_nothing() {
+  const DrivenRobot robot;
+  const Observations observations = observed(robot, 5, [](const simulation::Simulation& at) {
+    return Eigen::VectorXd(40 * (3 * at.q.col(3).array()).sin());
+  });
+  grammar::Budget budget(0);
+  TEST_ASSERT_TRUE(laws_in(observations, &budget).findings.empty());
+  TEST_ASSERT_TRUE(budget.has_stopped());
+}
+
+void a_picture_that_fails_leaves_a_sentence() {
+  const DrivenRobot robot;
+  const Observations observations = observed(robot, 5, [](const simulation::Simulation& at) {
+    return Eigen::VectorXd(40 * (3 * at.q.col(3).array()).sin());
+  });
+  flexcomp::diagnosis::Diagnosis diagnosis;
+  diagnosis.choice = laws_in(observations);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  const std::string html = law_pictures(observations, diagnosis);
+  ::setenv("PATH", path.c_str(), 1);
+  TEST_ASSERT_TRUE(html.find("No picture of a*sin(3*q4)") != std::string::npos);
+  TEST_ASSERT_TRUE(law_pictures(observations, diagnosis).find("<svg") != std::string::npos);
+}
+
 void what_the_catalogue_has_keeps_its_name() {
   const DrivenRobot robot;
   const Observations observations = observed(robot, 5, [](const simulation::Simulation& at) {
@@ -137,6 +206,11 @@ int main() {
   RUN_TEST(noise_alone_has_no_law);
   RUN_TEST(a_hose_that_another_joint_pulls_is_a_wave_of_its_angle);
   RUN_TEST(friction_that_another_joints_angle_raises_is_followed);
+  RUN_TEST(friction_of_a_gear_that_drives_follows_its_power);
+  RUN_TEST(a_wave_that_another_joint_turns_round_is_one_law);
+  RUN_TEST(what_a_joint_carried_before_is_found_by_a_lag);
+  RUN_TEST(a_search_without_time_says_so_and_finds_nothing);
+  RUN_TEST(a_picture_that_fails_leaves_a_sentence);
   RUN_TEST(what_the_catalogue_has_keeps_its_name);
   RUN_TEST(a_tone_is_told_in_time);
   RUN_TEST(gains_are_told_where_nothing_was_fitted);

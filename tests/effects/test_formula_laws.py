@@ -167,6 +167,16 @@ class Simulation(WithAFolder):
         less[:, :3] = -0.1 * np.abs(s.wrench[:, :1]) * s.place.tool_rotation[:, :, 2]
         self.expect(-np.einsum("nij,ni->nj", s.jacobian, less), found)
 
+    def test_a_force_is_known_along_the_tool_too(self):
+        s = self.swing
+        found = self.change({"place": "joint_torque", "joint": 4, "a": 0.1, "b": 2,
+                             "formula": "a*fx_tool + b*mz_tool", "units": {"a": "m"}}, TORQUES)
+        force, moment = (np.einsum("nij,ni->nj", s.place.tool_rotation, half)
+                         for half in (s.wrench[:, :3], s.wrench[:, 3:]))
+        wanted = np.zeros((len(s.t), 6))
+        wanted[:, 3] = 0.1 * force[:, 0] + 2 * moment[:, 2]
+        self.expect(wanted, found)
+
     def test_lag_is_that_of_scipy(self):
         s = self.swing
         found = self.change({"place": "sensor x", "a": 1e-6, "T": 0.4, "formula": "a*lag(fx, T)"}, "xyz")

@@ -61,6 +61,7 @@ std::string cause_of_angle(const Lead& lead) {
     case SignalKind::torque:
     case SignalKind::load:
     case SignalKind::wrench:
+    case SignalKind::tool_wrench:
       return "usually a bearing, a housing or a gear that gives";
     case SignalKind::temperature:
     case SignalKind::time:
@@ -73,6 +74,7 @@ std::string cause_of_angle(const Lead& lead) {
 std::string cause_at_tcp(const Lead& lead) {
   switch (lead.driver->kind) {
     case SignalKind::wrench:
+    case SignalKind::tool_wrench:
     case SignalKind::load:
       return "usually a structure that gives";
     case SignalKind::temperature:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "diagnosis/grammar/causes.hpp"
 #include "diagnosis/grammar/known.hpp"
@@ -11,31 +12,29 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
-constexpr int kRefinements = 5;      // halvings of the step around the best start
-constexpr double kMostHalves = 0.8;  // in which a richer law must predict better
+constexpr int kRefinements = 5;              // halvings of the step around the best start
+constexpr double kMostHalves = 0.8;          // in which a richer law must predict better
+constexpr std::size_t kModulated = 3;        // leads of which a second driver is sought
+constexpr std::size_t kMostModulations = 3;  // of each that are weighed
 constexpr double kWorthwhile = 6;  // squares over the noise that it must gain for each number more
 
-/// A shape of a lead along all rows, by its parameters.
+/// A form of a lead along all rows, by its parameters.
 class Fitted {
  public:
-  Fitted(const Observations& observations, const Rows& rows, const Lead& lead, const Shape& shape,
-         bool has_constant)
-      : observations_(observations),
-        rows_(rows),
-        lead_(lead),
-        shape_(shape),
-        has_constant_(has_constant) {}
+  Fitted(const Material& material, const Lead& lead, const Form& form)
+      : observations_(material.observations), rows_(material.rows), lead_(lead), form_(form) {}
 
   Eigen::MatrixXd courses(const Values& parameters) const {
-    Eigen::MatrixXd courses = courses_of(shape_, *lead_.driver, rows_, observations_, parameters);
-    if (has_constant_) {
+    Eigen::MatrixXd courses =
+        courses_of(*form_.shape, *lead_.driver, rows_, observations_, parameters);
+    if (form_.has_constant) {
       courses.conservativeResize(Eigen::NoChange, courses.cols() + 1);
       courses.rightCols<1>().setOnes();
     }
     if (lead_.factor.course.size() > 0) {
       courses.array().colwise() *= lead_.factor.course.array();
     }
-    return courses;
+    return form_.modulation.driver == nullptr ? courses : modulated(courses);
   }
 
   double gain(const Values& parameters) const {
@@ -49,7 +48,8 @@ class Fitted {
 
   /// The best parameters: the best start, and around it in ever smaller steps.
   Values best() const {
-    const std::vector<Values> starts = starts_of(shape_, *lead_.driver, observations_, lead_.wave);
+    const std::vector<Values> starts =
+        starts_of(*form_.shape, *lead_.driver, observations_, lead_.wave);
     Values best = starts.front();
     double most = -1;
     for (const Values& start : starts) {
@@ -63,11 +63,22 @@ class Fitted {
   }
 
  private:
+  /// Each course times each of what the second driver does.
+  Eigen::MatrixXd modulated(const Eigen::MatrixXd& courses) const {
+    const Eigen::MatrixXd by =
+        courses_of(*form_.modulation.shape, *form_.modulation.driver, rows_, observations_, {});
+    Eigen::MatrixXd all(courses.rows(), courses.cols() * by.cols());
+    for (Eigen::Index i = 0; i < courses.cols(); ++i) {
+      all.middleCols(i * by.cols(), by.cols()) = by.array().colwise() * courses.col(i).array();
+    }
+    return all;
+  }
+
   Values refined(Values best, double most) const {
-    const std::vector<Bounds> bounds = bounds_of(shape_, *lead_.driver, observations_);
+    const std::vector<Bounds> bounds = bounds_of(*form_.shape, *lead_.driver, observations_);
     for (std::size_t i = 0; i < best.size(); ++i) {
-      const bool is_place = shape_.parameters[i].sought == Sought::threshold ||
-                            shape_.parameters[i].sought == Sought::wave;
+      const bool is_place = form_.shape->parameters[i].sought == Sought::threshold ||
+                            form_.shape->parameters[i].sought == Sought::wave;
       double step = is_place ? bounds[i].step * 5 : 0.4 * best[i];
       for (int k = 0; k < kRefinements; ++k, step /= 2) {
         for (const double change : {-step, step}) {
@@ -87,22 +98,28 @@ class Fitted {
   const Observations& observations_;
   const Rows& rows_;
   const Lead& lead_;
-  const Shape& shape_;
-  bool has_constant_;
+  Form form_;
 };
 
-Composed composed_of(const Observations& observations, const Rows& rows, const Lead& lead,
-                     const Shape& shape, bool has_constant, Values parameters) {
-  const Fitted fitted(observations, rows, lead, shape, has_constant);
-  Composed law{lead, &shape, has_constant, std::move(parameters), {}, 0, {}};
-  const Eigen::MatrixXd courses = fitted.courses(law.parameters);
+/// For each term the amplitude by which it does as much as the term that does most.
+Eigen::VectorXd reach_of(const Normal& normal, const Eigen::VectorXd& amplitude) {
+  constexpr double kTiny = 1e-300;
+  const Eigen::VectorXd size = normal.gram.diagonal().cwiseMax(kTiny).cwiseSqrt();
+  return amplitude.cwiseAbs().cwiseProduct(size).maxCoeff() * size.cwiseInverse();
+}
+
+Composed composed_of(const Material& material, const Lead& lead, const Form& form,
+                     Values parameters) {
+  Composed law{lead, form, std::move(parameters), {}, {}, 0, {}};
+  const Eigen::MatrixXd courses = Fitted(material, lead, form).courses(law.parameters);
   if (!courses.allFinite()) {
     return law;
   }
   const Normal normal = normal_of(*lead.seat, courses);
   law.amplitude = normal.amplitude();
+  law.reach = reach_of(normal, law.amplitude);
   law.gain = normal.gain(law.amplitude);
-  law.unseen = unseen_gains(normals_by_stretch(*lead.seat, rows, courses));
+  law.unseen = unseen_gains(normals_by_stretch(*lead.seat, material.rows, courses));
   return law;
 }
 
@@ -126,6 +143,9 @@ void best_first(std::vector<Composed>* laws) {
                                             : mean(a.unseen) > mean(b.unseen);
   });
   std::size_t best = 0;
+  if (laws->empty()) {
+    return;
+  }
   for (std::size_t i = 1; i < laws->size(); ++i) {
     if (is_worth((*laws)[i], (*laws)[best])) {
       best = i;
@@ -135,16 +155,21 @@ void best_first(std::vector<Composed>* laws) {
               laws->begin() + static_cast<std::ptrdiff_t>(best) + 1);
 }
 
-std::vector<Composed> laws_of(const Observations& observations, const Rows& rows, const Lead& lead,
-                              const std::set<std::string>& effects) {
+/// Would a shape say nothing that a plainer law does not? A factor by its own driver is a square.
+bool is_redundant(const Lead& lead, const Shape& shape) {
+  return lead.is_of_itself() && shape.parameters.empty();
+}
+
+/// A lead with each of its shapes, those with a name in the catalogue among them.
+std::vector<Composed> laws_of(const Material& material, const Lead& lead) {
   std::vector<Composed> laws;
   for (const Shape& shape : shapes()) {
-    if (!shape.fits(*lead.seat, *lead.driver) || effects.count(known_as(lead, shape)) > 0) {
+    if (!shape.fits(*lead.seat, *lead.driver) || is_redundant(lead, shape)) {
       continue;
     }
-    const Values parameters = Fitted(observations, rows, lead, shape, true).best();
+    const Values parameters = Fitted(material, lead, {&shape, true, {}}).best();
     for (const bool has_constant : {false, true}) {
-      Composed law = composed_of(observations, rows, lead, shape, has_constant, parameters);
+      Composed law = composed_of(material, lead, {&shape, has_constant, {}}, parameters);
       if (law.gain > 0) {
         laws.push_back(std::move(law));
       }
@@ -153,32 +178,102 @@ std::vector<Composed> laws_of(const Observations& observations, const Rows& rows
   return laws;
 }
 
-/// The formula's text, and its parameters: the amplitudes, then those of the shape.
-std::string formula_of(const Composed& law, std::vector<std::string>* names) {
-  constexpr const char* kAmplitudes[] = {"a", "b", "c", "e"};
-  std::vector<std::string> terms = terms_of(*law.shape, *law.lead.driver);
-  if (law.has_constant) {
+/// What the second driver makes of a law that does most.
+std::vector<Composed> modulated(const Material& material, const Composed& law) {
+  constexpr double kMore = 1.2;  // times the law's own gain
+  std::vector<std::pair<double, Modulation>> by_gain;
+  for (const Driver& driver : material.drivers) {
+    for (const Shape& shape : modulations()) {
+      const Modulation by{&driver, &shape};
+      const bool is_able = !driver.is_power && driver.kind != effects::SignalKind::time &&
+                           driver.name != law.lead.driver->name && shape.suits(driver);
+      if (is_able) {
+        const Fitted fitted(material, law.lead, {law.form.shape, false, by});
+        const double gain = fitted.gain(law.parameters);
+        if (gain > kMore * law.gain) {
+          by_gain.emplace_back(gain, by);
+        }
+      }
+    }
+  }
+  std::stable_sort(by_gain.begin(), by_gain.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  by_gain.resize(std::min(by_gain.size(), kMostModulations));
+  std::vector<Composed> laws;
+  for (const auto& [gain, by] : by_gain) {
+    laws.push_back(composed_of(material, law.lead, {law.form.shape, false, by}, law.parameters));
+  }
+  return laws;
+}
+
+/// All laws of a lead that have no name in the catalogue, the best first.
+std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bool modulates,
+                                  const std::set<std::string>& effects) {
+  std::vector<Composed> laws = laws_of(material, lead);
+  std::vector<Composed> more;
+  if (modulates && !laws.empty()) {
+    best_first(&laws);
+    more = modulated(material, laws.front());
+  }
+  laws.erase(std::remove_if(laws.begin(), laws.end(),
+                            [&](const Composed& each) {
+                              return effects.count(known_as(lead, *each.form.shape)) > 0;
+                            }),
+             laws.end());
+  std::move(more.begin(), more.end(), std::back_inserter(laws));
+  best_first(&laws);
+  return laws;
+}
+
+/// One factor of a product; nothing of one that is 1.
+void multiply(const std::string& factor, std::string* product) {
+  if (!factor.empty() && factor != "1") {
+    *product += "*" + factor;
+  }
+}
+
+/// The terms of a law without their amplitudes, each empty or beginning with a sign of
+/// multiplication.
+std::vector<std::string> products_of(const Composed& law) {
+  std::vector<std::string> terms = terms_of(*law.form.shape, *law.lead.driver);
+  if (law.form.has_constant) {
     terms.emplace_back();
   }
-  const std::string factor = law.lead.factor.text.empty() ? "" : "*" + law.lead.factor.text;
-  std::string text;
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const char* amplitude = kAmplitudes[i];
-    names->emplace_back(amplitude);
-    text += (i == 0 ? "" : " + ") + std::string(amplitude) +
-            (terms[i].empty() ? "" : "*" + terms[i]) + factor;
+  const Modulation& by = law.form.modulation;
+  const std::vector<std::string> times =
+      by.driver == nullptr ? std::vector<std::string>{""} : terms_of(*by.shape, *by.driver);
+  std::vector<std::string> products;
+  for (const std::string& term : terms) {
+    for (const std::string& other : times) {
+      products.emplace_back();
+      multiply(term, &products.back());
+      multiply(law.lead.factor.text, &products.back());
+      multiply(other, &products.back());
+    }
   }
-  for (const ShapeParameter& each : law.shape->parameters) {
+  return products;
+}
+
+/// The formula's text, and its parameters: the amplitudes, then those of the shape.
+std::string formula_of(const Composed& law, std::vector<std::string>* names) {
+  constexpr const char* kAmplitudes[] = {"a", "b", "c", "e", "f", "g", "h", "l", "m"};
+  std::string text;
+  for (const std::string& product : products_of(law)) {
+    names->emplace_back(kAmplitudes[names->size()]);
+    text += (text.empty() ? "" : " + ") + names->back() + product;
+  }
+  for (const ShapeParameter& each : law.form.shape->parameters) {
     names->emplace_back(each.name);
   }
   return text;
 }
 
-/// Where an amplitude is sought: far around what was found, and through zero.
-Bounds bounds_of_amplitude(double value) {
+/// Where an amplitude is sought: through zero, and far beyond its reach. What other numbers of the
+/// law do may turn one term into another.
+Bounds bounds_of_amplitude(double reach) {
   constexpr double kFar = 50;
   constexpr double kStep = 0.05;
-  const double size = std::max(std::abs(value), 1e-12);
+  const double size = std::max(reach, 1e-12);
   return {-kFar * size, kFar * size, kStep * size};
 }
 
@@ -194,15 +289,13 @@ effects::LawPointer with_cause(const effects::LawPointer& law, const std::string
 
 }  // namespace
 
-std::vector<Composed> compose(const Observations& observations, const Rows& rows,
-                              const std::vector<Lead>& leads, const std::set<std::string>& effects,
-                              std::size_t* looked_at) {
+std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
+                              const std::set<std::string>& effects, std::size_t* looked_at) {
   std::vector<std::vector<Composed>> by_lead(leads.size());
   in_parallel(
       leads.size(), [](std::size_t, std::size_t) {},
       [&](std::size_t i) {
-        by_lead[i] = laws_of(observations, rows, leads[i], effects);
-        best_first(&by_lead[i]);
+        by_lead[i] = nameless_of(material, leads[i], i < kModulated, effects);
       });
   std::vector<Composed> all;
   for (std::vector<Composed>& each : by_lead) {
@@ -231,13 +324,13 @@ Chosen chosen_of(const Observations& observations, const Composed& composed) {
   const auto bound = std::make_shared<const effects::BoundFormula>(
       effects::bind_law(written, robot, joint, names));
   Hypothesis hypothesis(with_cause(effects::formula_law(bound, effects::Unvalued::not_a_number),
-                                   usual_cause(composed.lead, *composed.shape)),
+                                   usual_cause(composed.lead, *composed.form.shape)),
                         joint, robot);
   std::vector<Bounds> bounds;
-  for (const double amplitude : composed.amplitude) {
-    bounds.push_back(bounds_of_amplitude(amplitude));
+  for (const double reach : composed.reach) {
+    bounds.push_back(bounds_of_amplitude(reach));
   }
-  for (const Bounds& each : bounds_of(*composed.shape, *composed.lead.driver, observations)) {
+  for (const Bounds& each : bounds_of(*composed.form.shape, *composed.lead.driver, observations)) {
     bounds.push_back(each);
   }
   Values values(composed.amplitude.data(), composed.amplitude.data() + composed.amplitude.size());

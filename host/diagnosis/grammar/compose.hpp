@@ -10,29 +10,45 @@
 
 namespace flexcomp::diagnosis::grammar {
 
+/// A second driver, and what it does to each term of a law; null where there is none.
+struct Modulation {
+  const Driver* driver = nullptr;
+  const Shape* shape = nullptr;
+};
+
+/// What a law says, but for its numbers.
+struct Form {
+  const Shape* shape = nullptr;
+  bool has_constant = false;  ///< one more term: the factor by itself
+  Modulation modulation;
+};
+
 /// A law made of parts, with values by least squares.
 struct Composed {
   Lead lead;
-  const Shape* shape = nullptr;
-  bool has_constant = false;   ///< one more term: the factor by itself
-  Values parameters;           ///< of the shape
-  Eigen::VectorXd amplitude;   ///< of the terms
-  double gain = 0;             ///< in squares
+  Form form;
+  Values parameters;          ///< of the shape
+  Eigen::VectorXd amplitude;  ///< of the terms
+  Eigen::VectorXd reach;  ///< amplitude by which each term does as much as the one that does most
+  double gain = 0;        ///< in squares
   std::vector<double> unseen;  ///< gains where it was not fitted to (normal.hpp)
 
   std::size_t numbers() const {
     return parameters.size() + static_cast<std::size_t>(amplitude.size());
   }
-  /// What it costs to say: its numbers, and its factor.
-  std::size_t complexity() const { return numbers() + (lead.factor.text.empty() ? 0 : 1); }
+  /// What it costs to say: its numbers, its factor, and its second driver.
+  std::size_t complexity() const {
+    return numbers() + (lead.factor.text.empty() ? 0 : 1) +
+           (form.modulation.driver == nullptr ? 0 : 1);
+  }
 };
 
 /// Fits every shape to each lead, but for those that are known by the name of one of these effects
-/// of the catalogue. The best first: a law that says more stands before a simpler one only if it
-/// predicts better in most of the halves. Of one lead there is one law, that with the best shape.
-std::vector<Composed> compose(const Observations& observations, const Rows& rows,
-                              const std::vector<Lead>& leads, const std::set<std::string>& effects,
-                              std::size_t* looked_at);
+/// of the catalogue; and what a second driver makes of the best shape of the first leads. The best
+/// first: a law that says more stands before a simpler one only if it predicts better in most of
+/// the halves. Of one lead there is one law, that with the best shape.
+std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
+                              const std::set<std::string>& effects, std::size_t* looked_at);
 
 /// The law as a hypothesis like any other, with its values.
 Chosen chosen_of(const Observations& observations, const Composed& composed);

@@ -32,6 +32,7 @@ std::vector<std::string> names_of(const Observations& observations) {
   if (observations.has_wrench()) {
     for (const char* each : {"fx", "fy", "fz", "mx", "my", "mz"}) {
       names.emplace_back(each);
+      names.push_back(fmt::format("{}_tool", each));
     }
   }
   for (const char* each : {"x", "y", "z"}) {
@@ -88,9 +89,34 @@ double least_span(SignalKind kind) {
   }
 }
 
+/// Speed times acceleration, and speed times torque: of what a joint accelerates, and of all.
+void add_powers(int joints, std::vector<Driver>* drivers) {
+  for (int joint = 1; joint <= joints; ++joint) {
+    for (const char* other : {"a", "tau"}) {
+      const Driver* speed = find_driver(*drivers, fmt::format("v{}", joint));
+      const Driver* push = find_driver(*drivers, fmt::format("{}{}", other, joint));
+      if (speed != nullptr && push != nullptr) {
+        Driver power = *push;
+        power.name = fmt::format("({}*{})", speed->name, push->name);
+        power.is_power = true;
+        power.course = speed->course.cwiseProduct(push->course);
+        power.low = power.course.minCoeff();
+        power.high = power.course.maxCoeff();
+        drivers->push_back(std::move(power));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 double Driver::size() const { return std::max(std::abs(low), std::abs(high)); }
+
+const Driver* find_driver(const std::vector<Driver>& drivers, const std::string& name) {
+  const auto found = std::find_if(drivers.begin(), drivers.end(),
+                                  [&](const Driver& each) { return each.name == name; });
+  return found == drivers.end() ? nullptr : &*found;
+}
 
 std::vector<Driver> drivers_of(const Observations& observations, const Rows& rows) {
   std::vector<Driver> drivers;
@@ -100,6 +126,7 @@ std::vector<Driver> drivers_of(const Observations& observations, const Rows& row
       continue;
     }
     Driver driver{name,
+                  false,
                   signal->kind,
                   is_of_joint(signal->kind) ? signal->index : 0,
                   signal->unit,
@@ -117,6 +144,7 @@ std::vector<Driver> drivers_of(const Observations& observations, const Rows& row
       drivers.push_back(std::move(driver));
     }
   }
+  add_powers(observations.machine.robot.joints(), &drivers);
   return drivers;
 }
 

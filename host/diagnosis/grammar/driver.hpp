@@ -8,9 +8,11 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// A signal that may drive a law, along all rows.
+/// A signal that may drive a law, along all rows; or a power of a joint, the product of two of its
+/// signals: what a gear does depends on whether it drives or is driven.
 struct Driver {
-  std::string name;  ///< as formulas have it: q4, tau5, temp_c
+  std::string name;  ///< as formulas have it: q4, tau5, temp_c, (v5*tau5)
+  bool is_power = false;
   effects::SignalKind kind = effects::SignalKind::angle;
   int joint = 0;     ///< from 1 on; 0 where it belongs to none
   std::string unit;  ///< rad, N·m, …
@@ -24,7 +26,10 @@ struct Driver {
 
 /// The signals that vary along the recordings by more than their noise. Time is none where scenes
 /// are load tests. Of a joint's load that counts which what was measured shows: at rest at the TCP,
-/// with inertia elsewhere.
+/// with inertia elsewhere. Powers come behind the signals.
 std::vector<Driver> drivers_of(const Observations& observations, const Rows& rows);
+
+/// The driver of a name; null where there is none.
+const Driver* find_driver(const std::vector<Driver>& drivers, const std::string& name);
 
 }  // namespace flexcomp::diagnosis::grammar

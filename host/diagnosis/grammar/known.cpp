@@ -19,7 +19,7 @@ struct Known {
 };
 
 const std::vector<Known>& all_known() {
-  static const std::vector<std::string> kWaves = {"wave", "wave of any order"};
+  static const std::vector<std::string> kWaves = {"wave", "wave of any order", "two waves"};
   static const std::vector<Known> kKnown = {
       {"viscous_friction", PlaceKind::joint_torque, "", SignalKind::speed, {"line"}},
       {"coulomb_friction",
@@ -80,8 +80,12 @@ bool is_drift(const Lead& lead, const Shape& shape) {
 
 std::string known_as(const Lead& lead, const Shape& shape) {
   const effects::LawPlace& place = lead.seat->place;
-  if (place.kind == PlaceKind::sensor_wrench && lead.driver->kind == SignalKind::wrench &&
-      std::string("line") == shape.name && lead.driver->name == lead.seat->name.substr(7)) {
+  if (lead.driver->is_power) {
+    return "";
+  }
+  if (place.kind == PlaceKind::sensor_wrench && lead.driver->kind == SignalKind::tool_wrench &&
+      std::string("line") == shape.name &&
+      lead.driver->name == lead.seat->name.substr(7) + "_tool") {
     return "wrench_scale";
   }
   if (is_drift(lead, shape)) {

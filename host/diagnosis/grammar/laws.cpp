@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/grammar/compose.hpp"
+#include "diagnosis/refit.hpp"
 #include "diagnosis/select/grow.hpp"
 #include "diagnosis/select/standards.hpp"
 
@@ -12,38 +13,34 @@ namespace {
 constexpr std::size_t kMostLaws = 3;    // beside each other: more take minutes
 constexpr double kLeastLawShare = 0.3;  // of the power beyond the noise where it shows
 constexpr int kLawSteps = 12;
-constexpr std::size_t kTried = 2;  // composed laws that are fitted before the best is taken
+constexpr std::size_t kTried = 4;  // composed laws that are fitted before the best is taken
 
-/// What the search of laws needs of the observations, whatever is fitted.
-struct Material {
-  explicit Material(const Inquiry& inquiry)
-      : rows(inquiry.observations), drivers(drivers_of(inquiry.observations, rows)) {
-    for (const Hypothesis& each : inquiry.dictionary.hypotheses) {
-      effects.insert(each.effect());
-    }
-  }
-
-  Rows rows;
-  std::vector<Driver> drivers;
+/// The effects of the catalogue that are sought.
+std::set<std::string> effects_of(const Inquiry& inquiry) {
   std::set<std::string> effects;
-};
+  for (const Hypothesis& each : inquiry.dictionary.hypotheses) {
+    effects.insert(each.effect());
+  }
+  return effects;
+}
 
 /// A fit with one law more that holds; nothing chosen where there is none.
 Fit with_law(const Inquiry& inquiry, const Material& material, const Fit& before) {
   const Observations& observations = inquiry.observations;
   const std::vector<Seat> seats = seats_of(observations, material.rows, before);
   std::size_t looked_at = inquiry.dictionary.entries.size();
-  const std::vector<Lead> leads = screen(seats, material.drivers, &looked_at);
-  const std::vector<Composed> laws =
-      compose(observations, material.rows, leads, material.effects, &looked_at);
+  const std::vector<Lead> leads = screen(material, seats, &looked_at);
+  const std::vector<Composed> laws = compose(material, leads, effects_of(inquiry), &looked_at);
+  Fit best;
   for (std::size_t i = 0; i < std::min(laws.size(), kTried); ++i) {
     Fit grown = fit_with(inquiry, before, chosen_of(observations, laws[i]), kLawSteps);
     const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
-    if (holds(inquiry, evidence) && evidence.share > kLeastLawShare) {
-      return grown;
+    if (holds(inquiry, evidence) && evidence.share > kLeastLawShare &&
+        (best.chosen.empty() || bic_gain(observations, best, grown) > kStrongEvidence)) {
+      best = std::move(grown);
     }
   }
-  return {};
+  return best;
 }
 
 /// A fit with one effect of the catalogue more that holds; nothing chosen where there is none.
@@ -67,11 +64,12 @@ Fit with_one(const Inquiry& inquiry, const Material& material, const Fit& before
                    with_effect(inquiry, before));
 }
 
-/// Chooses anew what was chosen from `first` on, each beside all others: what was chosen early had
-/// to say what others say by now.
-Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, std::size_t first) {
+/// Chooses anew what was chosen, each beside all others: what was chosen early had to say what
+/// others say by now.
+Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget* budget) {
   const Observations& observations = inquiry.observations;
-  for (std::size_t i = first; i + 1 < grown.chosen.size(); ++i) {
+  const std::size_t first = inquiry.given.chosen.size();
+  for (std::size_t i = first; i + 1 < grown.chosen.size() && !budget->is_spent(); ++i) {
     if (!meet(directions(observations, grown, i),
               directions(observations, grown, grown.chosen.size() - 1))) {
       continue;
@@ -90,16 +88,19 @@ Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, std::si
 
 bool is_law(const Hypothesis& hypothesis) { return hypothesis.law->written != nullptr; }
 
-Choice choose_laws(const Inquiry& inquiry, const Fit& begun, const Tell& tell) {
-  const Material material(inquiry);
+Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget, const Tell& tell) {
+  const Material material(inquiry.observations);
   Fit grown = begun;
-  for (std::size_t i = 0; i < kMostLaws; ++i) {
+  for (std::size_t i = 0; i < kMostLaws && !budget->is_spent(); ++i) {
     Fit next = with_one(inquiry, material, grown);
     if (next.chosen.empty()) {
       break;
     }
-    grown = revised(inquiry, material, std::move(next), begun.chosen.size());
+    grown = revised(inquiry, material, std::move(next), budget);
     tell(grown.chosen.size(), kMostFindings);
+    if (is_like_noise(inquiry.observations, largest_ratio(inquiry.observations, grown.remainder))) {
+      break;
+    }
   }
   Choice choice = conclude(inquiry, {grown, seek(inquiry, grown)});
   const bool has_law =

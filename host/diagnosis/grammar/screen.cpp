@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/grammar/shape.hpp"
 #include "diagnosis/grammar/wave.hpp"
 #include "parallel/in_parallel.hpp"
 
@@ -16,22 +17,17 @@ using effects::PlaceKind;
 using effects::SignalKind;
 
 constexpr Eigen::Index kHats = 9;
-constexpr std::size_t kMostLeads = 10;
-constexpr double kMuchLess = 0.6;  // of the best lead's gain
-
-const Driver* find(const std::vector<Driver>& drivers, const std::string& name) {
-  const auto found = std::find_if(drivers.begin(), drivers.end(),
-                                  [&](const Driver& each) { return each.name == name; });
-  return found == drivers.end() ? nullptr : &*found;
-}
+constexpr std::size_t kMostLeads = 40;
+constexpr double kMuchLess = 0.4;  // of the best lead's gain
 
 /// Adds factors of a driver that is there: itself, and its sign.
 void add_factor(const std::vector<Driver>& drivers, const std::string& name, bool by_sign,
                 std::vector<Factor>* factors) {
-  const Driver* driver = find(drivers, name);
+  const Driver* driver = find_driver(drivers, name);
   if (driver != nullptr) {
-    factors->push_back(by_sign ? Factor{fmt::format("sign({})", name), driver->course.cwiseSign()}
-                               : Factor{name, driver->course});
+    factors->push_back(by_sign
+                           ? Factor{fmt::format("sign({})", name), name, driver->course.cwiseSign()}
+                           : Factor{name, name, driver->course});
   }
 }
 
@@ -95,14 +91,51 @@ class Hats {
   Eigen::VectorXd share_;
 };
 
-/// What a factor and a driver do at a seat; nothing where a law of them would mean nothing: errors
-/// of sensors follow time alone.
-std::optional<Lead> lead_of(const Seat& seat, const Driver& driver, const Hats& hats,
-                            const Factor& factor) {
-  const bool is_time = driver.kind == SignalKind::time;
-  if (seat.is_sensor() && (!is_time || !factor.text.empty())) {
+/// Would a law of a driver and a factor mean something at a seat? Errors of sensors follow time
+/// alone, and a joint's power is felt by its own drive.
+bool means_something(const Seat& seat, const Driver& driver, const Factor& factor) {
+  if (seat.is_sensor()) {
+    return driver.kind == SignalKind::time && factor.text.empty();
+  }
+  return !driver.is_power ||
+         (seat.place.kind == PlaceKind::joint_torque && seat.place.joint == driver.joint);
+}
+
+/// Gain of the best shape with a memory, which a conditional mean does not show: of what a joint
+/// carries, at that joint.
+double gain_of_memory(const Material& material, const Seat& seat, const Driver& driver,
+                      const Factor& factor) {
+  const bool is_carried = driver.kind == SignalKind::torque || driver.kind == SignalKind::load;
+  if (!is_carried || driver.is_power || driver.joint != seat.place.joint ||
+      material.observations.is_static) {
+    return 0;
+  }
+  double most = 0;
+  for (const Shape& shape : shapes()) {
+    if (!shape.remembers() || !shape.fits(seat, driver)) {
+      continue;
+    }
+    for (const Values& start : starts_of(shape, driver, material.observations, 1)) {
+      Eigen::MatrixXd courses(material.rows.count, 2);
+      courses << courses_of(shape, driver, material.rows, material.observations, start),
+          Eigen::VectorXd::Ones(material.rows.count);
+      if (factor.course.size() > 0) {
+        courses.array().colwise() *= factor.course.array();
+      }
+      const Normal normal = normal_of(seat, courses);
+      most = std::max(most, normal.gain(normal.amplitude()));
+    }
+  }
+  return most;
+}
+
+/// What a factor and a driver do at a seat; nothing where a law of them would mean nothing.
+std::optional<Lead> lead_of(const Material& material, const Seat& seat, const Driver& driver,
+                            const Hats& hats, const Factor& factor) {
+  if (!means_something(seat, driver, factor)) {
     return std::nullopt;
   }
+  const bool is_time = driver.kind == SignalKind::time;
   const Normal normal = hats.normal(seat, factor);
   Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()), 1};
   if (factor.text.empty() && (is_time ? seat.is_sensor() : driver.kind == SignalKind::angle)) {
@@ -110,13 +143,15 @@ std::optional<Lead> lead_of(const Seat& seat, const Driver& driver, const Hats& 
     lead.wave = wave.order;
     lead.gain = std::max({lead.gain, wave.gain, is_time ? best_step(seat) : 0});
   }
+  lead.gain = std::max(lead.gain, gain_of_memory(material, seat, driver, factor));
   return lead;
 }
 
 }  // namespace
 
-std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Driver>& drivers,
+std::vector<Lead> screen(const Material& material, const std::vector<Seat>& seats,
                          std::size_t* looked_at) {
+  const std::vector<Driver>& drivers = material.drivers;
   std::vector<Hats> hats(drivers.begin(), drivers.end());
   std::vector<std::vector<Lead>> by_seat(seats.size());
   in_parallel(
@@ -124,7 +159,7 @@ std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Drive
       [&](std::size_t s) {
         for (const Factor& factor : factors_at(seats[s].place, drivers)) {
           for (std::size_t d = 0; d < drivers.size(); ++d) {
-            if (const auto lead = lead_of(seats[s], drivers[d], hats[d], factor)) {
+            if (const auto lead = lead_of(material, seats[s], drivers[d], hats[d], factor)) {
               by_seat[s].push_back(*lead);
             }
           }

@@ -5,10 +5,21 @@
 
 namespace flexcomp::diagnosis::grammar {
 
+/// What the search for laws needs of the observations, whatever is fitted.
+struct Material {
+  explicit Material(const Observations& all)
+      : observations(all), rows(all), drivers(drivers_of(all, rows)) {}
+
+  const Observations& observations;
+  Rows rows;
+  std::vector<Driver> drivers;
+};
+
 /// A quantity that a law is multiplied with: the direction of a joint's motion where friction
 /// changes, the load where a gain does.
 struct Factor {
   std::string text;        ///< of a formula, such as sign(v5); empty where it is one
+  std::string signal;      ///< that it is of, such as v5
   Eigen::VectorXd course;  ///< rows; empty where it is one
 };
 
@@ -19,13 +30,16 @@ struct Lead {
   Factor factor;
   double gain;  ///< in squares, by what is told of it here
   double wave;  ///< 2π over the period along the driver with which a wave does most
+
+  /// Is the factor of the driver itself?
+  bool is_of_itself() const { return factor.signal == driver->name; }
 };
 
 /// The leads for what a fit leaves, the best first: a seat, a driver and a factor of which the
-/// conditional mean (piecewise linear over the driver), a wave over it or, in time, a step lowers
-/// the squares most. Those that do much less than the best are left out. `looked_at` is raised by
-/// the leads that were looked at.
-std::vector<Lead> screen(const std::vector<Seat>& seats, const std::vector<Driver>& drivers,
+/// conditional mean (piecewise linear over the driver), a wave over it, a shape with a memory or,
+/// in time, a step lowers the squares most. Those that do much less than the best are left out.
+/// `looked_at` is raised by the leads that were looked at.
+std::vector<Lead> screen(const Material& material, const std::vector<Seat>& seats,
                          std::size_t* looked_at);
 
 }  // namespace flexcomp::diagnosis::grammar

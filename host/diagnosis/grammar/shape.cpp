@@ -10,15 +10,17 @@ namespace {
 
 using effects::SignalKind;
 
-const std::vector<SignalKind> kSigned = {SignalKind::speed, SignalKind::acceleration,
-                                         SignalKind::torque, SignalKind::load, SignalKind::wrench};
+const std::vector<SignalKind> kSigned = {SignalKind::speed,  SignalKind::acceleration,
+                                         SignalKind::torque, SignalKind::load,
+                                         SignalKind::wrench, SignalKind::tool_wrench};
 const std::vector<SignalKind> kAngles = {SignalKind::angle};
 const std::vector<SignalKind> kSlow = {SignalKind::time};
 const std::vector<SignalKind> kForces = {SignalKind::torque, SignalKind::load, SignalKind::wrench,
-                                         SignalKind::temperature};
+                                         SignalKind::tool_wrench, SignalKind::temperature};
 const std::vector<SignalKind> kStates = {
-    SignalKind::angle, SignalKind::speed,  SignalKind::acceleration, SignalKind::torque,
-    SignalKind::load,  SignalKind::wrench, SignalKind::position,     SignalKind::temperature};
+    SignalKind::angle,       SignalKind::speed,    SignalKind::acceleration,
+    SignalKind::torque,      SignalKind::load,     SignalKind::wrench,
+    SignalKind::tool_wrench, SignalKind::position, SignalKind::temperature};
 
 std::vector<Shape> wave_shapes() {
   std::vector<Shape> all;
@@ -51,14 +53,16 @@ std::vector<Shape> all_shapes() {
       {"progressive stop above", {"($ - d)^2*step($ - d)"}, {at}, kStates},
       {"progressive stop below", {"(d - $)^2*step(d - $)"}, {at}, kStates},
       {"odd cubic", {"$", "$^3"}, {}, kSigned},
-      {"approach", {"exp(-t/T)"}, {{"T", Sought::constant}}, kSlow},
+      {"approach", {"exp(-$/T)"}, {{"T", Sought::constant}}, kSlow},
       {"lag", {"lag($, T)"}, {{"T", Sought::constant}}, kStates},
       {"heat", {"lag($^2, T)"}, {{"T", Sought::constant}}, {SignalKind::torque}},
       {"cubic", {"$", "$^2", "$^3"}, {}, kStates},
       {"growth", {"exp($/w)"}, {width}, kForces},
       {"soft step", {"tanh(($ - d)/w)"}, {at, width}, kStates},
       {"bump", {"exp(-(($ - d)/w)^2)"}, {at, width}, kStates},
+      {"catch", {"($ - d)*exp(-(($ - d)/w)^2)"}, {at, width}, kStates},
       {"wave of any order", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::wave}}, kAngles},
+      {"two waves", {"sin($)", "cos($)", "sin(2*$)", "cos(2*$)"}, {}, kAngles},
       {"tone", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::wave}}, kSlow}};
   const std::vector<Shape> waves = wave_shapes();
   all.insert(all.begin() + 7, waves.begin(), waves.end());
@@ -78,7 +82,9 @@ double duration_of(const Observations& observations) {
   return scene.time[scene.rows() - 1] - scene.time[0];
 }
 
-/// A term along the rows of one scene.
+constexpr const char* kAnyDriver = "u";  // no parameter of a shape has this name
+
+/// A term, written for `kAnyDriver`, along the rows of one scene.
 void compute(const formula::Formula& formula, const Shape& shape, const Values& parameters,
              const Eigen::VectorXd& driver, const Eigen::VectorXd& time, bool is_static,
              Eigen::Ref<Eigen::VectorXd> course) {
@@ -96,7 +102,9 @@ void compute(const formula::Formula& formula, const Shape& shape, const Values& 
   }
   formula::Course along(formula);
   for (Eigen::Index row = 0; row < course.size(); ++row) {
-    values[at] = driver[row];
+    if (at < values.size()) {
+      values[at] = driver[row];
+    }
     const bool is_timed = row > 0 && !is_static;
     course[row] = along.next(values, is_timed ? time[row] - time[row - 1] : 0);
   }
@@ -159,16 +167,39 @@ bool Shape::fits(const Seat& seat, const Driver& driver) const {
   if (driver.kind == SignalKind::time && is_event != seat.is_sensor()) {
     return false;
   }
-  const bool is_whole_wave = std::string(name) == "wave";  // of a turn
+  if (driver.is_power && std::string(name) == "heat") {
+    return false;
+  }
+  const bool is_whole_wave =  // of a turn
+      std::string(name) == "wave" || std::string(name) == "two waves";
   if (is_whole_wave && driver.unit != "rad") {
     return false;
   }
+  return suits(driver);
+}
+
+bool Shape::suits(const Driver& driver) const {
   return kinds.empty() || std::find(kinds.begin(), kinds.end(), driver.kind) != kinds.end();
+}
+
+bool Shape::remembers() const {
+  return std::any_of(terms.begin(), terms.end(), [](const std::string& term) {
+    return term.find("lag(") != std::string::npos;
+  });
 }
 
 const std::vector<Shape>& shapes() {
   static const std::vector<Shape> kShapes = all_shapes();
   return kShapes;
+}
+
+const std::vector<Shape>& modulations() {
+  static const std::vector<Shape> kModulations = {{"scale", {"1", "$"}, {}, {}},
+                                                  {"swell", {"1", "$", "$^2"}, {}, {}},
+                                                  {"turn", {"sin($)", "cos($)"}, {}, kAngles},
+                                                  {"turn", {"sin(2*$)", "cos(2*$)"}, {}, kAngles},
+                                                  {"turn", {"sin(3*$)", "cos(3*$)"}, {}, kAngles}};
+  return kModulations;
 }
 
 std::vector<std::string> terms_of(const Shape& shape, const Driver& driver) {
@@ -182,9 +213,8 @@ std::vector<std::string> terms_of(const Shape& shape, const Driver& driver) {
 Eigen::MatrixXd courses_of(const Shape& shape, const Driver& driver, const Rows& rows,
                            const Observations& observations, const Values& parameters) {
   Eigen::MatrixXd courses(rows.count, static_cast<Eigen::Index>(shape.terms.size()));
-  const std::vector<std::string> terms = terms_of(shape, driver);
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const formula::Formula formula(terms[i]);
+  for (std::size_t i = 0; i < shape.terms.size(); ++i) {
+    const formula::Formula formula(written(shape.terms[i], kAnyDriver));
     for (std::size_t scene = 0; scene < observations.scenes.size(); ++scene) {
       const Eigen::Index first = rows.first[scene];
       const Eigen::Index count = rows.rows(scene);

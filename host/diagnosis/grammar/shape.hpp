@@ -30,10 +30,17 @@ struct Shape {
   std::vector<effects::SignalKind> kinds;
 
   bool fits(const Seat& seat, const Driver& driver) const;
+  /// Is it one of a driver of this kind?
+  bool suits(const Driver& driver) const;
+  /// Does its value depend on what was before?
+  bool remembers() const;
 };
 
 /// All shapes, the simplest first.
 const std::vector<Shape>& shapes();
+
+/// What a second driver may do to a law: each of its terms is multiplied with each of these.
+const std::vector<Shape>& modulations();
 
 /// A shape's terms, written for a driver.
 std::vector<std::string> terms_of(const Shape& shape, const Driver& driver);

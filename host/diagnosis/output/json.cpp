@@ -211,6 +211,7 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis,
   for (const Trial& trial : diagnosis.trials) {
     json["laws"].push_back(trial_json(observations, trial));
   }
+  json["law_search_stopped"] = diagnosis.laws_stopped;
   json["clocks"] = Json::array();
   for (const ClockCheck& clock : diagnosis.clocks) {
     json["clocks"].push_back(

@@ -9,7 +9,9 @@
 #include "diagnosis/grammar/seat.hpp"
 #include "diagnosis/output/words.hpp"
 #include "effects/formula_law.hpp"
+#include "error.hpp"
 #include "report/gnuplot.hpp"
+#include "report/html.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -182,14 +184,29 @@ class Portrait {
   std::vector<std::string> words_;
 };
 
+/// The picture of a law, or a sentence where it cannot be drawn: it is no reason to lose a
+/// diagnosis.
+std::string drawn(const Observations& observations, const Chosen& law,
+                  const Eigen::VectorXd& after) {
+  const Portrait portrait(observations, law, after);
+  if (!portrait.is_drawn()) {
+    return "";
+  }
+  try {
+    return portrait.picture() + "\n";
+  } catch (const InputError& error) {
+    return fmt::format("<p>No picture of {}: {}.</p>\n",
+                       report::escaped(law.hypothesis.law->written->formula), error.what());
+  }
+}
+
 }  // namespace
 
 std::string law_pictures(const Observations& observations, const Diagnosis& diagnosis) {
   std::string html;
   for (const Chosen& each : diagnosis.weighed().chosen) {
     if (each.hypothesis.law->bound) {
-      const Portrait portrait(observations, each, diagnosis.weighed().remainder);
-      html += portrait.is_drawn() ? portrait.picture() + "\n" : "";
+      html += drawn(observations, each, diagnosis.weighed().remainder);
     }
   }
   return html.empty() ? ""

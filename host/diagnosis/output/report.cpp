@@ -292,7 +292,8 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
                       escaped(headline(observations, diagnosis)), in_words(diagnosis.verdict),
                       diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
   html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
-  html += law_pictures(observations, diagnosis);
+  html += law_pictures(observations, diagnosis) +
+          (diagnosis.laws_stopped ? fmt::format("<p>{}</p>\n", kLawsStopped) : "");
   html += trials_html(observations, diagnosis) + retuned(observations, diagnosis);
   html += errors_html(observations, diagnosis);
   html += "<h2>Where the mismatch is</h2>\n" + location_table(observations, diagnosis.location);

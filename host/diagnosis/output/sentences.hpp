@@ -17,6 +17,10 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
 /// One plain sentence about the torques that the angles can tell of; empty where that is all.
 std::string statement_of_band(const Observations& observations, const Diagnosis& diagnosis);
 
+/// Where the search for laws ended for want of time.
+constexpr const char* kLawsStopped =
+    "The search for laws ended for want of time: --law-seconds gives it more.";
+
 /// One plain sentence about the whole.
 std::string headline(const Observations& observations, const Diagnosis& diagnosis);
 

@@ -15,6 +15,7 @@ from . import cases
 
 KEPT = "diagnosis.json", "updated_model.yaml", "report.html"
 JUDGED = "holdout", "untrained"
+LAW_SECONDS = "40"
 
 
 def _processor():
@@ -31,7 +32,8 @@ def diagnose(tool, box, limit, case, answers):
             shutil.copyfile(case / f"{part}.csv", work / f"{part}.csv")
         before = _processor()
         done = box.run([str(tool), "diagnose", "--model", "model/robot.yaml", "--recording",
-                        "train.csv", "--holdout", "holdout.csv", "--out", "out", "--seek-laws"], work, limit)
+                        "train.csv", "--holdout", "holdout.csv", "--out", "out",
+                        "--law-seconds", LAW_SECONDS], work, limit)
         answers.mkdir(parents=True, exist_ok=True)
         for name in KEPT:
             path = work / "out" / name

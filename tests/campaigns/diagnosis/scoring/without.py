@@ -11,6 +11,7 @@ from generator import case
 from . import trial
 
 WORSE = 2.0  # times the held-out error with the effect, up to which a law makes up for it
+LAW_SECONDS = "40"
 SHARE = 0.7  # of the cases in which it shall
 
 
@@ -67,7 +68,7 @@ def compare(task):
     if concealed["effect"] != effect:
         return None
     whole = _answer(own, truth, own.folder / "with", [])
-    less = _answer(own, truth, own.folder / "without", ["--without", effect, "--seek-laws"])
+    less = _answer(own, truth, own.folder / "without", ["--without", effect, "--law-seconds", LAW_SECONDS])
     laws = [finding for finding in less["findings"] if finding["effect"] == "law"]
     return Pair(own.seed, truth["kind"], f"{effect} {concealed['joint'] or ''}".strip(),
                 _error(whole, truth), _error(less, truth),
