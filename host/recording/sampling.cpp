@@ -13,6 +13,7 @@ constexpr double kSteady = 0.5;           // of the median step around, that the
 constexpr Eigen::Index kFewestEven = 50;  // rows, to draw a line through
 constexpr double kGap = 2.5;              // usual steps without a row, where a line ends
 constexpr double kMostLag = 5;            // periods, between the earliest stamp and the latest
+constexpr double kLeastLag = 0.01;        // periods, that a stamp is off: less is rounding
 constexpr double kMuchSmoother = 0.5;  // of the mean square by which angles miss their neighbours'
 constexpr double kLeastMiss = 1e-12;   // rad: angles computed and not measured
 
@@ -147,8 +148,13 @@ Sampling sampling_of(const Eigen::VectorXd& time, const Samples& angles) {
     return sampling;
   }
   const Eigen::VectorXd even = evened(sampling, time);
-  if (even.size() > 0 && is_much_smoother(angles(sampling.rows, Eigen::all), sampling.time, even)) {
-    sampling.period = (even[even.size() - 1] - even[0]) / static_cast<double>(even.size() - 1);
+  if (even.size() == 0) {
+    return sampling;
+  }
+  const double period = (even[even.size() - 1] - even[0]) / static_cast<double>(even.size() - 1);
+  if ((even - sampling.time).cwiseAbs().maxCoeff() > kLeastLag * period &&
+      is_much_smoother(angles(sampling.rows, Eigen::all), sampling.time, even)) {
+    sampling.period = period;
     sampling.time = even;
   }
   return sampling;

@@ -98,6 +98,15 @@ void times_that_are_uneven_indeed_stay() {
   TEST_ASSERT_EQUAL_DOUBLE(0, sampling.period);
 }
 
+void times_that_were_rounded_in_the_file_stay() {
+  const VectorXd taken = even(kRows, kLogged);
+  VectorXd stamps = taken;
+  for (Index row = 0; row < kRows; ++row) {
+    stamps[row] += 1e-5 * kLogged * static_cast<double>(row % 3);
+  }
+  TEST_ASSERT_TRUE(sampling_of(stamps, at(taken)).time == stamps);
+}
+
 void a_gap_stays_where_the_times_about_it_are_evened() {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> late(0, 0.01);
@@ -161,6 +170,7 @@ int main() {
   RUN_TEST(times_are_those_of_the_samples_then);
   RUN_TEST(stamps_that_jitter_are_evened);
   RUN_TEST(times_that_are_uneven_indeed_stay);
+  RUN_TEST(times_that_were_rounded_in_the_file_stay);
   RUN_TEST(a_gap_stays_where_the_times_about_it_are_evened);
   RUN_TEST(a_dwell_repeats_nothing);
   RUN_TEST(steps_of_an_encoder_repeat_nothing);
