@@ -174,12 +174,12 @@ Diagnosis with_laws(const Observations& observations, const Diagnosis& before, C
 
 /// Which of two diagnoses with laws: the second only by strong evidence, or with fewer numbers that
 /// none speaks against.
-const Diagnosis& better_of(const Observations& observations, const Diagnosis& one,
-                           const Diagnosis& other) {
+Diagnosis better_of(const Observations& observations, Diagnosis one, Diagnosis other) {
   const Fit& a = one.choice.fit;
   const Fit& b = other.choice.fit;
   const double gain = bic_gain(observations, a, b);
-  return gain > kStrongEvidence || (gain > 0 && b.parameters() < a.parameters()) ? other : one;
+  const bool is_other = gain > kStrongEvidence || (gain > 0 && b.parameters() < a.parameters());
+  return is_other ? std::move(other) : std::move(one);
 }
 
 /// Seeks laws that nobody listed in the place of what was found, which may stand for a law, and

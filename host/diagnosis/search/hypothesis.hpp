@@ -53,7 +53,8 @@ struct Hypothesis {
   /// Excess of a body (effects/law.hpp) that a fit holds it within, as by one sample more; endless
   /// where only the samples decide.
   double edge = std::numeric_limits<double>::infinity();
-  /// The numbers are those of a regression, whatever body they would be of (families/regression.hpp).
+  /// The numbers are those of a regression, whatever body they would be of
+  /// (families/regression.hpp).
   bool is_regression = false;
   bool is_sketched = false;  ///< the law's sketch is near enough for a first look
 
