@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace flexcomp::recording {
 
@@ -21,6 +22,9 @@ double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle);
 /// Step in which a quantised signal is given; 0 where it is not, or in steps so fine that hardly a
 /// value comes twice.
 double quantisation_step(const Eigen::VectorXd& signal);
+
+/// The middle value, of an even number the larger of both; 0 of none.
+double median(std::vector<double> values);
 
 /// 1.4826 times the median size: the standard deviation of a normal distribution, outliers or not.
 double robust_deviation(const Eigen::VectorXd& values);

@@ -17,12 +17,6 @@ constexpr double kLeastLag = 0.01;        // periods, that a stamp is off: less 
 constexpr double kMuchSmoother = 0.5;  // of the mean square by which angles miss their neighbours'
 constexpr double kLeastMiss = 1e-12;   // rad: angles computed and not measured
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The steps of a joint before and after rows first … last, which show the same; fewer at the ends.
 std::vector<double> steps_around(const Samples& angles, Eigen::Index joint, Eigen::Index first,
                                  Eigen::Index last) {

@@ -186,6 +186,17 @@ void take(const LocalMotion& motion, Eigen::Index joint, Eigen::Index row, Scene
   scene->stands(row, joint) = motion.stands[joint];
 }
 
+/// Some of these rows, by where they stand among them.
+std::vector<Eigen::Index> those_at(const std::vector<Eigen::Index>& rows,
+                                   const std::vector<Eigen::Index>& places) {
+  std::vector<Eigen::Index> some;
+  some.reserve(places.size());
+  for (const Eigen::Index place : places) {
+    some.push_back(rows[static_cast<std::size_t>(place)]);
+  }
+  return some;
+}
+
 const recording::Samples& angles_of(const recording::Recording& recording) {
   return recording.q_meas ? *recording.q_meas : *recording.q_cmd;
 }
@@ -207,14 +218,8 @@ recording::Recording sampled(const recording::Recording& recording, std::vector<
     own = picked(own, sampling.rows);
     own.time = sampling.time;
     preparation->period = sampling.period;
-    for (const Eigen::Index row : sampling.repeats) {
-      preparation->repeats.push_back(whole[static_cast<std::size_t>(row)]);
-    }
-    std::vector<Eigen::Index> kept;
-    for (const Eigen::Index row : sampling.rows) {
-      kept.push_back(whole[static_cast<std::size_t>(row)]);
-    }
-    whole = std::move(kept);
+    preparation->repeats = those_at(whole, sampling.repeats);
+    whole = those_at(whole, sampling.rows);
   }
   *rows = std::move(whole);
   return own;
@@ -232,9 +237,7 @@ Scene scene_of(const recording::Recording& given, Eigen::Index most_rows,
   describe_times(recording.time, preparation);
   Scene scene;
   scene.file = recording.file;
-  for (const Eigen::Index row : rows) {
-    scene.recorded.push_back(recorded[static_cast<std::size_t>(row)]);
-  }
+  scene.recorded = those_at(recorded, rows);
   scene.time = picked(recording.time, rows);
   scene.is_static = is_load_test(given.time);
   scene.follows_command = !recording.q_meas;
