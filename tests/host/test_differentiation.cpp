@@ -92,9 +92,9 @@ void a_coarse_encoder_tells_the_acceleration_at_the_ends_nearly_as_well() {
 }
 
 void a_window_is_no_longer_than_the_motion_bears_though_noise_hides_what_it_cuts() {
-  // A ripple of 5 Hz: beside the noise of the shortest window, 13 rad/s², nothing shows of what a
+  // A ripple of 6 Hz: beside the noise of the shortest window, 13 rad/s², nothing shows of what a
   // longer one cuts of it.
-  constexpr double kRipple = 2 * M_PI * 5;  // rad/s
+  constexpr double kRipple = 2 * M_PI * 6;  // rad/s
   const VectorXd ripple = 1.5e-3 * (kRipple * times().array()).sin();
   const Encoder coarse(in_counts(swing() + ripple));
   const std::size_t window = coarse.window();
