@@ -9,6 +9,7 @@
 #include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
+#include "diagnosis/rest.hpp"
 #include "diagnosis/select/forms.hpp"
 #include "diagnosis/select/standards.hpp"
 
@@ -125,7 +126,8 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   diagnosis->cancellation = cancellation(observations, found);
   add_nearest(diagnosis->choice.withdrawn, diagnosis);
   const double after = largest_ratio(observations, found.remainder);
-  const bool is_noise = is_like_noise(observations, after);
+  const std::string more = more_than_noise(observations, found.remainder);
+  const bool is_noise = more.empty();
   if (found.chosen.empty()) {
     diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
     diagnosis->reason = is_noise ? "" : reason_of_nothing(diagnosis->choice);
@@ -136,7 +138,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
              diagnosis);
   } else {
     diagnosis->verdict = is_noise ? "explained" : "partly_explained";
-    diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
+    diagnosis->reason = more;
     // A law is such a form itself, with proof.
     if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
       Proposal rival = propose(observations, fit(observations, {}, 0));

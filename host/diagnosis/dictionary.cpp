@@ -63,14 +63,19 @@ LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& mo
 Changes::Changes(const Observations& observations)
     : observations_(observations),
       machine_(observations.machine),
+      rigid_(observations.rigid),
       predicted_(observations.stacked(observations.predictions)) {}
 
 Changes::Changes(const Observations& observations, const Machine& around)
-    : observations_(observations), machine_(around) {
+    : observations_(observations),
+      machine_(around),
+      rigid_(simulation::rigid_torques(around, observations.scenes)) {
   std::vector<Prediction> predictions;
-  for (const Scene& scene : observations.scenes) {
-    simulations_.push_back(simulate(machine_, scene));
-    predictions.push_back(with_terms(machine_.terms, scene, simulations_.back()));
+  for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
+    simulation::Wanted wanted;
+    wanted.rigid = rigid_.empty() ? nullptr : &rigid_[s];
+    simulations_.push_back(simulate(machine_, observations.scenes[s], wanted));
+    predictions.push_back(with_terms(machine_.terms, observations.scenes[s], simulations_.back()));
   }
   predicted_ = observations.stacked(predictions);
 }
@@ -79,7 +84,7 @@ Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) 
   Machine machine = machine_;
   if (hypothesis.traits().alters_model && !hypothesis.is_sketched) {
     hypothesis.apply(values, &machine);
-    return observations_.stacked(predict(machine, observations_.scenes)) - predicted_;
+    return observations_.stacked(predict(machine, observations_.scenes, rigid_)) - predicted_;
   }
   if (hypothesis.is_sketched) {
     machine.terms.push_back(hypothesis.law->sketch(values, hypothesis.joint));

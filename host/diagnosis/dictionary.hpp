@@ -25,8 +25,9 @@ class Changes {
  private:
   const Observations& observations_;
   Machine machine_;
-  std::vector<Simulation> simulations_;  ///< of the machine; empty where it is the model
-  Eigen::VectorXd predicted_;            ///< by the machine with its terms
+  std::vector<simulation::RigidTorque> rigid_;  ///< of the machine
+  std::vector<Simulation> simulations_;         ///< of the machine; empty where it is the model
+  Eigen::VectorXd predicted_;                   ///< by the machine with its terms
 };
 
 /// A hypothesis with the starting values of what is not linear in it: columns of the dictionary.

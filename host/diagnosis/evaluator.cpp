@@ -67,7 +67,7 @@ void Evaluator::set(const Values& all) {
 }
 
 model::Robot Evaluator::robot_with(const Values& values) const {
-  Evaluator moved(*this);
+  Evaluator moved(observations_, chosen_, nullptr);
   moved.set(values);
   return machine_with(observations_, moved.chosen_).robot;
 }
@@ -79,16 +79,16 @@ bool Evaluator::alters_any() const {
 
 /// Rigid-body torques of a machine near which derivatives are wanted; most parameters leave them as
 /// they are.
-std::vector<simulation::RigidTorque> Evaluator::rigid_torques(const Machine& machine) const {
+const std::vector<simulation::RigidTorque>& Evaluator::rigid_torques(const Machine& machine) {
   const std::vector<simulation::RigidTorque>& known = observations_.rigid;
   if (known.empty() || !alters_any() || known.front().holds_for(machine)) {
     return known;
   }
-  std::vector<simulation::RigidTorque> rigid;
-  for (const Scene& scene : observations_.scenes) {
-    rigid.emplace_back(machine, scene);
+  // A step that is taken is evaluated once for its remainder, and again for its derivative.
+  if (rigid_.empty() || !rigid_.front().holds_for(machine)) {
+    rigid_ = simulation::rigid_torques(machine, observations_.scenes);
   }
-  return rigid;
+  return rigid_;
 }
 
 std::vector<Simulation> Evaluator::simulate_scenes(
@@ -118,7 +118,7 @@ std::vector<Prediction> Evaluator::add_terms(const Machine& machine,
 Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* derivative) {
   set(values);
   const Machine machine = machine_with(observations_, chosen_);
-  const std::vector<simulation::RigidTorque> rigid = rigid_torques(machine);
+  const std::vector<simulation::RigidTorque>& rigid = rigid_torques(machine);
   const std::vector<Simulation> simulations = simulate_scenes(machine, rigid);
   Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
   if (derivative == nullptr) {

@@ -36,7 +36,7 @@ class Evaluator {
 
  private:
   bool alters_any() const;
-  std::vector<simulation::RigidTorque> rigid_torques(const Machine& machine) const;
+  const std::vector<simulation::RigidTorque>& rigid_torques(const Machine& machine);
   std::vector<Simulation> simulate_scenes(const Machine& machine,
                                           const std::vector<simulation::RigidTorque>& rigid) const;
   std::vector<Prediction> add_terms(const Machine& machine,
@@ -46,7 +46,8 @@ class Evaluator {
   std::vector<Chosen> chosen_;
   const Dictionary* dictionary_;
   std::vector<bool> alters_;
-  std::vector<Eigen::Index> known_;  ///< column of the dictionary, or −1
+  std::vector<Eigen::Index> known_;             ///< column of the dictionary, or −1
+  std::vector<simulation::RigidTorque> rigid_;  ///< of the machine evaluated last
 };
 
 }  // namespace flexcomp::diagnosis

@@ -98,12 +98,12 @@ Observations::Observations(Machine model, std::vector<Scene> all, std::size_t ho
     : machine(std::move(model)), scenes(std::move(all)) {
   simulations.reserve(scenes.size());
   predictions.reserve(scenes.size());
-  for (const Scene& scene : scenes) {
-    if (has(joint_torque) || has(joint_deflection)) {
-      rigid.emplace_back(machine, scene);
-    }
-    simulations.push_back(simulate(machine, scene));
-    predictions.push_back(with_terms(machine.terms, scene, simulations.back()));
+  rigid = simulation::rigid_torques(machine, scenes);
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    simulation::Wanted wanted;
+    wanted.rigid = rigid.empty() ? nullptr : &rigid[s];
+    simulations.push_back(simulate(machine, scenes[s], wanted));
+    predictions.push_back(with_terms(machine.terms, scenes[s], simulations.back()));
   }
   is_static = scenes.front().is_static;
   noise_is_known = !is_static;
@@ -279,8 +279,8 @@ double Observations::range(int joint) const {
 }
 
 bool Observations::spans_workspace() const {
-  constexpr double kApart = 0.15;     // m, standard deviation in two directions
-  constexpr double kAllApart = 0.05;  // of the reach, in all three: no circle does that
+  constexpr double kApart = 0.15;      // m, standard deviation in two directions
+  constexpr double kAllApart = 0.045;  // of the reach, in all three: no circle does that
   Eigen::Index count = 0;
   Vector3<double> sum = Vector3<double>::Zero();
   Matrix3<double> square = Matrix3<double>::Zero();
@@ -298,7 +298,7 @@ bool Observations::spans_workspace() const {
   const Vector3<double> mean = sum / static_cast<double>(count);
   const Matrix3<double> spread = square / static_cast<double>(count) - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(spread, Eigen::EigenvaluesOnly);
-  const double least = kAllApart * effects::size_of(machine.robot).reach;
+  const double least = kAllApart * effects::size_of(machine.robot).outreach;
   return axes.eigenvalues()[1] > kApart * kApart ||  // in rising order
          axes.eigenvalues()[0] > least * least;
 }

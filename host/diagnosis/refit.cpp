@@ -1,18 +1,15 @@
 #include "diagnosis/refit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 
 #include "diagnosis/model_error.hpp"
+#include "diagnosis/rest.hpp"
 #include "diagnosis/select/members.hpp"
 #include "diagnosis/select/standards.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
-
-constexpr double kNoiseLike = 1.15;  // times the noise: nothing left to explain
 
 /// Takes the numbers of a fit that stand by themselves for the findings, where they are more than
 /// `others`; what does not stand stays behind them.
@@ -39,10 +36,8 @@ void take_members(const Inquiry& inquiry, const Fit& whole, std::size_t others,
   diagnosis->is_weighed_whole = true;
   diagnosis->nearest.clear();
   diagnosis->indistinguishable.clear();
-  const double after = largest_ratio(observations, diagnosis->updated().remainder);
-  const bool is_noise = is_like_noise(observations, after);
-  diagnosis->verdict = is_noise ? "explained" : "partly_explained";
-  diagnosis->reason = is_noise ? "" : fmt::format("{:.1f} times the noise is left", after);
+  diagnosis->reason = more_than_noise(observations, diagnosis->updated().remainder);
+  diagnosis->verdict = diagnosis->reason.empty() ? "explained" : "partly_explained";
 }
 
 bool is_number_of_family(const Inquiry& inquiry, const Chosen& chosen) {
@@ -81,10 +76,6 @@ Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothe
 }
 
 }  // namespace
-
-bool is_like_noise(const Observations& observations, double ratio) {
-  return !observations.noise_is_known || ratio < kNoiseLike + 3 * observations.noise_uncertainty;
-}
 
 bool are_many(const Inquiry& inquiry, const Fit& found) {
   const auto count =

@@ -4,9 +4,6 @@
 
 namespace flexcomp::diagnosis {
 
-/// Is what a fit leaves, so many times the noise, nothing but noise?
-bool is_like_noise(const Observations& observations, double ratio);
-
 /// Were so many numbers of a machine found one by one that they are to be fitted together? Nothing
 /// holds single ones to the size of their like.
 bool are_many(const Inquiry& inquiry, const Fit& found);

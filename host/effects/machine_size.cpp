@@ -7,6 +7,16 @@
 #include "effects/plausible_range.hpp"
 
 namespace flexcomp::effects {
+namespace {
+
+/// m, by which the second joint stands along the axis of the first, which turns it on the spot.
+double column_of(const model::Chain& chain) {
+  return chain.joints.size() > 1 && !chain.joints[0].slides()
+             ? std::abs(chain.joints[0].axis.dot(chain.joints[1].origin.position))
+             : 0;
+}
+
+}  // namespace
 
 MachineSize size_of(const model::Robot& robot) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -25,6 +35,7 @@ MachineSize size_of(const model::Robot& robot) {
     size.load.push_back(0);
   }
   size.reach += robot.elastic.tool.position.norm();
+  size.outreach = size.reach - column_of(robot.elastic);
   size.payload = mass > 0 ? std::max(mass, robot.elastic.payload_mass) : kLargestPayload;
   size.weight = kGravity * mass;
   size.weight_torque = mass > 0 ? 0.5 * size.weight * size.reach : kEndless;

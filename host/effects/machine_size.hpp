@@ -8,6 +8,7 @@ namespace flexcomp::effects {
 /// neither the model nor the recordings tell.
 struct MachineSize {
   double reach = 0;          ///< m, of the stretched arm with its tool
+  double outreach = 0;       ///< m, the same less the column that carries the second joint
   double payload = 0;        ///< kg, the most that an arm of these masses can carry
   double weight = 0;         ///< N, of the links that move; zero where the model has no masses
   double weight_torque = 0;  ///< N·m, of that weight on the stretched arm

@@ -8,10 +8,8 @@ namespace {
 using Vector = Vector3<double>;
 using Matrix = Matrix3<double>;
 
-/// A link on its way; all in the base frame.
+/// A link on its way, in its own frame: there its inertia is as the model has it.
 struct Motion {
-  Matrix rotation = Matrix::Identity();
-  Vector origin = Vector::Zero();
   Vector spin = Vector::Zero();                  ///< rad/s
   Vector angular_acceleration = Vector::Zero();  ///< rad/s²
   Vector acceleration = Vector::Zero();          ///< of the origin, less gravity, m/s²
@@ -22,10 +20,10 @@ struct Motion {
   }
 };
 
-/// Force and moment that move a link, about its origin.
-struct Effort {
-  Vector axis;
-  Vector origin;
+/// A link's frame in the one before, and force and moment about its origin that move it and all
+/// links beyond, in its own frame.
+struct Link {
+  Pose<double> frame;
   Vector force = Vector::Zero();
   Vector moment = Vector::Zero();
 
@@ -40,35 +38,22 @@ struct JointMotion {
   double q, velocity, acceleration;
 };
 
-void turn(const model::ChainJoint& joint, const JointMotion& by, const Vector& axis,
-          Motion* motion) {
-  const Vector spin = by.velocity * axis;
-  motion->rotation = motion->rotation * axis_rotation<double>(joint.axis, by.q);
-  motion->angular_acceleration =
-      motion->angular_acceleration + by.acceleration * axis + motion->spin.cross(spin);
-  motion->spin += spin;
-}
-
-/// On a link that turns, what slides is turned as well (Coriolis).
-void slide(const JointMotion& by, const Vector& axis, Motion* motion) {
-  const Vector along = by.q * axis;
-  motion->acceleration = motion->acceleration_at(along) + by.acceleration * axis +
-                         2 * motion->spin.cross(by.velocity * axis);
-  motion->origin += along;
-}
-
+/// The motion of a link whose `frame` in the one before is as its joint holds it.
 Motion next(const Motion& before, const model::ChainJoint& joint, const JointMotion& by,
-            Vector* axis) {
-  Motion motion = before;
-  const Vector arm = before.rotation * joint.origin.position;
-  motion.origin = before.origin + arm;
-  motion.acceleration = before.acceleration_at(arm);
-  motion.rotation = before.rotation * joint.origin.rotation;
-  *axis = motion.rotation * joint.axis;
-  if (joint.slides()) {
-    slide(by, *axis, &motion);
+            const Pose<double>& frame) {
+  const auto turned = [&](const Vector& vector) -> Vector {
+    return frame.rotation.transpose() * vector;
+  };
+  Motion motion;
+  motion.spin = turned(before.spin);
+  motion.angular_acceleration = turned(before.angular_acceleration);
+  motion.acceleration = turned(before.acceleration_at(frame.position));
+  const Vector velocity = by.velocity * joint.axis;
+  if (joint.slides()) {  // on a link that turns, what slides is turned as well (Coriolis)
+    motion.acceleration += by.acceleration * joint.axis + 2 * motion.spin.cross(velocity);
   } else {
-    turn(joint, by, *axis, &motion);
+    motion.angular_acceleration += by.acceleration * joint.axis + motion.spin.cross(velocity);
+    motion.spin += velocity;
   }
   return motion;
 }
@@ -78,33 +63,29 @@ Motion next(const Motion& before, const model::ChainJoint& joint, const JointMot
 JointValues inverse_dynamics(const model::Robot& robot, const JointValues& q,
                              const JointValues& velocity, const JointValues& acceleration) {
   const model::Chain& chain = robot.elastic;
-  model::PerJoint<Effort> efforts(chain.joints.size());
+  model::PerJoint<Link> links(chain.joints.size());
   Motion motion;
   motion.acceleration = -chain.gravity;
-  for (std::size_t i = 0; i < efforts.size(); ++i) {
+  for (std::size_t i = 0; i < links.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const model::ChainJoint& joint = chain.joints[i];
-    Effort& effort = efforts[i];
-    motion = next(motion, joint, {q[at], velocity[at], acceleration[at]}, &effort.axis);
-    effort.origin = motion.origin;
-    const Vector arm = motion.rotation * joint.center_of_mass;
-    effort.add(arm, joint.mass * motion.acceleration_at(arm));
-    const auto turned = [&](const Vector& vector) -> Vector {
-      return motion.rotation * (robot.link_inertia[i] * (motion.rotation.transpose() * vector));
-    };
-    effort.moment += turned(motion.angular_acceleration) + motion.spin.cross(turned(motion.spin));
+    Link& link = links[i];
+    link.frame = model::moved(joint.origin, joint, q[at]);
+    motion = next(motion, joint, {q[at], velocity[at], acceleration[at]}, link.frame);
+    link.add(joint.center_of_mass, joint.mass * motion.acceleration_at(joint.center_of_mass));
+    const Matrix& inertia = robot.link_inertia[i];
+    link.moment += inertia * motion.angular_acceleration + motion.spin.cross(inertia * motion.spin);
   }
-  const Vector payload =
-      motion.rotation * (chain.tool.position + chain.tool.rotation * chain.payload_center);
-  efforts.back().add(payload, chain.payload_mass * motion.acceleration_at(payload));
+  const Vector payload = chain.tool.position + chain.tool.rotation * chain.payload_center;
+  links.back().add(payload, chain.payload_mass * motion.acceleration_at(payload));
   JointValues torque(chain.size());
-  for (std::size_t i = efforts.size(); i-- > 0;) {
-    const Effort& effort = efforts[i];
-    torque[static_cast<Eigen::Index>(i)] =
-        joint_load(chain.joints[i], effort.axis, effort.force, effort.moment);
+  for (std::size_t i = links.size(); i-- > 0;) {
+    const Link& link = links[i];
+    const model::ChainJoint& joint = chain.joints[i];
+    torque[static_cast<Eigen::Index>(i)] = joint_load(joint, joint.axis, link.force, link.moment);
     if (i > 0) {
-      efforts[i - 1].moment += effort.moment;
-      efforts[i - 1].add(effort.origin - efforts[i - 1].origin, effort.force);
+      links[i - 1].moment += link.frame.rotation * link.moment;
+      links[i - 1].add(link.frame.position, link.frame.rotation * link.force);
     }
   }
   return torque;

@@ -175,6 +175,20 @@ RigidTorque::RigidTorque(const Machine& machine, const Scene& scene)
   }
 }
 
+std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector<Scene>& scenes) {
+  std::vector<RigidTorque> rigid;
+  if (std::none_of(scenes.begin(), scenes.end(), [](const Scene& scene) {
+        return scene.has(joint_torque) || scene.has(joint_deflection);
+      })) {
+    return rigid;
+  }
+  rigid.reserve(scenes.size());
+  for (const Scene& scene : scenes) {
+    rigid.emplace_back(machine, scene);
+  }
+  return rigid;
+}
+
 bool RigidTorque::holds_for(const Machine& machine) const {
   const Chain& own = robot_.elastic;
   const Chain& other = machine.robot.elastic;
@@ -254,12 +268,15 @@ Wanted wanted_of(const Machine& machine, const Scene& scene) {
   return wanted;
 }
 
-std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes) {
+std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
+                                const std::vector<RigidTorque>& rigid) {
   std::vector<Prediction> predictions;
   predictions.reserve(scenes.size());
-  for (const Scene& scene : scenes) {
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    Wanted wanted = wanted_of(machine, scenes[s]);
+    wanted.rigid = rigid.empty() ? nullptr : &rigid[s];
     predictions.push_back(
-        with_terms(machine.terms, scene, simulate(machine, scene, wanted_of(machine, scene))));
+        with_terms(machine.terms, scenes[s], simulate(machine, scenes[s], wanted)));
   }
   return predictions;
 }

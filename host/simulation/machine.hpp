@@ -74,6 +74,9 @@ class RigidTorque {
   Eigen::MatrixXd torque_;
 };
 
+/// Of each scene; none where no scene has torques or deflections of joints to compare with.
+std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector<Scene>& scenes);
+
 /// Which channels to simulate; levers and springs are kept only with `levers`.
 struct Wanted {
   std::array<bool, 3> channel = {true, true, true};
@@ -95,8 +98,10 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
 /// wrench.
 Wanted wanted_of(const Machine& machine, const Scene& scene);
 
-/// Predictions of a machine for scenes, with its terms.
-std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes);
+/// Predictions of a machine for scenes, with its terms. `rigid`: of these scenes, or none; used
+/// where it holds for the machine.
+std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
+                                const std::vector<RigidTorque>& rigid = {});
 
 /// 1, −1, or 0 at speeds (rad/s) below any programmed motion, where only noise has a sign.
 int direction_of_motion(double speed);

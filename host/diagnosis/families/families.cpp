@@ -36,34 +36,41 @@ struct Extra {
   double gain = 0;  ///< fall of the sum of squares, to first order
 };
 
+/// A fit, and what of its machine's torques stays when a drive or a clock is changed.
+struct Known {
+  const Observations& observations;
+  const Fit& fit;
+  std::vector<simulation::RigidTorque> rigid;
+};
+
 /// By how much a machine changes what a fit predicts, samples to fit to.
-Eigen::VectorXd change_by(const Observations& observations, const Fit& fit,
-                          const Machine& machine) {
-  return fit.remainder.head(observations.train) -
+Eigen::VectorXd change_by(const Known& known, const Machine& machine) {
+  const Observations& observations = known.observations;
+  return known.fit.remainder.head(observations.train) -
          (observations.residual + observations.stacked(observations.predictions) -
-          observations.stacked(predict(machine, observations.scenes)))
+          observations.stacked(predict(machine, observations.scenes, known.rigid)))
              .head(observations.train);
 }
 
 /// A drive that turns with the joint before its own, by one turn or against it, its friction and
 /// rotor as they are.
-void propose_coupling(const Observations& observations, const Fit& fit,
-                      const effects::LawPointer& law, int joint, std::vector<Extra>* all) {
-  const auto left = fit.remainder.head(observations.train);
-  Hypothesis hypothesis(law, joint, observations.machine.robot);
+void propose_coupling(const Known& known, const effects::LawPointer& law, int joint,
+                      std::vector<Extra>* all) {
+  const auto left = known.fit.remainder.head(known.observations.train);
+  Hypothesis hypothesis(law, joint, known.observations.machine.robot);
   hypothesis.set_bounds({kCouplings});
   for (const double ratio : {1.0, -1.0}) {
-    Machine coupled = fit.machine;
+    Machine coupled = known.fit.machine;
     hypothesis.apply({ratio}, &coupled);
-    const Eigen::VectorXd change = change_by(observations, fit, coupled);
+    const Eigen::VectorXd change = change_by(known, coupled);
     const double product = change.dot(left);
     const double gain = product > 0 ? product * product / change.squaredNorm() : 0;
     all->push_back({{hypothesis, {ratio}}, gain});
   }
 }
 
-void propose_couplings(const Observations& observations, const Fit& fit, std::vector<Extra>* all) {
-  const model::Robot& robot = fit.machine.robot;
+void propose_couplings(const Known& known, std::vector<Extra>* all) {
+  const model::Robot& robot = known.fit.machine.robot;
   for (const effects::Effect& effect : effects::catalogue()) {
     for (const effects::LawPointer& law : effect.forms) {
       if (!law->traits.couples_drives) {
@@ -71,7 +78,7 @@ void propose_couplings(const Observations& observations, const Fit& fit, std::ve
       }
       for (const int joint : law->joints(robot.joints())) {
         if (robot.transmission(joint - 1, joint - 2) == 0) {
-          propose_coupling(observations, fit, law, joint, all);
+          propose_coupling(known, law, joint, all);
         }
       }
     }
@@ -79,20 +86,19 @@ void propose_couplings(const Observations& observations, const Fit& fit, std::ve
 }
 
 /// Torques whose clock is late or early.
-void propose_clocks(const Observations& observations, const Fit& fit,
-                    const std::vector<Hypothesis>& hypotheses, std::vector<Extra>* all) {
-  const auto left = fit.remainder.head(observations.train);
+void propose_clocks(const Known& known, const std::vector<Hypothesis>& hypotheses,
+                    std::vector<Extra>* all) {
+  const auto left = known.fit.remainder.head(known.observations.train);
   for (const Hypothesis& hypothesis : hypotheses) {
     if (!hypothesis.traits().is_clock || hypothesis.linear > 0 ||
-        hypothesis.traits().alters_model || is_chosen(fit.chosen, hypothesis)) {
+        hypothesis.traits().alters_model || is_chosen(known.fit.chosen, hypothesis)) {
       continue;
     }
     Extra best{{hypothesis, {}}, 0};
     for (const double delay : kDelays) {
-      Machine late = fit.machine;
+      Machine late = known.fit.machine;
       hypothesis.apply({delay}, &late);
-      const double gain =
-          left.squaredNorm() - (left - change_by(observations, fit, late)).squaredNorm();
+      const double gain = left.squaredNorm() - (left - change_by(known, late)).squaredNorm();
       if (gain > best.gain) {
         best = {{hypothesis, {delay}}, gain};
       }
@@ -105,9 +111,10 @@ void propose_clocks(const Observations& observations, const Fit& fit,
 
 std::vector<Extra> propose_extras(const Observations& observations, const Fit& fit,
                                   const std::vector<Hypothesis>& hypotheses) {
+  const Known known{observations, fit, simulation::rigid_torques(fit.machine, observations.scenes)};
   std::vector<Extra> all;
-  propose_couplings(observations, fit, &all);
-  propose_clocks(observations, fit, hypotheses, &all);
+  propose_couplings(known, &all);
+  propose_clocks(known, hypotheses, &all);
   std::sort(all.begin(), all.end(), [](const Extra& a, const Extra& b) { return a.gain > b.gain; });
   return all;
 }
@@ -125,7 +132,8 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
   Dictionary coupled = dictionary;
   Machine machine = observations.machine;
   coupling.hypothesis.apply(coupling.values, &machine);
-  const Eigen::VectorXd base = observations.stacked(predict(machine, observations.scenes));
+  const Eigen::VectorXd base =
+      observations.stacked(predict(machine, observations.scenes, observations.rigid));
   for (const Entry& entry : coupled.entries) {
     const Hypothesis& hypothesis = coupled.hypotheses[entry.hypothesis];
     if (hypothesis.joint != coupling.hypothesis.joint || !hypothesis.traits().is_in_family) {
@@ -138,7 +146,8 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
       Machine changed = machine;
       hypothesis.apply(values, &changed);
       coupled.columns.col(entry.first + i) =
-          (observations.stacked(predict(changed, observations.scenes)) - base) / values[parameter];
+          (observations.stacked(predict(changed, observations.scenes, observations.rigid)) - base) /
+          values[parameter];
     }
   }
   return coupled;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/grammar/compose.hpp"
-#include "diagnosis/refit.hpp"
+#include "diagnosis/rest.hpp"
 #include "diagnosis/select/grow.hpp"
 #include "diagnosis/select/standards.hpp"
 
@@ -98,7 +98,7 @@ Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget, con
     }
     grown = revised(inquiry, material, std::move(next), budget);
     tell(grown.chosen.size(), kMostFindings);
-    if (is_like_noise(inquiry.observations, largest_ratio(inquiry.observations, grown.remainder))) {
+    if (more_than_noise(inquiry.observations, grown.remainder).empty()) {
       break;
     }
   }

@@ -45,6 +45,13 @@ std::string first_few(const std::vector<std::string>& all) {
                      more > 0 ? fmt::format("; and {} more", more) : std::string());
 }
 
+/// The model as it was given.
+Fit as_given(const Observations& observations) {
+  Fit nothing;
+  nothing.remainder = observations.residual;
+  return nothing;
+}
+
 }  // namespace
 
 std::string statement(const Observations& observations, const Diagnosis& diagnosis,
@@ -88,11 +95,14 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
   const bool is_regression =
       std::any_of(fit.chosen.begin(), fit.chosen.end(),
                   [](const Chosen& each) { return each.hypothesis.is_regression; });
+  // Numbers that were fitted together mean little without each other.
+  const bool is_whole = found > 0 && diagnosis.is_weighed_whole;
   return fmt::format(
       "No finding, but a stand-in until one is made{}: with other numbers in updated_model.yaml "
-      "({}) {}.{}",
+      "({}) {}{}.{}",
       found == 0 ? "" : " of what is left", first_few(numbers),
-      fall(observations, diagnosis.choice.fit, fit),
+      is_whole ? "beside the findings " : "",
+      fall(observations, is_whole ? as_given(observations) : diagnosis.choice.fit, fit),
       is_regression ? " Its masses are numbers of a regression, which predict better than those of "
                       "any bodies."
                     : "");
@@ -126,10 +136,10 @@ std::string headline(const Observations& observations, const Diagnosis& diagnosi
       const Hypothesis& found = finding.chosen.hypothesis;
       places.push_back(place_in_words(found.effect(), found.joint));
     }
-    Fit nothing;
-    nothing.remainder = observations.residual;
-    return fmt::format("The model lacks: {}. With all of it the {}.", first_few(places),
-                       fall(observations, nothing, diagnosis.choice.fit));
+    const bool has_others = diagnosis.weighed().chosen.size() > findings.size();
+    return fmt::format("The model lacks: {}. With all of it{} the {}.", first_few(places),
+                       has_others ? " and what stands in for the rest" : "",
+                       fall(observations, as_given(observations), diagnosis.weighed()));
   }
   if (diagnosis.verdict == "no_mismatch") {
     return "Model and recording agree within the noise.";
