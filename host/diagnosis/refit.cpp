@@ -7,6 +7,7 @@
 #include "diagnosis/rest.hpp"
 #include "diagnosis/select/members.hpp"
 #include "diagnosis/select/standards.hpp"
+#include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -62,15 +63,23 @@ std::vector<Chosen> kept_of(const Inquiry& inquiry, const Fit& found) {
 /// predict better.
 Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothesis>& hypotheses) {
   const Observations& observations = inquiry.observations;
-  std::vector<Chosen> kept = kept_of(inquiry, found);
-  Fit best = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary);
-  if (kept.size() > inquiry.given.chosen.size()) {
-    const Fit rest = fit(observations, std::move(kept), kSteps, &inquiry.dictionary);
-    Fit beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary);
-    if (best.chosen.empty() ||
-        (!beside.chosen.empty() && predicts_better(observations, best, beside))) {
-      best = std::move(beside);
-    }
+  const std::vector<Chosen> kept = kept_of(inquiry, found);
+  const bool keeps_any = kept.size() > inquiry.given.chosen.size();
+  Fit best;
+  Fit beside;
+  in_parallel(
+      keeps_any ? 2 : 1, [](std::size_t, std::size_t) {},
+      [&](std::size_t i) {
+        if (i == 0) {
+          best = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary);
+        } else {
+          const Fit rest = fit(observations, kept, kSteps, &inquiry.dictionary);
+          beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary);
+        }
+      });
+  if (keeps_any && (best.chosen.empty() ||
+                    (!beside.chosen.empty() && predicts_better(observations, best, beside)))) {
+    best = std::move(beside);
   }
   return best.chosen.empty() || predicts_better(observations, best, found) ? Fit{} : best;
 }

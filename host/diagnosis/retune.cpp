@@ -6,6 +6,7 @@
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/families.hpp"
 #include "diagnosis/plausible.hpp"
+#include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -118,14 +119,23 @@ bool stands(const Observations& observations, const Fit& findings, const Fit& tu
 Fit retune(const Observations& observations, const Fit& findings,
            const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
   Fit best;
-  Fit numbers = fit_model_numbers(observations, findings, hypotheses, dictionary);
+  Fit numbers;
+  Fit families;
+  in_parallel(
+      2, [](std::size_t, std::size_t) {},
+      [&](std::size_t i) {
+        if (i == 0) {
+          numbers = fit_model_numbers(observations, findings, hypotheses, dictionary);
+        } else {
+          families = fit_families(observations, findings, hypotheses, dictionary);
+        }
+      });
   // Nothing holds these to the model: large changes that cancel each other imitate what is not
   // there.
   if (stands(observations, findings, numbers) &&
       cancellation(observations, numbers) < kMostCancellation) {
     best = std::move(numbers);
   }
-  Fit families = fit_families(observations, findings, hypotheses, dictionary);
   if (stands(observations, findings, families) &&
       (best.chosen.empty() || predicts_better(observations, best, families))) {
     best = std::move(families);
