@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 #include "build_info.hpp"
@@ -41,7 +42,7 @@ struct DiagnoseOptions {
   std::vector<std::string> without;
   std::string out;
   double false_discovery = 0.01;
-  double law_seconds = 0;
+  std::optional<double> law_seconds;
 };
 
 Eigen::Index components(const recording::Recording& recording) {
@@ -132,8 +133,8 @@ std::string command_line(const DiagnoseOptions& options) {
   for (const std::string& effect : options.without) {
     line += " --without " + effect;
   }
-  if (options.law_seconds > 0) {
-    line += fmt::format(" --law-seconds {:g}", options.law_seconds);
+  if (options.law_seconds) {
+    line += fmt::format(" --law-seconds {:g}", *options.law_seconds);
   }
   return line +
          fmt::format(" --out {} --false-discovery {:g}", options.out, options.false_discovery);
@@ -207,7 +208,8 @@ int run(const DiagnoseOptions& options) {
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
   }
-  if (!(options.law_seconds >= 0 && std::isfinite(options.law_seconds))) {
+  const double law_seconds = options.law_seconds.value_or(0);
+  if (!(law_seconds >= 0 && std::isfinite(law_seconds))) {
     throw InputError("--law-seconds: expected a number of seconds, or 0");
   }
   const model::Robot robot = load_robot(options.model);
@@ -271,9 +273,10 @@ void add_diagnose(CLI::App* app, Action* action) {
           "a law of your own to weigh beside all others: a file with its place, its formula "
           "and\nthe ranges of its parameters; may be given again")
       ->take_all();
-  command->add_option("--law-seconds", options->law_seconds,
-                      "processor time (s) for composing laws that nobody listed, where effects "
-                      "leave a mismatch;\nnone are unless it is given, and 40 is enough");
+  command->add_option(
+      "--law-seconds", options->law_seconds,
+      "processor time (s) for composing laws that nobody listed, beside what is found "
+      "and in its place;\n0 for none; unless given, 40 where nothing is found");
   command
       ->add_option("--without", options->without,
                    "effect that is not sought, to see which law is found instead; may be given "

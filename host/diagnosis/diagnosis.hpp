@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,9 @@ struct Diagnosis {
 
 struct Settings {
   double false_discovery = 0.01;
-  /// Processor time (s) in which laws are composed for what effects leave (grammar/laws.hpp); none
-  /// are for 0.
-  double law_seconds = 0;
+  /// Processor time (s) in which laws are composed (grammar/laws.hpp): beside what was found and in
+  /// its place; none are for 0. Where it is not given, they are where nothing was found.
+  std::optional<double> law_seconds;
   Tell simulating;  ///< told while hypotheses are simulated
   Tell choosing;    ///< told while they are chosen
 };

@@ -106,8 +106,8 @@ class Diagnose(unittest.TestCase):
         file.write_text(text.replace(old, new))
         return file
 
-    def diagnosis(self, recording, model=ROBOT, holdout=()):
-        done = run("diagnose", "--model", model, "--recording", recording, "--out", self.out, *holdout)
+    def diagnosis(self, recording, model=ROBOT, options=()):
+        done = run("diagnose", "--model", model, "--recording", recording, "--out", self.out, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads((self.out / "diagnosis.json").read_text())
 
@@ -307,7 +307,7 @@ class Diagnose(unittest.TestCase):
         finding = self.only_finding(self.torques(joint, comes_and_goes(4 * noise)),
                                     "coulomb_friction", joint)
         self.assertAlmostEqual(finding["parameters"]["torque"]["value"], 4 * noise, delta=0.1 * noise)
-        large = self.diagnosis(self.torques(joint, comes_and_goes(12 * noise)))
+        large = self.diagnosis(self.torques(joint, comes_and_goes(12 * noise)), options=["--law-seconds", "0"])
         self.assertEqual(large["verdict"], "unexplained")
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
@@ -327,7 +327,7 @@ class Diagnose(unittest.TestCase):
             return friction
 
         held_out = self.torques(3, with_more(8)).rename(self.folder / "held_out.csv")
-        return self.diagnosis(self.torques(3, with_more(0)), holdout=("--holdout", held_out))
+        return self.diagnosis(self.torques(3, with_more(0)), options=("--holdout", held_out))
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_of_two_that_do_the_same_the_one_that_changes_less_is_named(self):

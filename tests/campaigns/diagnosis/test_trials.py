@@ -28,8 +28,8 @@ class Trials(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = pathlib.Path(scratch.name)
 
-    def diagnose(self, truth, model="robot.yaml", out="out"):
-        words = trial.command(TOOL, self.folder, truth, self.folder / out)
+    def diagnose(self, truth, model="robot.yaml", out="out", options=()):
+        words = trial.command(TOOL, self.folder, truth, self.folder / out) + list(options)
         words[words.index("--model") + 1] = str(self.folder / model)
         done = subprocess.run(words, capture_output=True, text=True, check=False)
         self.assertEqual(0, done.returncode, done.stderr)
@@ -72,11 +72,17 @@ class Trials(unittest.TestCase):
     def test_a_machine_like_its_model_is_left_alone(self):
         self.assertFalse(self.result("clean", CLEAN)[2].alarm)
 
-    def test_physics_outside_the_catalogue_is_not_given_a_name(self):
+    def test_physics_outside_the_catalogue_is_modelled_by_a_law_and_not_given_a_name(self):
         truth, found, result = self.result("foreign", FOREIGN)
-        self.assertFalse(result.claims, (truth["foreign"], found.named))
+        self.assertEqual({"law"}, {effect for effect, _ in found.named}, truth["foreign"])
+        for channel, ratio in result.holdout_ratio.items():
+            self.assertLess(ratio, 1.15, channel)
+
+    def test_physics_outside_the_catalogue_is_told_with_its_place_where_no_law_is_sought(self):
+        truth = case.write("foreign", FOREIGN, self.folder)
+        found = self.diagnose(truth, options=["--law-seconds", "0"])
         said = json.loads((self.folder / "out" / "diagnosis.json").read_text())
-        self.assertEqual("unexplained", found.verdict)
+        self.assertEqual(("unexplained", []), (found.verdict, found.named))
         self.assertTrue(said["unexplained"]["reason"])
         self.assertTrue(said["location"]["axes"] or said["location"]["joints"])
 
