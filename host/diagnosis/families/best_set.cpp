@@ -27,7 +27,7 @@ Elimination::Set Elimination::best_on_path() {
   double least = std::numeric_limits<double>::infinity();
   std::vector<std::size_t> members = all_members();
   solve(members);
-  divide();
+  parts_ = weighted_parts();
   const Eigen::VectorXd wide = widenings();
   while (true) {
     hold_impossible(members);

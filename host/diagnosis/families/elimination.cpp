@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -55,6 +56,7 @@ Elimination::Elimination(const Observations& observations, const Fit& about, std
   }
   unit_ = target_.norm() * columns_.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
   weight_ = Eigen::VectorXd::Ones(observations.train);
+  prepare_plain();
 }
 
 template <typename Columns>
@@ -104,15 +106,65 @@ Eigen::VectorXd Elimination::solution(const Eigen::MatrixXd& gram, const Eigen::
   return inner.ldlt().solve(moment(columns));
 }
 
+Elimination::Equations Elimination::equations_of(const std::vector<Eigen::Index>& rows,
+                                                 const Eigen::VectorXd& weight) const {
+  const Eigen::VectorXd root = weight(rows).cwiseSqrt();
+  const Eigen::MatrixXd columns = root.asDiagonal() * columns_(rows, Eigen::all);
+  const Eigen::VectorXd target = root.cwiseProduct(target_(rows));
+  Equations equations;
+  equations.gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  equations.gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  equations.gram = Eigen::MatrixXd(equations.gram.selfadjointView<Eigen::Lower>());
+  equations.moment = columns.transpose() * target;
+  equations.square = target.squaredNorm();
+  return equations;
+}
+
+/// Normal equations of each part of the samples, and of all, where all have the weight of one.
+void Elimination::prepare_plain() {
+  std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(kParts));
+  for (Eigen::Index i = 0; i < observations_.train; ++i) {
+    const Sample& at = observations_.samples[static_cast<std::size_t>(i)];
+    rows[static_cast<std::size_t>(part_of(observations_, at))].push_back(i);
+  }
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(observations_.train);
+  for (std::vector<Eigen::Index>& own : rows) {
+    if (!own.empty()) {
+      plain_.push_back(equations_of(own, one));
+      rows_.push_back(std::move(own));
+    }
+  }
+}
+
+/// Normal equations of each part. Few samples weigh less than one: what they lack is taken off.
+std::vector<Elimination::Equations> Elimination::weighted_parts() const {
+  std::vector<Equations> parts = plain_;
+  const Eigen::VectorXd lack = Eigen::VectorXd::Ones(weight_.size()) - weight_;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    std::vector<Eigen::Index> light;
+    std::copy_if(rows_[part].begin(), rows_[part].end(), std::back_inserter(light),
+                 [&](Eigen::Index row) { return lack[row] > 0; });
+    if (light.empty()) {
+      continue;
+    }
+    const Equations less = equations_of(light, lack);
+    parts[part].gram -= less.gram;
+    parts[part].moment -= less.moment;
+    parts[part].square -= less.square;
+  }
+  return parts;
+}
+
 /// Robust least squares of all members; their normal equations.
 void Elimination::solve(const std::vector<std::size_t>& members) {
   const std::vector<Eigen::Index> columns = columns_of(members);
   for (int round = 0; round < kWeightRounds; ++round) {
-    const Eigen::MatrixXd weighted = weight_.cwiseSqrt().asDiagonal() * columns_;
     gram_ = Eigen::MatrixXd::Zero(columns_.cols(), columns_.cols());
-    gram_.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
-    gram_ = Eigen::MatrixXd(gram_.selfadjointView<Eigen::Lower>());
-    moment_ = columns_.transpose() * weight_.cwiseProduct(target_);
+    moment_ = Eigen::VectorXd::Zero(columns_.cols());
+    for (const Equations& part : weighted_parts()) {
+      gram_ += part.gram;
+      moment_ += part.moment;
+    }
     value_ = Eigen::VectorXd::Zero(columns_.cols());
     value_(columns) = solution(gram_, moment_, columns);
     remainder_ = target_ - columns_ * value_;
@@ -126,41 +178,14 @@ void Elimination::solve(const std::vector<std::size_t>& members) {
   }
 }
 
-/// Normal equations of each part of the samples.
-void Elimination::divide() {
-  std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(kParts));
-  for (Eigen::Index i = 0; i < observations_.train; ++i) {
-    const Sample& at = observations_.samples[static_cast<std::size_t>(i)];
-    rows[static_cast<std::size_t>(part_of(observations_, at))].push_back(i);
-  }
-  part_gram_.clear();
-  part_moment_.clear();
-  part_square_.clear();
-  for (const std::vector<Eigen::Index>& own : rows) {
-    if (own.empty()) {
-      continue;
-    }
-    const Eigen::VectorXd root = weight_(own).cwiseSqrt();
-    const Eigen::MatrixXd columns = root.asDiagonal() * columns_(own, Eigen::all);
-    const Eigen::VectorXd target = root.cwiseProduct(target_(own));
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-    part_gram_.emplace_back(gram.selfadjointView<Eigen::Lower>());
-    part_moment_.emplace_back(columns.transpose() * target);
-    part_square_.push_back(target.squaredNorm());
-  }
-}
-
 /// Weighted squares that a set leaves in each part when it is fitted to all others.
 double Elimination::error_elsewhere(const std::vector<std::size_t>& members) const {
   const std::vector<Eigen::Index> columns = columns_of(members);
   double error = 0;
-  for (std::size_t part = 0; part < part_gram_.size(); ++part) {
-    const Eigen::VectorXd value =
-        solution(gram_ - part_gram_[part], moment_ - part_moment_[part], columns);
-    const Eigen::VectorXd moment = part_moment_[part](columns);
-    error += part_square_[part] - 2 * value.dot(moment) +
-             value.dot(part_gram_[part](columns, columns) * value);
+  for (const Equations& part : parts_) {
+    const Eigen::VectorXd value = solution(gram_ - part.gram, moment_ - part.moment, columns);
+    const Eigen::VectorXd moment = part.moment(columns);
+    error += part.square - 2 * value.dot(moment) + value.dot(part.gram(columns, columns) * value);
   }
   return error;
 }

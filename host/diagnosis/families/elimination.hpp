@@ -52,13 +52,23 @@ class Elimination {
     double error = 0;
   };
 
+  /// Normal equations of some samples, and the squares of what they are to explain.
+  struct Equations {
+    Eigen::MatrixXd gram;
+    Eigen::VectorXd moment;
+    double square = 0;
+  };
+
   template <typename Columns>
   void add(Member member, const Columns& columns);
   std::vector<Eigen::Index> columns_of(const std::vector<std::size_t>& members) const;
   Eigen::VectorXd tolerance() const;
   Eigen::VectorXd precision() const;
+  Equations equations_of(const std::vector<Eigen::Index>& rows,
+                         const Eigen::VectorXd& weight) const;
+  void prepare_plain();
+  std::vector<Equations> weighted_parts() const;
   void solve(const std::vector<std::size_t>& members);
-  void divide();
   Eigen::VectorXd solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                            const std::vector<Eigen::Index>& columns) const;
   double error_elsewhere(const std::vector<std::size_t>& members) const;
@@ -90,12 +100,13 @@ class Elimination {
   double spread_ = 1;     ///< of the remainder, over the noise
   double repeats_ = 1;    ///< samples of the remainder for each that is independent
   double tolerance_ = 0;  ///< times each number's unit: how far the model may be off
-  /// Normal equations of all samples, and of those of each part.
+  /// Samples of each part, and normal equations of them where all weigh one.
+  std::vector<std::vector<Eigen::Index>> rows_;
+  std::vector<Equations> plain_;
+  /// Normal equations of all samples, and of those of each part, with their weights.
   Eigen::MatrixXd gram_;
   Eigen::VectorXd moment_;
-  std::vector<Eigen::MatrixXd> part_gram_;
-  std::vector<Eigen::VectorXd> part_moment_;
-  std::vector<double> part_square_;
+  std::vector<Equations> parts_;
 };
 
 }  // namespace flexcomp::diagnosis
