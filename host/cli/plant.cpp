@@ -252,8 +252,10 @@ int run(const PlantOptions& options) {
   } else if (result.is_unstable) {
     return kDoesNotHold;
   } else if (refused) {
-    fmt::print("not armed: {}; largest safe gain {:.4g}\n", describe_reply(result.arm_reply),
-               result.largest_gain);
+    const std::string why = result.arm_reply != 0
+                                ? describe_reply(result.arm_reply)
+                                : "nothing was refused, but the correction did not become active";
+    fmt::print("not armed: {}; largest safe gain {:.4g}\n", why, result.largest_gain);
   } else {
     fmt::print("{} ticks, {} without an answer; engagement {:.3f} to {:.3f} of the nominal depth\n",
                result.ticks, result.unanswered, result.least_engagement, result.most_engagement);
