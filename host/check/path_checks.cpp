@@ -158,12 +158,13 @@ Checks check_process(const model::Robot& robot, const recording::Recording& path
   const std::string deep = std::isfinite(limit.engagement)
                                ? fmt::format("would become {:.2g} times as deep", limit.engagement)
                                : "would dig in by itself";
-  return {{Severity::error, "path", "process.unstable",
-           fmt::format("{}: with this force and a cut {:g} mm deep the tool {}, with any gain that "
-                       "is stable",
-                       path.file, 1e3 * process.depth_of_cut, deep),
-           "take a deeper cut for the same force (--depth-of-cut says how deep it is), less force, "
-           "or a stiffer place (flexcomp place)"}};
+  return {
+      {Severity::error, "path", "process.unstable",
+       fmt::format("{}: with this force and a cut {:g} mm deep the tool {}, with any gain that "
+                   "is stable",
+                   path.file, 1e3 * process.depth_of_cut, deep),
+       "give the depth of your cut (--depth-of-cut) and the side of the contour that its "
+       "material is on (--material); else take less force, or a stiffer place (flexcomp place)"}};
 }
 
 Checks check_table(const model::Robot& robot, const std::string& file, const Table& table) {
@@ -174,9 +175,11 @@ Checks check_table(const model::Robot& robot, const std::string& file, const Tab
   }
   const auto largest = static_cast<double>(table.header().largest_gain);
   if (largest > 0 && largest <= 1.01 * GainLimit::kNone) {
-    return {{Severity::error, "table", "process.unstable",
-             file + ": no gain is safe with the process that the table was made for",
-             "take a deeper cut (flexcomp table --depth-of-cut) or less force"}};
+    return {
+        {Severity::error, "table", "process.unstable",
+         file + ": no gain is safe with the process that the table was made for",
+         "make the table with the depth of your cut (flexcomp table --depth-of-cut) and its side "
+         "(--material), or for less force"}};
   }
   return {};
 }

@@ -96,10 +96,12 @@ void mend(const Reading& reading, recording::Recording* recording) {
 Check unlike_any(const recording::Recording& recording, double off) {
   return {Severity::warning, "recording", "model.other",
           fmt::format("{}: the measured positions lie {:.3g} m from where the model puts the TCP, "
-                      "and no other unit, axes, frame, tool or joint zero accounts for it",
+                      "and no other unit, axes, frame or tool accounts for it, nor other signs of "
+                      "joints or another zero of one",
                       recording.file, off),
-          "check that model and recording are of the same robot, and what x, y and z are measured "
-          "from and to"};
+          "check that model and recording are of the same robot, that all joints are counted as in "
+          "the URDF (a KUKA counts other signs and zeros), and what x, y and z are measured from "
+          "and to"};
 }
 
 }  // namespace

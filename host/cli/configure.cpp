@@ -167,8 +167,9 @@ int run(const ConfigureOptions& options) {
   if (largest_gain > 0 && largest_gain <= 1.01 * GainLimit::kNone) {
     fmt::print(
         stderr,
-        "flexcomp: {}: no gain is safe with the process it was made for: it takes a deeper cut "
-        "(flexcomp table --depth-of-cut) or less force; nothing is written\n",
+        "flexcomp: {}: no gain is safe with the process it was made for: make it with the "
+        "depth of your cut (flexcomp table --depth-of-cut) and its side (--material), or for less "
+        "force; nothing is written\n",
         options.table);
     return kDoesNotHold;
   }

@@ -115,8 +115,8 @@ void print_springs(const study::Identification& found) {
       fmt::print("{:10} these tests do not tell it: the model's value stays\n", spring.name);
     } else {
       fmt::print(
-          "{:10} these tests do not tell it: the model's value stays ({:.4g} to {:.4g} holds "
-          "zero)\n",
+          "{:10} these tests do not tell it: the model's value stays (zero lies within "
+          "{:.4g} to {:.4g})\n",
           spring.name, 1e6 * spring.lower, 1e6 * spring.upper);
     }
   }

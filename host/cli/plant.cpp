@@ -20,6 +20,7 @@
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "node/default_config.hpp"
+#include "node/node_status.hpp"
 #include "node/reply.hpp"
 #include "recording/plausible_angles.hpp"
 #include "simulation/displaced_robot.hpp"
@@ -83,12 +84,19 @@ std::string unstable_text(const GainLimit& limit) {
                    limit.stable, limit.safe);
 }
 
-/// The faults of a status word, in words.
-std::string faults_of(std::uint32_t status) {
+/// The faults of the status words, in words. A fault of the node comes to the core as one "reported
+/// by the caller", which is left out beside it.
+std::string faults_of(std::uint32_t status, std::uint16_t node_status) {
+  if ((node_status & kNodeFaultBits) != 0) {
+    status &= ~static_cast<std::uint32_t>(kExternalFault);
+  }
   std::string text;
   for (std::uint32_t bit = 1; (bit & kFaultBits) != 0; bit <<= 1) {
     if ((status & bit) != 0) {
       text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(static_cast<StatusBit>(bit)));
+    }
+    if ((node_status & kNodeFaultBits & bit) != 0) {
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(static_cast<NodeBit>(bit)));
     }
   }
   return text.empty() ? "no fault reported" : text;
@@ -103,7 +111,7 @@ void warn(const PlantOptions& options, const GainLimit& limit, const simulation:
   }
   if (run.was_lost) {
     fmt::print(stderr, "flexcomp: {}: the correction did not last, it faded out on the way: {}\n",
-               options.path, faults_of(run.status));
+               options.path, faults_of(run.status, run.node_status));
   }
 }
 
@@ -244,8 +252,10 @@ int run(const PlantOptions& options) {
   } else if (result.is_unstable) {
     return kDoesNotHold;
   } else if (refused) {
-    fmt::print("not armed: {}; largest safe gain {:.4g}\n", describe_reply(result.arm_reply),
-               result.largest_gain);
+    const std::string why = result.arm_reply != 0
+                                ? describe_reply(result.arm_reply)
+                                : "nothing was refused, but the correction did not become active";
+    fmt::print("not armed: {}; largest safe gain {:.4g}\n", why, result.largest_gain);
   } else {
     fmt::print("{} ticks, {} without an answer; engagement {:.3f} to {:.3f} of the nominal depth\n",
                result.ticks, result.unanswered, result.least_engagement, result.most_engagement);

@@ -67,7 +67,8 @@ std::string describe(const ProcessOptions& options) {
 }
 
 std::string describe_digging_in(const GainLimit& limit) {
-  constexpr const char* kRemedy = "it takes a deeper cut (--depth-of-cut) or less force";
+  constexpr const char* kRemedy =
+      "give the depth of your cut (--depth-of-cut) and its side (--material), or less force";
   return std::isfinite(limit.engagement)
              ? fmt::format("with it the cut would become {:.2g} times as deep; {}",
                            limit.engagement, kRemedy)

@@ -97,6 +97,11 @@ int run_path(const SimulateOptions& options) {
   recording.position = position;
   recording::write_recording(options.out, recording);
   fmt::print("{}: {} rows\n", options.out, recording.size());
+  if (!robot.effects.empty()) {
+    fmt::print(
+        "without the effects of the model: simulate --recording {} has them, at these angles\n",
+        options.out);
+  }
   return kDone;
 }
 
@@ -117,7 +122,8 @@ void add_simulate(CLI::App* app, Action* action) {
       "in\n"
       "the model, by its weight, at rest at every row (quasi-static). Writes the rows with q_meas "
       "(the\n"
-      "motors follow the command) and x, y, z of the TCP; free of noise.\n"
+      "motors follow the command) and x, y, z of the TCP; free of noise, and without the model's "
+      "effects.\n"
       "With --recording, what it would show if the model were right, as flexcomp diagnose compares "
       "it:\n"
       "t and, as far as the recording has them, x, y, z, tau and q_link; cells are empty where a "

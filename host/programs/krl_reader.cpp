@@ -155,8 +155,10 @@ class KrlReader {
       }
     }
     if (!point || !point->is_whole()) {
-      note(fmt::format("'$BASE': {} is not in the file; give it as --frame",
-                       files::one_line(name.empty() ? "its value" : name, 30)));
+      note(
+          fmt::format("'$BASE': {} is not in the file; without --frame the work is put where the "
+                      "robot reaches it",
+                      files::one_line(name.empty() ? "its value" : name, 30)));
       return;
     }
     const Pose<double> frame = point->pose();

@@ -220,8 +220,10 @@ class RapidReader {
     } else if (found != data_.frames.end()) {
       program_.frame = found->second;
     } else {
-      note(fmt::format("'{}': the module does not tell this work object; give it as --frame",
-                       files::one_line(name, 30)));
+      note(
+          fmt::format("'{}': the module does not tell this work object; without --frame the work "
+                      "is put where the robot reaches it",
+                      files::one_line(name, 30)));
     }
   }
 

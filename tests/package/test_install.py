@@ -78,6 +78,12 @@ class InstalledPackage(unittest.TestCase):
         run(os.environ["FLEXCOMP_CXX"], "-std=c++17", "-march=native", PROJECT / "deflection_at_a_posture.cpp", *flags,
             "-o", program)
         self.assertEqual(run(program), "1.000 mm\n")
+        loop = self.folder / "controller_loop_in_cpp"
+        run(os.environ["FLEXCOMP_CXX"], "-std=c++17", PROJECT / "controller_loop.cpp", *flags, "-o", loop)
+        flexcomp, path, table = self.prefix / "bin" / "flexcomp", self.folder / "loop.csv", self.folder / "loop.fct"
+        run(flexcomp, "plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz", "--out", path)
+        run(flexcomp, "table", "--model", KR270, "--path", path, "--out", table)
+        self.assertRegex(run(loop, table), r"^active: joint 2 corrected by ")
 
     def test_a_table_made_on_a_pc_lies_in_the_memory_of_a_program_in_c(self):
         part = GUIDE.read_text().split("## Your robot and your table\n")[1].split("\n## ")[0]
@@ -116,6 +122,8 @@ class InstalledPackage(unittest.TestCase):
     def test_the_guide_shows_the_programs_that_are_tested(self):
         shown = re.findall(r"```c\n(.*?)```", GUIDE.read_text(), re.DOTALL)
         self.assertEqual([(PROJECT / name).read_text() for name in ("controller_loop.c", "table_in_flash.c")], shown)
+        shown = re.findall(r"```cpp\n(.*?)```", GUIDE.read_text(), re.DOTALL)
+        self.assertEqual([(PROJECT / "controller_loop.cpp").read_text()], shown)
         shown = re.findall(r"```c bus_controller.c\n(.*?)```", CONTROLLER_GUIDE.read_text(), re.DOTALL)
         self.assertEqual([(PROJECT / "bus_controller.c").read_text()], shown)
 
