@@ -74,6 +74,11 @@ int run_recording(const SimulateOptions& options) {
   return kDone;
 }
 
+/// Positions of a path that a robot with effects drives, with their history from row to row.
+recording::Samples driven(const model::Robot& robot, const recording::Recording& path) {
+  return *expected(robot, path).position;
+}
+
 int run_path(const SimulateOptions& options) {
   if (!(options.compliance_scale > 0)) {
     throw InputError("--compliance-scale: expected a number above zero");
@@ -93,15 +98,15 @@ int run_path(const SimulateOptions& options) {
     position.row(row) = at.tcp.position.transpose();
     progress.show(static_cast<std::size_t>(row));
   }
-  recording.q_meas = q_cmd;
   recording.position = position;
+  if (!robot.effects.empty() || !effects::machine_of(robot).terms.empty()) {
+    model::Robot softer = robot;
+    softer.elastic = plant;
+    recording.position = driven(softer, recording);
+  }
+  recording.q_meas = q_cmd;
   recording::write_recording(options.out, recording);
   fmt::print("{}: {} rows\n", options.out, recording.size());
-  if (!robot.effects.empty()) {
-    fmt::print(
-        "without the effects of the model: simulate --recording {} has them, at these angles\n",
-        options.out);
-  }
   return kDone;
 }
 
@@ -120,10 +125,10 @@ void add_simulate(CLI::App* app, Action* action) {
       "simulate",
       "With --path, where the robot really goes: its springs bent by the wrench and, with gravity "
       "in\n"
-      "the model, by its weight, at rest at every row (quasi-static). Writes the rows with q_meas "
-      "(the\n"
-      "motors follow the command) and x, y, z of the TCP; free of noise, and without the model's "
+      "the model, by its weight, at rest at every row (quasi-static), and moved by the model's "
       "effects.\n"
+      "Writes the rows with q_meas (the motors follow the command) and x, y, z of the TCP; free of "
+      "noise.\n"
       "With --recording, what it would show if the model were right, as flexcomp diagnose compares "
       "it:\n"
       "t and, as far as the recording has them, x, y, z, tau and q_link; cells are empty where a "

@@ -185,6 +185,21 @@ class Simulation(WithAFolder):
         wanted[:, 0] = 1e-6 * (lagging + s.wrench[0, 0])
         self.expect(wanted, found)
 
+    def test_a_path_is_driven_with_play_as_a_recording_shows_it(self):
+        s = self.swing
+        law = {"place": "tcp_base", "axis": "y", "a": 1e-6, "gap": 200, "formula": "a*play(fx, gap)"}
+        wanted = self.change(law, "xyz")
+        path = self.folder / "path.csv"
+        s.write(path)
+        path.write_text(path.read_text().replace("q_meas_", "q_cmd_"))
+        shown = []
+        for effects in ([], [{"effect": "law", **law}]):
+            out = self.folder / "driven.csv"
+            run_well("simulate", "--model", self.model(effects), "--path", path, "--out", out)
+            shown.append(read(out, "xyz"))
+        self.assertGreater(np.abs(wanted).max(), 0)
+        self.assertLess(np.abs((shown[1] - shown[0])[20:-20] - wanted).max(), 1e-9)
+
     def test_play_remembers(self):
         s = self.swing
         found = self.change({"place": "tcp_base", "axis": "y", "a": 1e-6, "gap": 200,
