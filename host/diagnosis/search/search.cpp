@@ -30,6 +30,10 @@ std::vector<Values> starts_at(const std::vector<double>& shares, double size) {
   return starts;
 }
 
+std::vector<Known> known_waves(PlaceKind place) {
+  return {{{place}, "", {SignalKind::angle}, {"wave", "wave of any order", "two waves"}}};
+}
+
 std::vector<Values> ripple_orders(const Observations& observations, int joint,
                                   const std::vector<JointResidual>& residual) {
   constexpr double kMostOrder = 330;

@@ -18,6 +18,14 @@ bool prepare_stribeck_friction(const Observations& observations, Hypothesis* hyp
 
 }  // namespace
 
-Search search::stribeck_friction() { return {prepare_stribeck_friction}; }
+Search search::stribeck_friction() {
+  return {
+      prepare_stribeck_friction,
+      nullptr,
+      {{{PlaceKind::joint_torque},
+        "sign(v",
+        {SignalKind::speed},
+        {"line", "size", "parabola", "saturation", "slow saturation", "limit", "bump", "growth"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -37,7 +37,8 @@ std::vector<Values> seek_transmission_ripple(const Observations& observations,
 }  // namespace
 
 Search search::transmission_ripple() {
-  return {prepare_transmission_ripple, seek_transmission_ripple};
+  return {prepare_transmission_ripple, seek_transmission_ripple,
+          known_waves(PlaceKind::joint_angle)};
 }
 
 }  // namespace flexcomp::diagnosis
