@@ -15,9 +15,9 @@ namespace {
 
 using simulation::tcp_position;
 
-constexpr double kSignificance = 0.01;
-constexpr Eigen::Index kStretches = 24;
-constexpr std::size_t kMostCorrelates = 6;
+constexpr double kSignificance = 0.01;      // of all places that are looked at, together
+constexpr Eigen::Index kStretches = 24;     // of a recording, in each of which time is told
+constexpr std::size_t kMostCorrelates = 6;  // that are told: a reader looks at no more
 
 double chance_above(double value, double freedom) {
   if (!(value > 0)) {
@@ -214,7 +214,7 @@ class Locator {
 
   void add_lines(const std::vector<double>& values, double duration, double components) {
     constexpr std::size_t kFewestPeriods = 12;  // below it is the motion itself
-    constexpr std::size_t kNeighbours = 30;
+    constexpr std::size_t kNeighbours = 30;     // on either side: their median is told to a fifth
     Eigen::FFT<double> transform;
     std::vector<std::complex<double>> spectrum;
     transform.fwd(spectrum, values);

@@ -15,7 +15,6 @@ constexpr double kFarTurn = 5e-3;   // rad, the same
 constexpr double kMostLeft = 0.25;  // of the squares: a frame that leaves more is not the cause
 constexpr int kRounds = 10;         // of weights, which settle where outliers are few
 constexpr int kFrameSteps = 20;     // of the fit by simulation, from a coarse start
-constexpr double kRobustLimit = 3;  // deviations, as in `fit`
 
 /// Measured and predicted positions, 3 × n, rows to fit to that have all three.
 struct Points {
@@ -70,7 +69,7 @@ Eigen::Isometry3d registered(const Points& points) {
     const Eigen::VectorXd distance =
         (points.measured - motion * points.predicted).colwise().norm().transpose();
     const double spread = std::sqrt(weight.dot(distance.cwiseAbs2()) / weight.sum());
-    weight = (kRobustLimit * spread / distance.array().max(1e-12)).min(1.0).matrix();
+    weight = huber_weights(distance, spread);
     motion = nearest(points, weight);
   }
   return motion;

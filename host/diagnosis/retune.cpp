@@ -5,15 +5,15 @@
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/families.hpp"
+#include "diagnosis/families/regression.hpp"
 #include "diagnosis/plausible.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kKnown = 2;  // deviations from what the model has
-constexpr int kTuningSteps = 8;
-constexpr double kTiny = 1e-300;
+constexpr double kKnown = 2;      // deviations from what the model has
+constexpr double kTiny = 1e-300;  // against a division by zero
 
 /// Findings, and behind them the numbers that they do not alter, as they are.
 std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothesis>& hypotheses,
@@ -94,14 +94,14 @@ std::vector<Chosen> possible_of(const Observations& observations, const Fit& fit
 Fit fit_model_numbers(const Observations& observations, const Fit& findings,
                       const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
   const std::size_t found = findings.chosen.size();
-  Fit tuned =
-      fit(observations, with_numbers(findings, hypotheses, dictionary), kTuningSteps, &dictionary);
+  Fit tuned = fit(observations, with_numbers(findings, hypotheses, dictionary), kSimulatedSteps,
+                  &dictionary);
   const auto kept = [&] {
     std::vector<Chosen> possible = possible_of(observations, tuned, found);
     return possible.size() < tuned.chosen.size() ? possible : known_of(tuned, found);
   };
   for (std::vector<Chosen> next = kept(); next.size() < tuned.chosen.size(); next = kept()) {
-    tuned = fit(observations, std::move(next), kTuningSteps, &dictionary);
+    tuned = fit(observations, std::move(next), kSimulatedSteps, &dictionary);
   }
   return tuned;
 }

@@ -24,7 +24,6 @@ constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another
 constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
 constexpr double kHopeless = 1.1;  // of the held-out error, that choosing anew does not make up for
-constexpr double kLikeNoise = 1.15;  // times the noise: nothing that a regression could better
 constexpr double kClearlyBetter =
     0.97;                            // of the held-out error, that bodies which cannot be are worth
 constexpr int kExtraSteps = 0;       // before the numbers are beside them

@@ -16,8 +16,8 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr Eigen::Index kBins = 30;
-constexpr double kFewest = 4;  // samples of a mean that is drawn
+constexpr Eigen::Index kBins = 30;  // points along a driver
+constexpr double kFewest = 4;       // samples of a mean that is drawn
 constexpr std::array<const char*, 3> kDots = {"#c0392b", "#1f6fb4", "#222222"};
 
 /// A text between gnuplot's single quotes, where an apostrophe is written twice.

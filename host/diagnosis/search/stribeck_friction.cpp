@@ -5,7 +5,7 @@ namespace {
 
 /// Needs torques, and slow motion.
 bool prepare_stribeck_friction(const Observations& observations, Hypothesis* hypothesis) {
-  constexpr double kLeastSpeed = 1e-3;  // rad/s
+  constexpr double kLeastSpeed = 1e-3;  // rad/s: below it the angles' noise makes the direction
   const double speed = observations.largest_speed(hypothesis->joint);
   if (!sees_moving_torques(observations) || speed < kLeastSpeed) {
     return false;
