@@ -9,6 +9,7 @@
 #include "diagnosis/cues.hpp"
 #include "diagnosis/evidence.hpp"
 #include "statistics/distributions.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -230,13 +231,11 @@ class Locator {
         continue;
       }
       const std::size_t first = k > kNeighbours ? k - kNeighbours : 1;
-      std::vector<double> near(
+      const std::vector<double> near(
           power.begin() + static_cast<std::ptrdiff_t>(first),
           power.begin() + static_cast<std::ptrdiff_t>(std::min(half, k + kNeighbours)));
-      std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2),
-                       near.end());
       // The median of exponentially distributed power is ln 2 of its mean.
-      const double mean = near[near.size() / 2] / std::log(2.0);
+      const double mean = statistics::median(near) / std::log(2.0);
       const double chance =
           std::exp(-power[k] / std::max(mean, 1e-300)) * static_cast<double>(half) * components;
       const double frequency = static_cast<double>(k) / duration;

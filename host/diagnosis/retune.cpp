@@ -5,8 +5,8 @@
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/families.hpp"
+#include "diagnosis/families/possible_bodies.hpp"
 #include "diagnosis/families/regression.hpp"
-#include "diagnosis/plausible.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
@@ -68,28 +68,6 @@ std::vector<Chosen> known_of(const Fit& fit, std::size_t findings) {
   return known;
 }
 
-/// Could all numbers behind the findings be so?
-bool could_all_be(const Observations& observations, const Fit& fit, std::size_t findings) {
-  for (std::size_t i = findings; i < fit.chosen.size(); ++i) {
-    if (!could_be(observations, fit, i)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Findings, and behind them the numbers that can be.
-std::vector<Chosen> possible_of(const Observations& observations, const Fit& fit,
-                                std::size_t findings) {
-  std::vector<Chosen> possible;
-  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
-    if (i < findings || why_impossible(observations, fit, i).empty()) {
-      possible.push_back(fit.chosen[i]);
-    }
-  }
-  return possible;
-}
-
 /// The few numbers that every model has: those that can be told from what they are.
 Fit fit_model_numbers(const Observations& observations, const Fit& findings,
                       const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
@@ -97,8 +75,8 @@ Fit fit_model_numbers(const Observations& observations, const Fit& findings,
   Fit tuned = fit(observations, with_numbers(findings, hypotheses, dictionary), kSimulatedSteps,
                   &dictionary);
   const auto kept = [&] {
-    std::vector<Chosen> possible = possible_of(observations, tuned, found);
-    return possible.size() < tuned.chosen.size() ? possible : known_of(tuned, found);
+    const auto possible = without_impossible(observations, tuned, found, false);
+    return possible ? *possible : known_of(tuned, found);
   };
   for (std::vector<Chosen> next = kept(); next.size() < tuned.chosen.size(); next = kept()) {
     tuned = fit(observations, std::move(next), kSimulatedSteps, &dictionary);
@@ -109,7 +87,7 @@ Fit fit_model_numbers(const Observations& observations, const Fit& findings,
 /// Do the numbers behind the findings stand?
 bool stands(const Observations& observations, const Fit& findings, const Fit& tuned) {
   return tuned.chosen.size() > findings.chosen.size() &&
-         could_all_be(observations, tuned, findings.chosen.size()) &&
+         !without_impossible(observations, tuned, findings.chosen.size(), false) &&
          bic_gain(observations, findings, tuned) > kStrongEvidence &&
          predicts_better(observations, findings, tuned);
 }
