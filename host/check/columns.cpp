@@ -7,6 +7,7 @@
 
 #include "check/arm.hpp"
 #include "check/motion.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::check {
 namespace {
@@ -96,12 +97,12 @@ Checks check_constant(const recording::Recording& recording, const recording::Sa
 
 /// Rows for which a group usually repeats its sample to the last digit while the joints move.
 Eigen::Index repeats(const recording::Samples& samples, const recording::Samples& q) {
-  std::vector<Eigen::Index> runs;
+  std::vector<double> runs;
   Eigen::Index first = 0;
   for (Eigen::Index row = 1; row < samples.rows(); ++row) {
     if (samples.row(row) != samples.row(first)) {
       if (q.row(row) != q.row(first)) {
-        runs.push_back(row - first);
+        runs.push_back(static_cast<double>(row - first));
       }
       first = row;
     }
@@ -109,9 +110,7 @@ Eigen::Index repeats(const recording::Samples& samples, const recording::Samples
   if (runs.size() < 20) {
     return 1;
   }
-  std::nth_element(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2),
-                   runs.end());
-  return runs[runs.size() / 2];
+  return static_cast<Eigen::Index>(statistics::median(std::move(runs)));
 }
 
 /// Smallest step between values of a column that is there in many places, zero where none is.

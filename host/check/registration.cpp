@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/median.hpp"
+
 namespace flexcomp::check {
 
 Points Registration::of(const Points& from) const {
@@ -40,10 +42,8 @@ Vector3<double> extents(const Points& points) {
 }
 
 double median_distance(const Points& a, const Points& b) {
-  Eigen::VectorXd distance = (a - b).rowwise().norm();
-  double* middle = distance.data() + distance.size() / 2;
-  std::nth_element(distance.data(), middle, distance.data() + distance.size());
-  return *middle;
+  const Eigen::VectorXd distance = (a - b).rowwise().norm();
+  return statistics::median({distance.begin(), distance.end()});
 }
 
 double angle_of(const Matrix3<double>& rotation) {

@@ -8,6 +8,7 @@
 #include "check/arm.hpp"
 #include "check/motion.hpp"
 #include "recording/sampling.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::check {
 namespace {
@@ -173,11 +174,9 @@ Checks check_times(const model::Robot* robot, recording::Recording* recording) {
   if (recording->size() < 10) {
     return {};
   }
-  Eigen::VectorXd steps =
+  const Eigen::VectorXd steps =
       recording->time.tail(recording->size() - 1) - recording->time.head(recording->size() - 1);
-  double* middle = steps.data() + steps.size() / 2;
-  std::nth_element(steps.data(), middle, steps.data() + steps.size());
-  const double step = *middle;
+  const double step = statistics::median({steps.begin(), steps.end()});
   Checks checks = check_unit(robot, step, recording);
   if (checks.empty()) {
     add(check_speed(robot, *recording), &checks);

@@ -10,7 +10,7 @@ namespace {
 Eigen::MatrixXd delay_columns(const Observations& observations,
                               const std::vector<Hypothesis>& hypotheses, const Fit& known,
                               std::vector<std::string>* groups) {
-  constexpr double kStep = 1e-3;  // s
+  constexpr double kStep = 1e-3;  // s: an arm's motion is straight over it
   const Changes changes(observations, known.machine);
   std::vector<Eigen::VectorXd> columns;
   for (const Hypothesis& hypothesis : hypotheses) {

@@ -10,7 +10,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr int kClasses = 12;
+constexpr int kClasses = 12;  // of a course: a bend shows, and each class keeps samples
 
 /// Classes of equal count, so that no class is empty.
 Eigen::VectorXi by_rank(const Eigen::VectorXd& value) {

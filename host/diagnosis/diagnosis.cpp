@@ -16,11 +16,12 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kNearNoise = 1.05;      // times the noise: nothing that a rival could better
-constexpr double kFarMoreEvidence = 20;  // of BIC
-constexpr Eigen::Index kFewestSamples = 24;
-constexpr Eigen::Index kLeastFreedom = 8;
-constexpr int kNoiseRounds = 2;
+constexpr double kNearNoise = 1.05;          // times the noise: nothing that a rival could better
+constexpr double kFarMoreEvidence = 20;      // of BIC: twice what proves a finding takes it back
+constexpr Eigen::Index kFewestSamples = 24;  // to fit to: eight poses of a tracker
+constexpr Eigen::Index kLeastFreedom = 8;    // it tells a standard deviation to a quarter
+constexpr double kExact = 1e-4;              // of the noise: exact data still need a scale
+constexpr int kNoiseRounds = 2;              // each is a whole diagnosis: time
 
 bool has_enough(const Observations& observations) {
   return observations.train >= kFewestSamples && observations.size() > observations.train;
@@ -29,7 +30,6 @@ bool has_enough(const Observations& observations) {
 /// A load test's noise is what the fullest fit leaves; single samples far from it are outliers.
 void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypotheses,
                  const Dictionary& dictionary, const Fit& given) {
-  constexpr double kFar = 6;
   const FullestFit full = fit_all(*observations, hypotheses, dictionary, given.remainder);
   if (full.freedom < kLeastFreedom) {
     return;
@@ -38,8 +38,8 @@ void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypo
       std::sqrt(full.remainder.squaredNorm() / static_cast<double>(full.freedom));
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations->size());
   values.head(observations->train) = full.remainder;
-  observations->drop_outliers(values, kFar * deviation);
-  observations->set_noise(std::max(deviation, 1e-4));
+  observations->drop_outliers(values, kFarOff * deviation);
+  observations->set_noise(std::max(deviation, kExact));
   observations->noise_is_known = true;
   observations->noise_uncertainty = 1 / std::sqrt(2 * static_cast<double>(full.freedom));
 }
@@ -47,7 +47,6 @@ void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypo
 /// A load test's noise was learnt from a fit that takes all effects for linear: what is chosen, as
 /// it is, may leave less. Was the noise lowered to that?
 bool lower_noise(Observations* observations, const Fit& chosen) {
-  constexpr double kMuchLess = 0.8;
   const Eigen::Index freedom = observations->train - static_cast<Eigen::Index>(chosen.parameters());
   if (!observations->is_static || !observations->noise_is_known || chosen.chosen.empty() ||
       freedom < kLeastFreedom) {
@@ -58,7 +57,7 @@ bool lower_noise(Observations* observations, const Fit& chosen) {
   if (deviation > kMuchLess) {
     return false;
   }
-  observations->set_noise(std::max(deviation, 1e-4));
+  observations->set_noise(std::max(deviation, kExact));
   return true;
 }
 

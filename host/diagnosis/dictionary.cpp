@@ -48,7 +48,7 @@ Eigen::Index most_out_of_bounds(const std::vector<const Hypothesis*>& hypotheses
 /// column that is a mixture of others gets next to nothing.
 LeastSquares solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                           const Eigen::VectorXd& length) {
-  constexpr double kDamping = 1e-10;
+  constexpr double kDamping = 1e-10;  // of a column's square
   const Eigen::VectorXd scale = length.cwiseMax(1e-300);
   Eigen::MatrixXd inner =
       scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();

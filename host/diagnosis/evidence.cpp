@@ -16,7 +16,9 @@ namespace {
 /// worse where it was not fitted.
 constexpr double kAsGoodAsNoise = 2;
 constexpr double kFarWorse = 1.5;
-constexpr double kFarOff = 6;  // deviations of a remainder, beyond which a sample does not decide
+/// Times the noise: single samples beyond are gross errors, which count no more than that where no
+/// fit told their deviation.
+constexpr double kGross = 30;
 constexpr Eigen::Index kNeighboursApart = 40;  // of all rows: half a stretch that is held out
 
 /// Samples that follow each other, though a slow sensor may have none in many rows between; not
@@ -42,7 +44,6 @@ struct Squares {
 /// torque, a joint's deflection) in all of them.
 std::vector<Squares> squares_of(const Observations& observations, const Fit& without,
                                 const Fit& with, bool by_group) {
-  constexpr double kFar = 6;
   const auto n = static_cast<double>(std::max<Eigen::Index>(observations.train, 1));
   const double spread = std::max(1.0, std::sqrt(with.train_sum / n));
   std::map<std::tuple<std::size_t, int, Eigen::Index>, Squares> all;
@@ -53,7 +54,7 @@ std::vector<Squares> squares_of(const Observations& observations, const Fit& wit
     const double first = observations.residual[i];
     const double before = without.remainder[i];
     const double after = with.remainder[i];
-    const double weight = std::min(1.0, kFar * spread / std::max(std::abs(after), 1e-12));
+    const double weight = std::min(1.0, kFarOff * spread / std::max(std::abs(after), 1e-12));
     own.first += weight * first * first;
     own.before += weight * before * before;
     own.after += weight * after * after;
@@ -81,7 +82,8 @@ bool are_of_one_place(const Group& a, const Group& b) {
 // remainder is what varies.
 double confirmation_of(const Observations& observations, const Eigen::VectorXd& before,
                        const Eigen::VectorXd& after) {
-  const Eigen::Index block_size = observations.is_static ? 1 : 25;  // rows
+  constexpr Eigen::Index kMemory = 25;  // rows, over which remainders of a motion hang together
+  const Eigen::Index block_size = observations.is_static ? 1 : kMemory;
   const Eigen::Index held_out = observations.size() - observations.train;
   const double limit = kFarOff * std::max(1.0, recording::robust_deviation(after.tail(held_out)));
   double fall = 0;
@@ -110,8 +112,8 @@ double independent_samples(const Observations& observations, const Eigen::Vector
   for (Eigen::Index i = 1; i < observations.train; ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (are_neighbours(observations, observations.samples[at - 1], observations.samples[at])) {
-      const double a = std::clamp(remainder[i - 1], -30.0, 30.0);
-      const double b = std::clamp(remainder[i], -30.0, 30.0);
+      const double a = std::clamp(remainder[i - 1], -kGross, kGross);
+      const double b = std::clamp(remainder[i], -kGross, kGross);
       product += a * b;
       square += 0.5 * (a * a + b * b);
     }
@@ -120,7 +122,7 @@ double independent_samples(const Observations& observations, const Eigen::Vector
 }
 
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters) {
-  constexpr double kTiny = 1e-300;
+  constexpr double kTiny = 1e-300;  // against a division by zero
   return samples * std::log(std::max(sum_before, kTiny) / std::max(sum_after, kTiny)) -
          static_cast<double>(parameters) * std::log(samples);
 }
@@ -150,7 +152,7 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
         evidence.lowers_held_out || observations.rms(with.remainder, channel, true) <
                                         observations.rms(without.remainder, channel, true);
   }
-  constexpr double kTiny = 1e-9;
+  constexpr double kTiny = 1e-9;  // squares: against a division by zero
   for (const Squares& each : squares_of(observations, without, with, false)) {
     evidence.strength = std::max(evidence.strength, std::sqrt(each.change / each.count));
   }
@@ -179,7 +181,6 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
 
 bool fails_held_out(const Observations& observations, const Eigen::VectorXd& remainder,
                     const Group& group) {
-  constexpr double kFar = 30;
   if (observations.is_static) {
     return false;
   }
@@ -195,7 +196,7 @@ bool fails_held_out(const Observations& observations, const Eigen::VectorXd& rem
       continue;
     }
     Part& part = components[at.component][i < observations.train ? 0 : 1];
-    const double value = std::clamp(remainder[i], -kFar, kFar);
+    const double value = std::clamp(remainder[i], -kGross, kGross);
     part.sum += value * value;
     part.count += 1;
   }
@@ -211,8 +212,7 @@ double largest_ratio(const Observations& observations, const Eigen::VectorXd& re
   std::array<double, 3> counts{};
   for (Eigen::Index i = 0; i < observations.train; ++i) {
     const Channel channel = observations.samples[static_cast<std::size_t>(i)].channel;
-    const double value =
-        std::clamp(remainder[i] * observations.noise[i] / observations.floor[i], -30.0, 30.0);
+    const double value = std::clamp(observations.over_floor(i, remainder[i]), -kGross, kGross);
     sums[channel] += value * value;
     counts[channel] += 1;
   }
@@ -226,7 +226,7 @@ double largest_ratio(const Observations& observations, const Eigen::VectorXd& re
 }
 
 bool predicts_better(const Observations& observations, const Fit& before, const Fit& after) {
-  constexpr double kNoticeable = 0.99;
+  constexpr double kNoticeable = 0.99;  // of the error: nobody would change a model for less
   constexpr double kRounding = 1e-9;
   double best = 1;
   double worst = 0;

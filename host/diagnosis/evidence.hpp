@@ -38,6 +38,9 @@ struct Evidence {
 
 constexpr double kStrongEvidence = 10;  ///< of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kSameEvidence = 6;     ///< of BIC: below "strong" (the same)
+/// Times the noise: what leaves no more is as good as explained, since noise is estimated
+/// to a tenth.
+constexpr double kLikeNoise = 1.15;
 
 /// Compares two fits to the same observations; `with` has one hypothesis more, its last, or that
 /// and others weighed together with it.

@@ -13,7 +13,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kForce = 1000;  // N, a load test's
+constexpr double kForce = 1000;  // N, a load test's: it bends an industrial arm by a millimetre
 
 /// Something that could be recorded, and how a person would be told to.
 struct Experiment {
@@ -29,6 +29,7 @@ std::pair<double, double> range_of(const model::ChainJoint& joint) {
 
 /// Poses within the middle of the joint limits, each under a force along and against an axis.
 std::vector<Experiment> load_tests(const model::Robot& robot) {
+  // To choose from, each simulated: time.
   constexpr int kPoses = 12;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> within(0.2, 0.8);

@@ -11,9 +11,10 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kHuber = 3;  // deviations
-
-constexpr double kLeastChange = 1e-7;  // of the sum of squares
+/// Deviations: of normally distributed samples 0.3 % weigh less than one.
+constexpr double kHuber = 3;
+/// Of the sum of squares: of 10,000 samples BIC moves by 0.001.
+constexpr double kLeastChange = 1e-7;
 
 /// The weighted remainder of the samples to fit to, simulated anew for every step.
 class WeightedRemainder : public HeldRemainder {
@@ -58,9 +59,9 @@ void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int m
 /// Parameters that act in steps, like the drag that holds a flank, have no derivative: values
 /// around are tried instead, and the middle of the best ones is taken. True if any was changed.
 bool scan_steps(const Eigen::VectorXd& measured, Evaluator* evaluator) {
-  constexpr int kReach = 20;
-  constexpr double kFactor = 1.05;
-  constexpr double kSame = 1e-9;
+  constexpr int kReach = 20;        // steps either way: from 0.38 to 2.7 times the value
+  constexpr double kFactor = 1.05;  // of a step: such a parameter is told to some per cent at best
+  constexpr double kSame = 1e-9;    // of the sum of squares: rounding
   const Eigen::Index n = measured.size();
   Eigen::MatrixXd derivative;
   evaluator->evaluate(evaluator->values(), &derivative);
@@ -116,10 +117,20 @@ bool is_chosen(const std::vector<Chosen>& chosen, const Hypothesis& hypothesis) 
                      [&](const Chosen& each) { return are_the_same(each.hypothesis, hypothesis); });
 }
 
+Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder, double deviation) {
+  return (kHuber * deviation / remainder.array().abs().max(1e-12)).min(1.0).matrix();
+}
+
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder) {
   const double spread =
       std::max(1.0, std::sqrt(remainder.squaredNorm() / static_cast<double>(remainder.size())));
-  return (kHuber * spread / remainder.array().abs().max(1e-12)).min(1.0).matrix();
+  return huber_weights(remainder, spread);
+}
+
+Eigen::VectorXd clipped(const Eigen::VectorXd& remainder) {
+  const double limit =
+      kFarOff * std::max(1.0, remainder.norm() / std::sqrt(static_cast<double>(remainder.size())));
+  return remainder.cwiseMax(-limit).cwiseMin(limit);
 }
 
 std::size_t Fit::parameters() const {

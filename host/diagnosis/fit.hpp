@@ -41,6 +41,15 @@ struct Fit {
 /// Weights by Huber's function of a remainder over the noise: one within three deviations of what
 /// remains, less beyond, so that single samples do not decide.
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder);
+/// The same where the deviation of what remains is known.
+Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder, double deviation);
+
+/// Deviations of a remainder, beyond which a sample is an outlier: of normally distributed samples
+/// one in 500 million is, and any other effect shows in many.
+constexpr double kFarOff = 6;
+
+/// A remainder over the noise whose outliers count as if they were just no outliers.
+Eigen::VectorXd clipped(const Eigen::VectorXd& remainder);
 
 /// The machine with hypotheses added to the observations' model.
 Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen);

@@ -9,15 +9,16 @@
 #include "diagnosis/cues.hpp"
 #include "diagnosis/evidence.hpp"
 #include "statistics/distributions.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
 using simulation::tcp_position;
 
-constexpr double kSignificance = 0.01;
-constexpr Eigen::Index kStretches = 24;
-constexpr std::size_t kMostCorrelates = 6;
+constexpr double kSignificance = 0.01;      // of all places that are looked at, together
+constexpr Eigen::Index kStretches = 24;     // of a recording, in each of which time is told
+constexpr std::size_t kMostCorrelates = 6;  // that are told: a reader looks at no more
 
 double chance_above(double value, double freedom) {
   if (!(value > 0)) {
@@ -214,7 +215,7 @@ class Locator {
 
   void add_lines(const std::vector<double>& values, double duration, double components) {
     constexpr std::size_t kFewestPeriods = 12;  // below it is the motion itself
-    constexpr std::size_t kNeighbours = 30;
+    constexpr std::size_t kNeighbours = 30;     // on either side: their median is told to a fifth
     Eigen::FFT<double> transform;
     std::vector<std::complex<double>> spectrum;
     transform.fwd(spectrum, values);
@@ -230,13 +231,11 @@ class Locator {
         continue;
       }
       const std::size_t first = k > kNeighbours ? k - kNeighbours : 1;
-      std::vector<double> near(
+      const std::vector<double> near(
           power.begin() + static_cast<std::ptrdiff_t>(first),
           power.begin() + static_cast<std::ptrdiff_t>(std::min(half, k + kNeighbours)));
-      std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2),
-                       near.end());
       // The median of exponentially distributed power is ln 2 of its mean.
-      const double mean = near[near.size() / 2] / std::log(2.0);
+      const double mean = statistics::median(near) / std::log(2.0);
       const double chance =
           std::exp(-power[k] / std::max(mean, 1e-300)) * static_cast<double>(half) * components;
       const double frequency = static_cast<double>(k) / duration;

@@ -13,8 +13,7 @@ namespace {
 
 /// Single samples far off do not decide.
 double rms_without_outliers(const Eigen::ArrayXd& values) {
-  constexpr double kFar = 6;  // deviations
-  const double limit = kFar * recording::robust_deviation(values.matrix());
+  const double limit = kFarOff * recording::robust_deviation(values.matrix());
   return std::sqrt(values.max(-limit).min(limit).square().mean());
 }
 

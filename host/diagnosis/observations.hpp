@@ -66,6 +66,10 @@ class Observations {
   bool is_static = false;
 
   Eigen::Index size() const { return residual.size(); }
+  /// A sample's value over its noise as one over the noise of its measurement alone.
+  double over_floor(Eigen::Index sample, double value) const {
+    return value * noise[sample] / floor[sample];
+  }
   bool has(Channel channel) const;
   std::vector<Channel> channels() const;  ///< those that it has
   bool has_weight() const;

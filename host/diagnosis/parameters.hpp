@@ -26,7 +26,8 @@ Channel main_channel(const Observations& observations, const Fit& without, const
 /// "joint_stiffness, joint 2"
 std::string place_name(const std::string& effect, int joint);
 
-/// An estimate nearer to zero than this many of its standard deviations may be zero (95 %).
+/// Standard deviations on either side that hold 95 % of a normal distribution: an estimate nearer
+/// to zero may be zero.
 constexpr double kTold = 1.96;
 
 /// Three digits, but tens and thousands written out: 0.0123, 1214.

@@ -7,19 +7,16 @@
 #include <cmath>
 
 #include "diagnosis/search/search.hpp"
+#include "diagnosis/select/standards.hpp"
 #include "effects/terms.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr std::size_t kMostTerms = 3;
-constexpr double kLeastTermGain = 10;  // of BIC
-constexpr double kTermConfirmed = 2;   // deviations
-constexpr double kLeastTermShare = 0.1;
-constexpr double kTermChance = 0.01;   // times the terms that are looked at
+constexpr std::size_t kMostTerms = 3;  // more would fit anything, and tell nobody what it is
+constexpr double kTermChance = 0.01;   // times the terms that are looked at, as of a finding
 constexpr double kTermDeviations = 4;  // of a coefficient from zero: its constant alone is no term
-constexpr int kTermSteps = 4;
 
 /// A quantity along a recording that an error may follow.
 struct Feature {
@@ -209,12 +206,9 @@ Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
 /// The term that lowers the squares of what is left most, beside what is fitted.
 const Hypothesis* best_beside(const Observations& observations, const Fit& fit,
                               const Changes& changes, const std::vector<Hypothesis>& library) {
-  constexpr double kIndependent = 1e-3;
-  constexpr double kFar = 6;
+  constexpr double kIndependent = 1e-3;  // of a column's length
   const Eigen::Index n = observations.train;
-  const Eigen::VectorXd all = fit.remainder.head(n);
-  const double limit = kFar * std::max(1.0, all.norm() / std::sqrt(static_cast<double>(n)));
-  const Eigen::VectorXd left = all.cwiseMax(-limit).cwiseMin(limit);
+  const Eigen::VectorXd left = clipped(fit.remainder.head(n));
   const Eigen::MatrixXd base = basis_of(fit.derivative.topRows(n));
   std::vector<double> gains(library.size(), 0);
   in_parallel(
@@ -264,7 +258,7 @@ class Proposer {
   std::size_t terms() const { return fit_.chosen.size() - known_; }
 
   Fit with(std::vector<Chosen> chosen) const {
-    return fit(observations_, std::move(chosen), kTermSteps);
+    return fit(observations_, std::move(chosen), kQuickSteps);
   }
 
   Evidence weighed(const Fit& before, const Fit& after) const {
@@ -272,8 +266,8 @@ class Proposer {
   }
 
   static bool holds(const Evidence& evidence) {
-    return evidence.impossible.empty() && evidence.delta_bic > kLeastTermGain &&
-           evidence.confirmation > kTermConfirmed && evidence.share > kLeastTermShare &&
+    return evidence.impossible.empty() && evidence.delta_bic > kStrongEvidence &&
+           evidence.confirmation > kConfirmed && evidence.share > kLeastShare &&
            evidence.p_value < kTermChance;
   }
 

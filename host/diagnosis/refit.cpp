@@ -158,7 +158,6 @@ Diagnosis refit_over(const Eigen::VectorXd& factors, const Inquiry& inquiry,
 
 void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
            Diagnosis* diagnosis) {
-  constexpr double kMuchLess = 0.8;
   const Observations& observations = inquiry.observations;
   const Eigen::VectorXd expected = least_model_error(inquiry, hypotheses);
   Diagnosis first = refit_over(expected, inquiry, hypotheses, *diagnosis);

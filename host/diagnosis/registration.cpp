@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -14,8 +15,6 @@ constexpr double kFarTurn = 5e-3;   // rad, the same
 constexpr double kMostLeft = 0.25;  // of the squares: a frame that leaves more is not the cause
 constexpr int kRounds = 10;         // of weights, which settle where outliers are few
 constexpr int kFrameSteps = 20;     // of the fit by simulation, from a coarse start
-constexpr double kRobustLimit = 3;  // deviations, as in `fit`
-constexpr double kWidest = 80;      // m, the reach of a laser tracker
 
 /// Measured and predicted positions, 3 × n, rows to fit to that have all three.
 struct Points {
@@ -70,24 +69,29 @@ Eigen::Isometry3d registered(const Points& points) {
     const Eigen::VectorXd distance =
         (points.measured - motion * points.predicted).colwise().norm().transpose();
     const double spread = std::sqrt(weight.dot(distance.cwiseAbs2()) / weight.sum());
-    weight = (kRobustLimit * spread / distance.array().max(1e-12)).min(1.0).matrix();
+    weight = huber_weights(distance, spread);
     motion = nearest(points, weight);
   }
   return motion;
 }
 
-/// The hypothesis of an effect, within whatever an instrument can be.
-const Hypothesis* find(const std::vector<Hypothesis>& hypotheses, const char* effect) {
-  const auto at = std::find_if(hypotheses.begin(), hypotheses.end(),
-                               [&](const Hypothesis& each) { return each.effect() == effect; });
+/// The hypothesis that places a part of the instrument; null where none is sought.
+const Hypothesis* find(const std::vector<Hypothesis>& hypotheses, effects::Registers part) {
+  const auto at = std::find_if(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& each) {
+    return each.traits().registers == part;
+  });
   return at == hypotheses.end() ? nullptr : &*at;
 }
 
-Chosen frame_of(Hypothesis hypothesis, const Eigen::Isometry3d& motion) {
-  for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
-    const double most = i < 3 ? kWidest : M_PI;
-    hypothesis.parameters[i].lower = -most;
-    hypothesis.parameters[i].upper = most;
+/// The frame that a motion is of, sought within whatever an instrument can be.
+Chosen frame_of(const Observations& observations, Hypothesis hypothesis,
+                const Eigen::Isometry3d& motion) {
+  const MachineSize size = size_of(observations);
+  for (Parameter& parameter : hypothesis.parameters) {
+    const Range range = plausible_range(*hypothesis.law, observations.machine.robot, size,
+                                        hypothesis.joint, parameter.name);
+    parameter.lower = range.lower;
+    parameter.upper = range.upper;
   }
   const Eigen::AngleAxisd turn(motion.linear());
   const Eigen::Vector3d axis = turn.angle() * turn.axis();
@@ -105,16 +109,16 @@ bool is_far(const Values& values) {
 
 Fit register_frame(const Observations& observations, const std::vector<Hypothesis>& hypotheses) {
   Fit none = fit(observations, {}, 0);
-  const Hypothesis* frame = find(hypotheses, "base_frame");
+  const Hypothesis* frame = find(hypotheses, effects::Registers::frame);
   if (frame == nullptr || !observations.spans_workspace()) {
     return none;
   }
-  const Chosen coarse = frame_of(*frame, registered(points_of(observations)));
+  const Chosen coarse = frame_of(observations, *frame, registered(points_of(observations)));
   if (!is_far(coarse.values)) {
     return none;
   }
   Fit best = fit(observations, {coarse}, kFrameSteps);
-  const Hypothesis* tool = find(hypotheses, "tcp_offset");
+  const Hypothesis* tool = find(hypotheses, effects::Registers::point);
   if (tool != nullptr) {
     Fit both = fit(observations, {best.chosen.front(), {*tool, Values(3, 0.0)}}, kFrameSteps);
     if (is_far(both.chosen.back().values) && bic_gain(observations, best, both) > kStrongEvidence) {

@@ -12,7 +12,8 @@ namespace flexcomp::diagnosis {
 /// Nothing is chosen where the positions lie within a small path, where the frame is near enough
 /// for a linear search, or where it does not account for most of the mismatch.
 ///
-/// Returns the frame (`base_frame`) and, where it is as far off, the tool (`tcp_offset`), fitted.
+/// Returns the frame and, where it is as far off, the point on the tool, fitted. The laws that
+/// place them say so (effects::Registers).
 Fit register_frame(const Observations& observations, const std::vector<Hypothesis>& hypotheses);
 
 }  // namespace flexcomp::diagnosis

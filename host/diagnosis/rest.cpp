@@ -8,7 +8,6 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kNoiseLike = 1.15;  // times the noise: nothing left to explain
 /// Standard deviations: one load test in 700 whose rest is noise is said to have more.
 constexpr double kAlike = 3;
 
@@ -19,7 +18,7 @@ std::string more_than_noise(const Observations& observations, const Eigen::Vecto
     return "";
   }
   const double ratio = largest_ratio(observations, remainder);
-  if (ratio >= kNoiseLike + 3 * observations.noise_uncertainty) {
+  if (ratio >= kLikeNoise + 3 * observations.noise_uncertainty) {
     return fmt::format("{:.1f} times the noise is left", ratio);
   }
   return observations.is_static && likeness_of_neighbours(observations, remainder) > kAlike

@@ -5,15 +5,15 @@
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/families.hpp"
-#include "diagnosis/plausible.hpp"
+#include "diagnosis/families/possible_bodies.hpp"
+#include "diagnosis/families/regression.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kKnown = 2;  // deviations from what the model has
-constexpr int kTuningSteps = 8;
-constexpr double kTiny = 1e-300;
+constexpr double kKnown = 2;      // deviations from what the model has
+constexpr double kTiny = 1e-300;  // against a division by zero
 
 /// Findings, and behind them the numbers that they do not alter, as they are.
 std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothesis>& hypotheses,
@@ -68,40 +68,18 @@ std::vector<Chosen> known_of(const Fit& fit, std::size_t findings) {
   return known;
 }
 
-/// Could all numbers behind the findings be so?
-bool could_all_be(const Observations& observations, const Fit& fit, std::size_t findings) {
-  for (std::size_t i = findings; i < fit.chosen.size(); ++i) {
-    if (!could_be(observations, fit, i)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Findings, and behind them the numbers that can be.
-std::vector<Chosen> possible_of(const Observations& observations, const Fit& fit,
-                                std::size_t findings) {
-  std::vector<Chosen> possible;
-  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
-    if (i < findings || why_impossible(observations, fit, i).empty()) {
-      possible.push_back(fit.chosen[i]);
-    }
-  }
-  return possible;
-}
-
 /// The few numbers that every model has: those that can be told from what they are.
 Fit fit_model_numbers(const Observations& observations, const Fit& findings,
                       const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
   const std::size_t found = findings.chosen.size();
-  Fit tuned =
-      fit(observations, with_numbers(findings, hypotheses, dictionary), kTuningSteps, &dictionary);
+  Fit tuned = fit(observations, with_numbers(findings, hypotheses, dictionary), kSimulatedSteps,
+                  &dictionary);
   const auto kept = [&] {
-    std::vector<Chosen> possible = possible_of(observations, tuned, found);
-    return possible.size() < tuned.chosen.size() ? possible : known_of(tuned, found);
+    const auto possible = without_impossible(observations, tuned, found, false);
+    return possible ? *possible : known_of(tuned, found);
   };
   for (std::vector<Chosen> next = kept(); next.size() < tuned.chosen.size(); next = kept()) {
-    tuned = fit(observations, std::move(next), kTuningSteps, &dictionary);
+    tuned = fit(observations, std::move(next), kSimulatedSteps, &dictionary);
   }
   return tuned;
 }
@@ -109,7 +87,7 @@ Fit fit_model_numbers(const Observations& observations, const Fit& findings,
 /// Do the numbers behind the findings stand?
 bool stands(const Observations& observations, const Fit& findings, const Fit& tuned) {
   return tuned.chosen.size() > findings.chosen.size() &&
-         could_all_be(observations, tuned, findings.chosen.size()) &&
+         !without_impossible(observations, tuned, findings.chosen.size(), false) &&
          bic_gain(observations, findings, tuned) > kStrongEvidence &&
          predicts_better(observations, findings, tuned);
 }

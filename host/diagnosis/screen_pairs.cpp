@@ -7,7 +7,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr std::size_t kMostPromising = 80;
+constexpr std::size_t kMostPromising = 80;  // singles, each paired with all: time
 
 /// Bounded least squares of two entries, from products that are known already.
 class PairSolver {

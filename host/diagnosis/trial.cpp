@@ -46,7 +46,7 @@ std::string why_not(const Inquiry& inquiry, const Evidence& evidence) {
 }
 
 std::string findings_in_words(const Choice& choice) {
-  constexpr std::size_t kFew = 3;
+  constexpr std::size_t kFew = 3;  // that a sentence bears
   std::string text;
   for (std::size_t i = 0; i < std::min(choice.findings.size(), kFew); ++i) {
     const Hypothesis& found = choice.findings[i].chosen.hypothesis;

@@ -39,6 +39,11 @@ struct Derived {
 /// The property of a joint that a law's first parameter measures.
 enum class Measures { none, stiffness, zero, friction };
 
+/// What a law places of the instrument that measures the TCP: its frame, by a shift (m) and a
+/// rotation vector (rad) in its parameters' order, or the point on the tool that it follows, by a
+/// shift (m).
+enum class Registers { nothing, frame, point };
+
 /// Properties of a law, for those who fit, choose and report it.
 struct Traits {
   std::size_t linear_in = 0;   ///< the first so many parameters act (nearly) in proportion; all of
@@ -66,6 +71,7 @@ struct Traits {
              ///< only the measurement shows, and for a vibration, which commands feed
   bool needs_temperature = false;  ///< cannot be simulated for a recording without temperatures
   Measures measures = Measures::none;
+  Registers registers = Registers::nothing;
 };
 
 /// Where a law may act on a machine of so many joints: joints from 1 on, and 0 for all of it.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "statistics/median.hpp"
+
 namespace flexcomp::recording {
 namespace {
 
@@ -23,7 +25,7 @@ Eigen::Index take_known(const Eigen::VectorXd& signal, Eigen::VectorXd* known) {
     }
   }
   known->conservativeResize(count);
-  return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(median(std::move(steps))));
+  return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(statistics::median(std::move(steps))));
 }
 
 /// Values nearest before (step −1) or after (step 1) a row, so many at most.
@@ -40,15 +42,6 @@ void add_neighbours(const Eigen::VectorXd& signal, Eigen::Index row, Eigen::Inde
 
 }  // namespace
 
-double median(std::vector<double> values) {
-  if (values.empty()) {
-    return 0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double robust_deviation(const Eigen::VectorXd& values) {
   std::vector<double> sizes;
   for (const double value : values) {
@@ -56,7 +49,7 @@ double robust_deviation(const Eigen::VectorXd& values) {
       sizes.push_back(std::abs(value));
     }
   }
-  return 1.4826 * median(std::move(sizes));
+  return 1.4826 * statistics::median(std::move(sizes));
 }
 
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride) {
@@ -140,11 +133,12 @@ bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise)
   if (near.size() < 4) {
     return false;
   }
-  const double middle = median(near);
+  const double middle = statistics::median(near);
   for (double& value : near) {
     value = std::abs(value - middle);
   }
-  return std::abs(signal[row] - middle) > kFar * std::max(noise, 1.4826 * median(std::move(near)));
+  return std::abs(signal[row] - middle) >
+         kFar * std::max(noise, 1.4826 * statistics::median(std::move(near)));
 }
 
 double effective_samples(double count, double correlation) {

@@ -23,9 +23,6 @@ double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle);
 /// value comes twice.
 double quantisation_step(const Eigen::VectorXd& signal);
 
-/// The middle value, of an even number the larger of both; 0 of none.
-double median(std::vector<double> values);
-
 /// 1.4826 times the median size: the standard deviation of a normal distribution, outliers or not.
 double robust_deviation(const Eigen::VectorXd& values);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "recording/noise.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::recording {
 namespace {
@@ -36,7 +37,7 @@ bool moves_about(const Samples& angles, Eigen::Index joint, Eigen::Index first, 
     return false;
   }
   const std::vector<double> steps = steps_around(angles, joint, first, last);
-  const double usual = median(steps);
+  const double usual = statistics::median(steps);
   const double least = kSteady * std::abs(usual);
   const double before = angles(first, joint) - angles(first - 1, joint);
   const double after = angles(last + 1, joint) - angles(last, joint);
@@ -88,7 +89,7 @@ Eigen::VectorXd evened(const Sampling& sampling, const Eigen::VectorXd& stamps) 
   for (Eigen::Index i = 1; i < n; ++i) {
     steps.push_back(sampling.time[i] - sampling.time[i - 1]);
   }
-  const double usual = median(steps);
+  const double usual = statistics::median(steps);
   Eigen::VectorXd time = sampling.time;
   Eigen::Index first = 0;
   for (Eigen::Index i = 1; i <= n; ++i) {
@@ -122,7 +123,7 @@ bool is_much_smoother(const Samples& angles, const Eigen::VectorXd& before,
       ratios.push_back(left / missed);
     }
   }
-  return !ratios.empty() && median(ratios) < kMuchSmoother;
+  return !ratios.empty() && statistics::median(ratios) < kMuchSmoother;
 }
 
 template <typename Group>

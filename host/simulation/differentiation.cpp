@@ -185,12 +185,17 @@ Eigen::ArrayXd mean_square_noise(const Probes& probes, const Eigen::RowVectorXd&
          angle_noise.array().square().transpose();
 }
 
-/// By how much a longer window's mean square differs from a shorter one's beyond their noise,
-/// whose variance is `scale` times as large as it was taken for.
-Eigen::ArrayXd cut_beyond(const Eigen::ArrayXXd& difference, const Eigen::ArrayXd& gone,
+/// Mean square of what two windows' accelerations differ by, (rad/s²)².
+Eigen::ArrayXd mean_square_between(const Probes& one, const Probes& other) {
+  return (one.acceleration - other.acceleration).array().square().colwise().mean().transpose();
+}
+
+/// The part of that beyond their noise, whose variance is `scale` times as large as it was taken
+/// for.
+Eigen::ArrayXd cut_beyond(const Eigen::ArrayXd& differs, const Eigen::ArrayXd& gone,
                           const Eigen::ArrayXd& scale) {
   constexpr double kSlack = 1.2;  // of variances: probes tell them to a tenth
-  return (difference.square().colwise().mean().transpose() - kSlack * scale * gone).max(0);
+  return (differs - kSlack * scale * gone).max(0);
 }
 
 /// The window whose noise and cut together are least, of mean squares.
@@ -230,17 +235,14 @@ std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recordi
   const Eigen::Index joints = q.cols();
   std::vector<Probes> probes = {probe(time, q, kHalfWindows[0])};
   std::vector<Eigen::ArrayXd> noise = {mean_square_noise(probes[0], angle_noise)};
+  std::vector<Eigen::ArrayXd> from_shortest = {Eigen::ArrayXd::Zero(joints)};
   Eigen::ArrayXd scale = Eigen::ArrayXd::Constant(joints, kMostNoiseScale);
   for (std::size_t k = 1; k < kHalfWindows.size(); ++k) {
     probes.push_back(probe(time, q, kHalfWindows[k]));
     noise.push_back(mean_square_noise(probes[k], angle_noise));
     const Eigen::ArrayXd gone = (noise[0] - noise[k]).max(0);
-    const Eigen::ArrayXd differs = (probes[k].acceleration - probes[0].acceleration)
-                                       .array()
-                                       .square()
-                                       .colwise()
-                                       .mean()
-                                       .transpose();
+    from_shortest.push_back(mean_square_between(probes[k], probes[0]));
+    const Eigen::ArrayXd& differs = from_shortest[k];
     scale = scale.min(
         (gone > kEnoughGone * noise[0]).select((differs / gone.max(kTiny)).max(1), scale));
     // A longer window cuts more still.
@@ -252,8 +254,9 @@ std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recordi
   for (std::size_t k = 1; k < probes.size(); ++k) {
     for (std::size_t shorter = 0; shorter < k; ++shorter) {
       const Eigen::ArrayXd gone = (noise[shorter] - noise[k]).max(0);
-      cut[k] = cut[k].max(
-          cut_beyond((probes[k].acceleration - probes[shorter].acceleration).array(), gone, scale));
+      const Eigen::ArrayXd differs =
+          shorter == 0 ? from_shortest[k] : mean_square_between(probes[k], probes[shorter]);
+      cut[k] = cut[k].max(cut_beyond(differs, gone, scale));
     }
   }
   for (Eigen::ArrayXd& each : noise) {

@@ -52,33 +52,57 @@ class Cubic {
   double linear_, square_, cube_;
 };
 
-/// Rows of a signal as they were `delay` (s) before. `between` gives it at a share of the way from
-/// a row to the next. Beyond the ends it goes on as it came there, turned about the last row.
-template <typename Between>
-Eigen::MatrixXd before(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay,
-                       const Between& between) {
-  const Eigen::Index last = time.size() - 1;
-  if (last < 1) {
-    return values;
+/// Goes to the row at or before a time that the recording spans; of its last row to the one before.
+void go_to(double wanted, const Eigen::VectorXd& time, Eigen::Index* row) {
+  while (*row > 0 && time[*row] > wanted) {
+    --*row;
   }
-  Eigen::MatrixXd result(values.rows(), values.cols());
+  while (*row + 2 < time.size() && time[*row + 1] <= wanted) {
+    ++*row;
+  }
+}
+
+/// Rows of a signal of so many columns as they were `delay` (s) before. `between` gives it at a
+/// share of the way from a row to the next, `beyond` at a time that is not between any.
+template <typename Between, typename Beyond>
+Eigen::MatrixXd before(const Eigen::VectorXd& time, Eigen::Index columns, double delay,
+                       const Between& between, const Beyond& beyond) {
+  Eigen::MatrixXd result(time.size(), columns);
+  const Eigen::Index last = time.size() - 1;
   Eigen::Index at = 0;
   for (Eigen::Index row = 0; row <= last; ++row) {
-    const double end = std::clamp(time[row] - delay, time[0], time[last]);
-    const double wanted = std::clamp(2 * end - (time[row] - delay), time[0], time[last]);
-    while (at > 0 && time[at] > wanted) {
-      --at;
+    const double wanted = time[row] - delay;
+    if (last == 0 || wanted < time[0] || wanted > time[last]) {
+      result.row(row) = beyond(wanted);
+      continue;
     }
-    while (at + 1 < last && time[at + 1] < wanted) {
-      ++at;
-    }
+    go_to(wanted, time, &at);
     result.row(row) = between(at, (wanted - time[at]) / (time[at + 1] - time[at]));
-    if (wanted != time[row] - delay) {
-      const Eigen::Index edge = end > time[0] ? last : 0;
-      result.row(row) = 2 * values.row(edge) - result.row(row);
-    }
   }
   return result;
+}
+
+/// The end of the times that a time lies beyond.
+Eigen::Index edge_near(double wanted, const Eigen::VectorXd& time) {
+  return wanted < time[0] ? 0 : time.size() - 1;
+}
+
+/// The same of a signal that goes on beyond its ends as it came there, turned about the last row.
+template <typename Between>
+Eigen::MatrixXd turned_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                              double delay, const Between& between) {
+  const auto beyond = [&](double wanted) -> Eigen::RowVectorXd {
+    const Eigen::Index last = time.size() - 1;
+    if (last == 0) {
+      return values.row(0);
+    }
+    const Eigen::Index edge = edge_near(wanted, time);
+    const double inside = std::clamp(2 * time[edge] - wanted, time[0], time[last]);
+    Eigen::Index at = std::min(edge, last - 1);
+    go_to(inside, time, &at);
+    return 2 * values.row(edge) - between(at, (inside - time[at]) / (time[at + 1] - time[at]));
+  };
+  return before(time, values.cols(), delay, between, beyond);
 }
 
 }  // namespace
@@ -188,7 +212,7 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
 }
 
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay) {
-  return before(time, values, delay, [&](Eigen::Index row, double share) {
+  return turned_before(time, values, delay, [&](Eigen::Index row, double share) {
     return Eigen::RowVectorXd((1 - share) * values.row(row) + share * values.row(row + 1));
   });
 }
@@ -196,36 +220,21 @@ Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& valu
 Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
                                  double delay) {
   const Eigen::MatrixXd slope = slopes(time, values);
-  return before(time, values, delay, [&](Eigen::Index row, double share) {
+  return turned_before(time, values, delay, [&](Eigen::Index row, double share) {
     return hermite(time, values, slope, row, share);
   });
 }
 
 Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
                              const Eigen::MatrixXd& velocity, double delay) {
-  Eigen::MatrixXd result(position.rows(), position.cols());
-  const Eigen::Index last = time.size() - 1;
-  Eigen::Index before = 0;
-  for (Eigen::Index row = 0; row <= last; ++row) {
-    const double wanted = time[row] - delay;
-    while (before > 0 && time[before] > wanted) {
-      --before;
-    }
-    while (before + 1 < last && time[before + 1] <= wanted) {
-      ++before;
-    }
-    const bool is_within = last > 0 && wanted >= time[0] && wanted <= time[last];
-    if (!is_within) {
-      const Eigen::Index edge = wanted < time[0] ? 0 : last;
-      result.row(row) =
-          position.row(edge) + (wanted - time[edge]) * velocity.row(edge) - position.row(row);
-      continue;
-    }
-    const double length = time[before + 1] - time[before];
-    const double share = (wanted - time[before]) / length;
-    result.row(row) = hermite(time, position, velocity, before, share) - position.row(row);
-  }
-  return result;
+  const auto between = [&](Eigen::Index row, double share) {
+    return hermite(time, position, velocity, row, share);
+  };
+  const auto beyond = [&](double wanted) -> Eigen::RowVectorXd {
+    const Eigen::Index edge = edge_near(wanted, time);
+    return position.row(edge) + (wanted - time[edge]) * velocity.row(edge);
+  };
+  return before(time, position.cols(), delay, between, beyond) - position;
 }
 
 }  // namespace flexcomp::simulation

@@ -15,6 +15,7 @@
 #include "recording/noise.hpp"
 #include "recording/sampling.hpp"
 #include "simulation/differentiation.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::simulation {
 namespace {
@@ -165,10 +166,9 @@ void describe_times(const Eigen::VectorXd& time, Preparation* preparation) {
   if (time.size() < 2) {
     return;
   }
-  Eigen::VectorXd steps = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  const Eigen::VectorXd steps = time.tail(time.size() - 1) - time.head(time.size() - 1);
   preparation->largest_gap = steps.maxCoeff();
-  std::nth_element(steps.data(), steps.data() + steps.size() / 2, steps.data() + steps.size());
-  preparation->median_step = steps[steps.size() / 2];
+  preparation->median_step = statistics::median({steps.begin(), steps.end()});
 }
 
 recording::Recording without_repeats(recording::Recording recording) {

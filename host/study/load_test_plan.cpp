@@ -8,6 +8,7 @@
 
 #include "error.hpp"
 #include "flexcomp/chain.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::study {
 namespace {
@@ -279,11 +280,6 @@ LoadTestPlan plan_load_tests(const RobotModel<double, 6>& model, const PlanReque
 double gain_over_random(const RobotModel<double, 6>& model, const LoadTestPlan& plan,
                         const PlanRequest& request, int repeats) {
   std::mt19937 random(request.seed + 1);
-  const auto median = [](std::vector<double> values) {
-    std::nth_element(values.begin(),
-                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
-  };
   std::vector<std::vector<double>> variances(plan.names.size());
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const Eigen::VectorXd widths = expected_half_widths(
@@ -296,10 +292,10 @@ double gain_over_random(const RobotModel<double, 6>& model, const LoadTestPlan& 
   for (std::size_t i = 0; i < variances.size(); ++i) {
     const double own = std::pow(plan.half_width[static_cast<Eigen::Index>(i)], 2);
     if (std::isfinite(own)) {
-      gains.push_back(median(variances[i]) / own);
+      gains.push_back(statistics::median(variances[i]) / own);
     }
   }
-  return gains.empty() ? 1 : median(gains);
+  return gains.empty() ? 1 : statistics::median(gains);
 }
 
 recording::Recording as_recording(const LoadTestPlan& plan) {

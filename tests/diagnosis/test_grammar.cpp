@@ -1,12 +1,15 @@
 // Laws that nobody listed: found where they act, by what drives them, and not where nothing does.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/grammar/normal.hpp"
+#include "diagnosis/grammar/shape.hpp"
 #include "diagnosis/grammar/wave.hpp"
 #include "diagnosis/output/law_picture.hpp"
+#include "diagnosis/search/search.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::diagnosis::Choice;
@@ -166,6 +169,22 @@ void what_the_catalogue_has_keeps_its_name() {
   TEST_ASSERT_TRUE(laws_in(observations).findings.empty());
 }
 
+void an_effect_has_a_name_for_shapes_that_are_composed_only() {
+  int known = 0;
+  for (const auto& [effect, search] : flexcomp::diagnosis::searches()) {
+    for (const flexcomp::diagnosis::Known& law : search.known) {
+      for (const std::string& shape : law.shapes) {
+        const bool is_composed =
+            std::any_of(grammar::shapes().begin(), grammar::shapes().end(),
+                        [&](const grammar::Shape& each) { return shape == each.name; });
+        TEST_ASSERT_TRUE_MESSAGE(is_composed, (effect + " knows no shape " + shape).c_str());
+        ++known;
+      }
+    }
+  }
+  TEST_ASSERT_GREATER_THAN(0, known);
+}
+
 void a_tone_is_told_in_time() {
   const DrivenRobot robot;
   simulation::Machine truth = robot.machine();
@@ -212,6 +231,7 @@ int main() {
   RUN_TEST(a_search_without_time_says_so_and_finds_nothing);
   RUN_TEST(a_picture_that_fails_leaves_a_sentence);
   RUN_TEST(what_the_catalogue_has_keeps_its_name);
+  RUN_TEST(an_effect_has_a_name_for_shapes_that_are_composed_only);
   RUN_TEST(a_tone_is_told_in_time);
   RUN_TEST(gains_are_told_where_nothing_was_fitted);
   return UNITY_END();

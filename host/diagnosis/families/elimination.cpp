@@ -15,7 +15,6 @@ namespace flexcomp::diagnosis {
 namespace {
 
 constexpr int kWeightRounds = 3;     // of Huber's weights: they change little after that
-constexpr double kRobustLimit = 3;   // deviations, as in `fit`
 constexpr double kEdge = 1e-2;       // of a body's size, for its first fit by simulation
 constexpr Eigen::Index kParts = 10;  // that are predicted from all others
 
@@ -174,7 +173,7 @@ void Elimination::solve(const std::vector<std::size_t>& members) {
     repeats_ = observations_.has(simulation::joint_torque)
                    ? n / independent_samples(observations_, remainder_)
                    : 1;
-    weight_ = (kRobustLimit * spread_ / remainder_.array().abs().max(1e-12)).min(1.0).matrix();
+    weight_ = huber_weights(remainder_, spread_);
   }
 }
 

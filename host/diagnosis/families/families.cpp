@@ -15,7 +15,6 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kCloser = 0.3;           // times the tolerances of a body that cannot be
 constexpr int kHoldingRounds = 4;         // of holding closer, before a body is left out after all
 constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
 constexpr int kRoundsAnew = 2;            // of choosing the numbers about those that were fitted
@@ -24,7 +23,6 @@ constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another
 constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
 constexpr double kHopeless = 1.1;  // of the held-out error, that choosing anew does not make up for
-constexpr double kLikeNoise = 1.15;  // times the noise: nothing that a regression could better
 constexpr double kClearlyBetter =
     0.97;                            // of the held-out error, that bodies which cannot be are worth
 constexpr int kExtraSteps = 0;       // before the numbers are beside them
@@ -153,26 +151,6 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
   return coupled;
 }
 
-/// Findings, and behind them the numbers: a body that cannot be is held more firmly to the model's
-/// while `holds_bodies`, any other number that cannot be is left out. True if there was none.
-bool make_possible(const Observations& observations, const Fit& fit, std::size_t findings,
-                   bool holds_bodies, std::vector<Chosen>* possible) {
-  possible->clear();
-  bool all_can_be = true;
-  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
-    Chosen chosen = fit.chosen[i];
-    const bool can_be = i < findings || could_be(observations, fit, i);
-    all_can_be = all_can_be && can_be;
-    if (can_be || (holds_bodies && chosen.hypothesis.traits().is_body)) {
-      for (Parameter& parameter : chosen.hypothesis.parameters) {
-        parameter.tolerance *= can_be ? 1 : kCloser;
-      }
-      possible->push_back(std::move(chosen));
-    }
-  }
-  return all_can_be;
-}
-
 /// Fits by simulation from numbers close by on, until all that stay behind the findings can be.
 Fit settle(const Observations& observations, std::vector<Chosen> start, std::size_t findings,
            const Dictionary& dictionary) {
@@ -181,7 +159,10 @@ Fit settle(const Observations& observations, std::vector<Chosen> start, std::siz
   for (int round = 0; round < kPossibleRounds; ++round) {
     if (round < kHoldingRounds && !bodies_can_be(observations, whole)) {
       possible = with_possible_bodies(observations, whole);
-    } else if (make_possible(observations, whole, findings, round < kHoldingRounds, &possible)) {
+    } else if (auto all =
+                   without_impossible(observations, whole, findings, round < kHoldingRounds)) {
+      possible = std::move(*all);
+    } else {
       break;
     }
     whole = fit(observations, possible, kSimulatedSteps, &dictionary);

@@ -3,10 +3,12 @@
 #include <Eigen/QR>
 
 #include "diagnosis/held_remainder.hpp"
+#include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
+constexpr double kCloser = 0.3;          // times the tolerances of a body that cannot be
 constexpr int kRounds = 20;              // of a tighter edge
 constexpr double kTighter = 0.3;         // times the edge before
 constexpr int kBodySteps = 50;           // of each round; one takes milliseconds
@@ -63,6 +65,25 @@ class TangentRemainder : public HeldRemainder {
 };
 
 }  // namespace
+
+std::optional<std::vector<Chosen>> without_impossible(const Observations& observations,
+                                                      const Fit& fit, std::size_t given,
+                                                      bool holds_bodies) {
+  std::vector<Chosen> possible;
+  bool all_can_be = true;
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    Chosen chosen = fit.chosen[i];
+    const bool can_be = i < given || could_be(observations, fit, i);
+    all_can_be = all_can_be && can_be;
+    if (can_be || (holds_bodies && chosen.hypothesis.traits().is_body)) {
+      for (Parameter& parameter : chosen.hypothesis.parameters) {
+        parameter.tolerance *= can_be ? 1 : kCloser;
+      }
+      possible.push_back(std::move(chosen));
+    }
+  }
+  return all_can_be ? std::nullopt : std::make_optional(std::move(possible));
+}
 
 bool bodies_can_be(const Observations& observations, const Fit& fit) {
   return Bodies(observations, fit.chosen).can_be(fit.machine.robot);

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/fit.hpp"
 
 namespace flexcomp::diagnosis {
+
+/// A fit's choices without those that cannot be; the first `given` stay in any case. A body that
+/// cannot be stays while `holds_bodies`, held more firmly to the model's. Nothing where all can be.
+std::optional<std::vector<Chosen>> without_impossible(const Observations& observations,
+                                                      const Fit& fit, std::size_t given,
+                                                      bool holds_bodies);
 
 /// Are all bodies of a fit that have an edge within what they can be?
 bool bodies_can_be(const Observations& observations, const Fit& fit);

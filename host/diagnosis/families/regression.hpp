@@ -5,7 +5,9 @@
 
 namespace flexcomp::diagnosis {
 
-constexpr int kSimulatedSteps = 8;  ///< of the fit of a family by simulation, from close by
+/// Steps of the fit of many numbers by simulation, from close by: all of them act nearly in
+/// proportion, so that few steps do.
+constexpr int kSimulatedSteps = 8;
 
 /// The plain refit of identification: masses, first moments and inertias of all links as the
 /// numbers of a regression, whatever bodies they would be of, with friction, rotors and

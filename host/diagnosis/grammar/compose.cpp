@@ -13,7 +13,8 @@ namespace flexcomp::diagnosis::grammar {
 namespace {
 
 constexpr int kRefinements = 5;              // halvings of the step around the best start
-constexpr double kMostHalves = 0.8;          // in which a richer law must predict better
+constexpr double kMostHalves = 0.8;          // in which a richer law must predict better: of halves
+                                             // that say nothing one in two does
 constexpr std::size_t kModulated = 3;        // leads of which a second driver is sought
 constexpr std::size_t kMostModulations = 3;  // of each that are weighed
 constexpr double kWorthwhile = 6;  // squares over the noise that it must gain for each number more
@@ -103,7 +104,7 @@ class Fitted {
 
 /// For each term the amplitude by which it does as much as the term that does most.
 Eigen::VectorXd reach_of(const Normal& normal, const Eigen::VectorXd& amplitude) {
-  constexpr double kTiny = 1e-300;
+  constexpr double kTiny = 1e-300;  // against a division by zero
   const Eigen::VectorXd size = normal.gram.diagonal().cwiseMax(kTiny).cwiseSqrt();
   return amplitude.cwiseAbs().cwiseProduct(size).maxCoeff() * size.cwiseInverse();
 }
@@ -180,7 +181,7 @@ std::vector<Composed> laws_of(const Material& material, const Lead& lead) {
 
 /// What the second driver makes of a law that does most.
 std::vector<Composed> modulated(const Material& material, const Composed& law) {
-  constexpr double kMore = 1.2;  // times the law's own gain
+  constexpr double kMore = 1.2;  // times the law's own gain: any second driver gains a little
   std::vector<std::pair<double, Modulation>> by_gain;
   for (const Driver& driver : material.drivers) {
     for (const Shape& shape : modulations()) {
@@ -271,8 +272,8 @@ std::string formula_of(const Composed& law, std::vector<std::string>* names) {
 /// Where an amplitude is sought: through zero, and far beyond its reach. What other numbers of the
 /// law do may turn one term into another.
 Bounds bounds_of_amplitude(double reach) {
-  constexpr double kFar = 50;
-  constexpr double kStep = 0.05;
+  constexpr double kFar = 50;     // times the reach: no bound that a fit would rest on
+  constexpr double kStep = 0.05;  // of the reach
   const double size = std::max(reach, 1e-12);
   return {-kFar * size, kFar * size, kStep * size};
 }

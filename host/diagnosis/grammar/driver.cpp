@@ -10,7 +10,8 @@ namespace {
 
 using effects::SignalKind;
 
-constexpr double kAboveNoise = 4;  // times the noise of a speed or an acceleration
+constexpr double kAboveNoise = 4;  // times the noise of a speed or an acceleration: it is a
+                                   // sixteenth of the power then, and flattens a slope by as much
 
 std::vector<std::string> names_of(const Observations& observations) {
   std::vector<std::string> names;

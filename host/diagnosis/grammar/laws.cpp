@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::size_t kMostLaws = 3;    // beside each other: more take minutes
 constexpr double kLeastLawShare = 0.3;  // of the power beyond the noise where it shows
-constexpr int kLawSteps = 12;
-constexpr std::size_t kTried = 4;  // composed laws that are fitted before the best is taken
+constexpr std::size_t kTried = 4;       // composed laws that are fitted before the best is taken
 
 /// The effects of the catalogue that are sought.
 std::set<std::string> effects_of(const Inquiry& inquiry) {
@@ -33,7 +32,7 @@ Fit with_law(const Inquiry& inquiry, const Material& material, const Fit& before
   const std::vector<Composed> laws = compose(material, leads, effects_of(inquiry), &looked_at);
   Fit best;
   for (std::size_t i = 0; i < std::min(laws.size(), kTried); ++i) {
-    Fit grown = fit_with(inquiry, before, chosen_of(observations, laws[i]), kLawSteps);
+    Fit grown = fit_with(inquiry, before, chosen_of(observations, laws[i]), kSteps);
     const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
     if (holds(inquiry, evidence) && evidence.share > kLeastLawShare &&
         (best.chosen.empty() || bic_gain(observations, best, grown) > kStrongEvidence)) {

@@ -9,6 +9,7 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
+/// Divisions; 20 of them are most of them (compose.cpp), which by chance one in a thousand shows.
 constexpr int kHalves = 24;
 
 /// Stretches that hold samples to fit to, in a random order that is the same every time.
@@ -40,10 +41,10 @@ Normal sum_of(const std::vector<Normal>& by_stretch, const std::vector<std::size
 }  // namespace
 
 Eigen::VectorXd Normal::amplitude() const {
-  constexpr double kTiny = 1e-300;
+  constexpr double kTiny = 1e-300;  // against a division by zero
   const Eigen::VectorXd scale = gram.diagonal().cwiseMax(kTiny).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  constexpr double kIndependent = 1e-8;
+  constexpr double kIndependent = 1e-8;  // of a square: keeps terms that are one solvable
   scaled.diagonal().array() += kIndependent;
   return scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * moment);
 }

@@ -16,9 +16,11 @@ namespace {
 using effects::PlaceKind;
 using effects::SignalKind;
 
+/// Of a conditional mean: they show a wave, and take up little noise.
 constexpr Eigen::Index kHats = 9;
-constexpr std::size_t kMostLeads = 40;
-constexpr double kMuchLess = 0.4;  // of the best lead's gain
+constexpr std::size_t kMostLeads = 40;  // that are composed of: time
+/// Of the best lead's gain: time against shapes that gain more than their lead shows.
+constexpr double kLeastOfBest = 0.4;
 
 /// Adds factors of a driver that is there: itself, and its sign.
 void add_factor(const std::vector<Driver>& drivers, const std::string& name, bool by_sign,
@@ -172,7 +174,7 @@ std::vector<Lead> screen(const Material& material, const std::vector<Seat>& seat
   *looked_at += leads.size();
   std::stable_sort(leads.begin(), leads.end(),
                    [](const Lead& a, const Lead& b) { return a.gain > b.gain; });
-  const double least = leads.empty() ? 0 : kMuchLess * leads.front().gain;
+  const double least = leads.empty() ? 0 : kLeastOfBest * leads.front().gain;
   const auto end = std::find_if(leads.begin(), leads.end(),
                                 [&](const Lead& each) { return !(each.gain > least); });
   leads.erase(end, leads.end());

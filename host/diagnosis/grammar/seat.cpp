@@ -9,7 +9,8 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
-constexpr double kMoreThanNoise = 1.1;  // times the noise
+/// Times the noise: below it time would go into what is noise.
+constexpr double kMoreThanNoise = 1.1;
 
 /// A place by its words in robot.yaml.
 struct Words {
@@ -50,14 +51,6 @@ std::vector<Words> places_of(const Observations& observations) {
     }
   }
   return all;
-}
-
-/// What a fit leaves of the samples to fit to, without what stands alone.
-Eigen::VectorXd clipped(const Fit& fit, Eigen::Index train) {
-  constexpr double kFar = 6;  // deviations
-  const Eigen::VectorXd all = fit.remainder.head(train);
-  const double limit = kFar * std::max(1.0, all.norm() / std::sqrt(static_cast<double>(train)));
-  return all.cwiseMax(-limit).cwiseMin(limit);
 }
 
 /// An orthonormal base of the changes that a fit's parameters make.
@@ -131,7 +124,7 @@ Eigen::VectorXd levers_of(const Observations& observations, const effects::LawPl
 
 std::vector<Seat> seats_of(const Observations& observations, const Rows& rows, const Fit& fit) {
   const Eigen::Index train = observations.train;
-  const Eigen::VectorXd left = clipped(fit, train);
+  const Eigen::VectorXd left = clipped(fit.remainder.head(train));
   const Eigen::MatrixXd base = base_of(fit, train);
   std::vector<Seat> seats;
   for (const Words& words : places_of(observations)) {

@@ -143,7 +143,7 @@ std::vector<double> starts_of(Sought sought, const Driver& driver, const Observa
 }
 
 Bounds bounds_of(Sought sought, const Driver& driver, const Observations& observations) {
-  constexpr double kStep = 0.01;
+  constexpr double kStep = 0.01;  // of what the parameter is relative to
   switch (sought) {
     case Sought::scale:
       return {1e-3 * driver.size(), 5 * driver.size(), kStep * driver.size()};

@@ -9,9 +9,10 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
-constexpr double kMostOrder = 150;   // periods a turn
-constexpr double kLeastPeriods = 1;  // along the driver
-constexpr double kSpacing = 1.5;     // rad of phase over the driver between orders tried
+constexpr double kMostOrder = 150;   // periods a turn, above the 100 or so teeth of a gear wheel
+constexpr double kLeastPeriods = 1;  // along the driver: less of a wave is a bend
+constexpr double kSpacing = 1.5;  // rad of phase over the driver between orders tried: a quarter of
+                                  // the way from a peak to its first zero
 
 /// Sums of a seat's rows for one order after another: the phases turn by a constant angle.
 class Periodogram {
@@ -35,6 +36,7 @@ class Periodogram {
       gram += weight_[i] * basis * basis.transpose();
       moment += product_[i] * basis;
     }
+    // Of a square: keeps a wave that is nearly constant solvable.
     constexpr double kIndependent = 1e-6;
     gram.diagonal() *= 1 + kIndependent;
     return moment.dot(gram.ldlt().solve(moment)) - moment[2] * moment[2] / gram(2, 2);

@@ -13,7 +13,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr std::size_t kMostCoursePoints = 1200;
+constexpr std::size_t kMostCoursePoints = 1200;  // more than the picture is wide in pixels
 
 /// One component at one time, SI.
 struct CoursePoint {

@@ -12,12 +12,13 @@
 #include "error.hpp"
 #include "report/gnuplot.hpp"
 #include "report/html.hpp"
+#include "statistics/median.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr Eigen::Index kBins = 30;
-constexpr double kFewest = 4;  // samples of a mean that is drawn
+constexpr Eigen::Index kBins = 30;  // points along a driver
+constexpr double kFewest = 4;       // samples of a mean that is drawn
 constexpr std::array<const char*, 3> kDots = {"#c0392b", "#1f6fb4", "#222222"};
 
 /// A text between gnuplot's single quotes, where an apostrophe is written twice.
@@ -120,7 +121,8 @@ class Portrait {
   /// Means over the first driver of values of the samples, on one side of the second's median.
   Means means_of(const Eigen::VectorXd& values, bool held_out, int side) const {
     Means means;
-    const double middle = sides() > 1 ? median(drivers_[1]) : 0;
+    const double middle =
+        sides() > 1 ? statistics::median({drivers_[1].begin(), drivers_[1].end()}) : 0;
     for (Eigen::Index i = held_out ? observations_.train : 0;
          i < (held_out ? observations_.size() : observations_.train); ++i) {
       if (lever_[i] == 0 || (sides() > 1 && (drivers_[1][i] > middle) != (side == 0))) {
@@ -133,12 +135,6 @@ class Portrait {
       means.count[k] += 1;
     }
     return means;
-  }
-
-  static double median(Eigen::VectorXd values) {
-    std::nth_element(values.data(), values.data() + values.size() / 2,
-                     values.data() + values.size());
-    return values[values.size() / 2];
   }
 
   std::string block(const std::string& name, const Means& means, double scale) const {

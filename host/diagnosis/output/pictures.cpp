@@ -121,7 +121,7 @@ std::string path_picture(const Observations& observations, const Eigen::VectorXd
 }
 
 std::string ranking_picture(const std::vector<Ranked>& ranking) {
-  constexpr std::size_t kMost = 10;
+  constexpr std::size_t kMost = 10;  // bars that are read
   const std::size_t count = std::min(kMost, ranking.size());
   if (count == 0) {
     return "";

@@ -37,7 +37,7 @@ std::string fall(const Observations& observations, const Fit& before, const Fit&
 
 /// The first three, and how many more there are.
 std::string first_few(const std::vector<std::string>& all) {
-  constexpr std::size_t kFew = 3;
+  constexpr std::size_t kFew = 3;  // that a sentence bears
   const std::size_t told = std::min(kFew, all.size());
   const std::vector<std::string> few(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(told));
   const std::size_t more = all.size() - told;

@@ -8,13 +8,8 @@ namespace {
 
 constexpr int kWholeMachine = 0;
 
-Search search_of(const std::string& effect) {
-  static const std::vector<std::pair<std::string, Search>> kSearches = {
-#define FLEXCOMP_EFFECT(name) {#name, search::name()},
-#include "effects/catalogue.inc"
-#undef FLEXCOMP_EFFECT
-  };
-  return std::find_if(kSearches.begin(), kSearches.end(),
+const Search& search_of(const std::string& effect) {
+  return std::find_if(searches().begin(), searches().end(),
                       [&](const auto& each) { return each.first == effect; })
       ->second;
 }
@@ -27,12 +22,21 @@ bool acts_at(const effects::Law& law, const model::Robot& robot, int joint) {
 
 }  // namespace
 
+const std::vector<std::pair<std::string, Search>>& searches() {
+  static const std::vector<std::pair<std::string, Search>> kSearches = {
+#define FLEXCOMP_EFFECT(name) {#name, search::name()},
+#include "effects/catalogue.inc"
+#undef FLEXCOMP_EFFECT
+  };
+  return kSearches;
+}
+
 std::vector<Hypothesis> all_hypotheses(const Observations& observations) {
   const model::Robot& robot = observations.machine.robot;
   const MachineSize size = size_of(observations);
   std::vector<Hypothesis> all;
   for (const effects::Effect& effect : effects::catalogue()) {
-    const Search search = search_of(effect.name);
+    const Search& search = search_of(effect.name);
     for (int joint = kWholeMachine; joint <= robot.joints(); ++joint) {
       for (const effects::LawPointer& law : effect.forms) {
         if (!acts_at(*law, robot, joint)) {

@@ -16,6 +16,13 @@ bool prepare_coulomb_friction(const Observations& observations, Hypothesis* hypo
 
 }  // namespace
 
-Search search::coulomb_friction() { return {prepare_coulomb_friction}; }
+Search search::coulomb_friction() {
+  return {prepare_coulomb_friction,
+          nullptr,
+          {{{PlaceKind::joint_torque},
+            "",
+            {SignalKind::speed},
+            {"sign", "saturation", "slow saturation", "limit", "step", "soft step"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

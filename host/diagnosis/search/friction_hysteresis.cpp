@@ -19,7 +19,7 @@ std::vector<Values> starts_over(double range, bool has_gap) {
 
 /// Needs torques, and reversals of motion.
 bool prepare_friction_hysteresis(const Observations& observations, Hypothesis* hypothesis) {
-  constexpr double kLeastRange = 1e-4;  // rad
+  constexpr double kLeastRange = 1e-4;  // rad: some steps of an encoder
   const double range = observations.range(hypothesis->joint);
   if (!sees_moving_torques(observations) || range < kLeastRange) {
     return false;

@@ -10,7 +10,7 @@ double reach(const std::string& form) { return form.rfind("prandtl_ishlinskii", 
 
 /// Needs the TCP or link encoders, and a load that rises and falls.
 bool prepare_hysteresis(const Observations& observations, Hypothesis* hypothesis) {
-  constexpr double kLeastLoad = 0.01;  // N·m
+  constexpr double kLeastLoad = 0.01;  // N·m: less is no load
   const double load = observations.largest_load(hypothesis->joint);
   if (!sees_angles(observations) || load < kLeastLoad) {
     return false;

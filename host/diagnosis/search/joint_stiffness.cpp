@@ -15,6 +15,10 @@ bool prepare_joint_stiffness(const Observations& observations, Hypothesis* hypot
 
 }  // namespace
 
-Search search::joint_stiffness() { return {prepare_joint_stiffness}; }
+Search search::joint_stiffness() {
+  return {prepare_joint_stiffness,
+          nullptr,
+          {{{PlaceKind::joint_angle}, "", {SignalKind::load, SignalKind::torque}, {"line"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -11,6 +11,13 @@ bool prepare_load_friction(const Observations& observations, Hypothesis* hypothe
 
 }  // namespace
 
-Search search::load_friction() { return {prepare_load_friction}; }
+Search search::load_friction() {
+  return {prepare_load_friction,
+          nullptr,
+          {{{PlaceKind::joint_torque},
+            "sign(v",
+            {SignalKind::load, SignalKind::torque},
+            {"size", "line", "square", "signed square"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

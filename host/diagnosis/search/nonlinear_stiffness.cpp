@@ -20,6 +20,13 @@ bool prepare_nonlinear_stiffness(const Observations& observations, Hypothesis* h
 
 }  // namespace
 
-Search search::nonlinear_stiffness() { return {prepare_nonlinear_stiffness}; }
+Search search::nonlinear_stiffness() {
+  return {prepare_nonlinear_stiffness,
+          nullptr,
+          {{{PlaceKind::joint_angle},
+            "",
+            {SignalKind::load, SignalKind::torque},
+            {"cube", "odd cubic", "signed square"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -117,7 +117,7 @@ std::vector<Values> seek_resonance(const Observations& observations,
 /// Needs motion or changing loads, sampled several times a period; by posture, an inertia that is
 /// known and changes along the recordings.
 bool prepare_resonance(const Observations& observations, Hypothesis* hypothesis) {
-  constexpr double kLeastChange = 0.02;
+  constexpr double kLeastChange = 0.02;  // of the inertia: the frequency moves by half of it, 1 %
   const Bounds damping{1e-3, 0.5, 0.01};
   if (observations.is_static) {
     return false;

@@ -15,6 +15,10 @@ bool prepare_rotor_inertia(const Observations& observations, Hypothesis* hypothe
 
 }  // namespace
 
-Search search::rotor_inertia() { return {prepare_rotor_inertia}; }
+Search search::rotor_inertia() {
+  return {prepare_rotor_inertia,
+          nullptr,
+          {{{PlaceKind::joint_torque}, "", {SignalKind::acceleration}, {"line"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

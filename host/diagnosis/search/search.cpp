@@ -30,10 +30,14 @@ std::vector<Values> starts_at(const std::vector<double>& shares, double size) {
   return starts;
 }
 
+std::vector<Known> known_waves(PlaceKind place) {
+  return {{{place}, "", {SignalKind::angle}, {"wave", "wave of any order", "two waves"}}};
+}
+
 std::vector<Values> ripple_orders(const Observations& observations, int joint,
                                   const std::vector<JointResidual>& residual) {
-  constexpr double kMostOrder = 330;
-  constexpr std::size_t kMost = 3;
+  constexpr double kMostOrder = 330;  // twice a turn of the motor, through a gear of 160
+  constexpr std::size_t kMost = 3;    // starts: an effect beside may hide the highest peak
   const double range = observations.range(joint);
   if (range < 0.02) {
     return {};

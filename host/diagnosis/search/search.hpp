@@ -1,15 +1,31 @@
 #pragma once
 
+#include <utility>
+
 #include "diagnosis/search/hypothesis.hpp"
+#include "effects/law_place.hpp"
+#include "effects/signals.hpp"
 
 namespace flexcomp::diagnosis {
+
+using effects::PlaceKind;
+using effects::SignalKind;
+
+/// Laws that an effect has a name for, as composed laws are written (grammar/).
+struct Known {
+  std::vector<PlaceKind> places;
+  const char* factor;  ///< that the law begins with, such as sign(v; empty: it has none
+  std::vector<SignalKind> drivers;  ///< of the joint, or component, that it acts at
+  std::vector<std::string> shapes;  ///< by their names (grammar/shape.cpp)
+};
 
 /// How the laws of one effect are looked for in observations.
 struct Search {
   /// Sets where the parameters of a law at a joint are sought, and the starts that are the same
   /// whatever the residual; false where it could not show.
   bool (*prepare)(const Observations&, Hypothesis*);
-  Seek seek = nullptr;  ///< starts by the residual
+  Seek seek = nullptr;            ///< starts by the residual
+  std::vector<Known> known = {};  ///< no such law is composed where the effect is sought
 };
 
 namespace search {
@@ -19,6 +35,12 @@ namespace search {
 #undef FLEXCOMP_EFFECT
 
 }  // namespace search
+
+/// The search for each effect of the catalogue, by the effect's name.
+const std::vector<std::pair<std::string, Search>>& searches();
+
+/// Waves over a joint's angle, as an effect at a place has a name for them.
+std::vector<Known> known_waves(PlaceKind place);
 
 /// Can wind-up and position errors of the joints be seen, at the TCP or by link encoders?
 bool sees_angles(const Observations& observations);

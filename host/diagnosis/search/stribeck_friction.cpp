@@ -5,7 +5,7 @@ namespace {
 
 /// Needs torques, and slow motion.
 bool prepare_stribeck_friction(const Observations& observations, Hypothesis* hypothesis) {
-  constexpr double kLeastSpeed = 1e-3;  // rad/s
+  constexpr double kLeastSpeed = 1e-3;  // rad/s: below it the angles' noise makes the direction
   const double speed = observations.largest_speed(hypothesis->joint);
   if (!sees_moving_torques(observations) || speed < kLeastSpeed) {
     return false;
@@ -18,6 +18,14 @@ bool prepare_stribeck_friction(const Observations& observations, Hypothesis* hyp
 
 }  // namespace
 
-Search search::stribeck_friction() { return {prepare_stribeck_friction}; }
+Search search::stribeck_friction() {
+  return {
+      prepare_stribeck_friction,
+      nullptr,
+      {{{PlaceKind::joint_torque},
+        "sign(v",
+        {SignalKind::speed},
+        {"line", "size", "parabola", "saturation", "slow saturation", "limit", "bump", "growth"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -33,6 +33,14 @@ bool prepare_thermal_drift(const Observations& observations, Hypothesis* hypothe
 
 }  // namespace
 
-Search search::thermal_drift() { return {prepare_thermal_drift}; }
+Search search::thermal_drift() {
+  return {prepare_thermal_drift,
+          nullptr,
+          {{{PlaceKind::tcp_base, PlaceKind::tcp_tool},
+            "",
+            {SignalKind::temperature, SignalKind::time},
+            {"line"}},
+           {{PlaceKind::tcp_base, PlaceKind::tcp_tool}, "", {SignalKind::time}, {"approach"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

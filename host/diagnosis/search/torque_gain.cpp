@@ -11,6 +11,10 @@ bool prepare_torque_gain(const Observations& observations, Hypothesis* hypothesi
 
 }  // namespace
 
-Search search::torque_gain() { return {prepare_torque_gain}; }
+Search search::torque_gain() {
+  return {prepare_torque_gain,
+          nullptr,
+          {{{PlaceKind::joint_torque}, "", {SignalKind::torque}, {"line"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -20,6 +20,8 @@ std::vector<Values> seek_torque_ripple(const Observations& observations,
 
 }  // namespace
 
-Search search::torque_ripple() { return {prepare_torque_ripple, seek_torque_ripple}; }
+Search search::torque_ripple() {
+  return {prepare_torque_ripple, seek_torque_ripple, known_waves(PlaceKind::joint_torque)};
+}
 
 }  // namespace flexcomp::diagnosis

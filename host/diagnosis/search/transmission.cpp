@@ -15,6 +15,10 @@ bool prepare_transmission(const Observations& observations, Hypothesis* hypothes
 
 }  // namespace
 
-Search search::transmission() { return {prepare_transmission}; }
+Search search::transmission() {
+  return {prepare_transmission,
+          nullptr,
+          {{{PlaceKind::joint_angle}, "", {SignalKind::angle}, {"line"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -6,8 +6,8 @@ namespace {
 /// Are there angles enough for sines of them to show? Through the few postures of a usual load test
 /// some sine goes always.
 bool has_many_angles(const Observations& observations) {
-  constexpr int kEnough = 200;
-  constexpr double kMove = 0.01;  // rad
+  constexpr int kEnough = 200;    // postures; a usual load test has some dozens
+  constexpr double kMove = 0.01;  // rad: less is bending
   if (!observations.is_static) {
     return true;
   }
@@ -37,7 +37,8 @@ std::vector<Values> seek_transmission_ripple(const Observations& observations,
 }  // namespace
 
 Search search::transmission_ripple() {
-  return {prepare_transmission_ripple, seek_transmission_ripple};
+  return {prepare_transmission_ripple, seek_transmission_ripple,
+          known_waves(PlaceKind::joint_angle)};
 }
 
 }  // namespace flexcomp::diagnosis

@@ -60,7 +60,7 @@ double halton(int index, int base) {
 
 /// Evenly within the bounds, or over their powers of ten where they span several above zero.
 double between(const Sought& range, double share) {
-  constexpr double kDecades = 100;
+  constexpr double kDecades = 100;  // times: over two decades even steps leave out the lower one
   return range.lower > 0 && range.upper > kDecades * range.lower
              ? range.lower * std::pow(range.upper / range.lower, share)
              : range.lower + share * (range.upper - range.lower);

@@ -22,6 +22,10 @@ bool prepare_viscous_friction(const Observations& observations, Hypothesis* hypo
 
 }  // namespace
 
-Search search::viscous_friction() { return {prepare_viscous_friction}; }
+Search search::viscous_friction() {
+  return {prepare_viscous_friction,
+          nullptr,
+          {{{PlaceKind::joint_torque}, "", {SignalKind::speed}, {"line"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -11,6 +11,10 @@ bool prepare_wrench_scale(const Observations& observations, Hypothesis* hypothes
 
 }  // namespace
 
-Search search::wrench_scale() { return {prepare_wrench_scale}; }
+Search search::wrench_scale() {
+  return {prepare_wrench_scale,
+          nullptr,
+          {{{PlaceKind::sensor_wrench}, "", {SignalKind::tool_wrench}, {"line"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

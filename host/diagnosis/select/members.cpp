@@ -12,7 +12,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Squares over the noise of a channel's samples.
+/// Squares of a channel's samples, over the noise of the measurement alone.
 struct Squares {
   double before = 0, after = 0, count = 0;
 };
@@ -25,9 +25,8 @@ double explained_everywhere(const Observations& observations, const Fit& whole) 
   for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Channel channel = observations.samples[static_cast<std::size_t>(i)].channel;
     Squares& part = parts[{channel, i >= observations.train}];
-    const double times = std::pow(observations.noise[i] / observations.floor[i], 2);
-    part.before += times * observations.residual[i] * observations.residual[i];
-    part.after += times * whole.remainder[i] * whole.remainder[i];
+    part.before += std::pow(observations.over_floor(i, observations.residual[i]), 2);
+    part.after += std::pow(observations.over_floor(i, whole.remainder[i]), 2);
     part.count += 1;
   }
   double least = 1;

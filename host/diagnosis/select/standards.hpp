@@ -38,6 +38,9 @@ constexpr double kLeastByFamilies = 0.6;
 constexpr std::size_t kLeastMembers = 3;
 /// Times the noise: what leaves more has not been understood (0f27f02).
 constexpr double kFarFromNoise = 2;
+/// Times the noise, or model error, that was taken for what nothing explains: where less is left,
+/// all is weighed anew by what is left. Time against an estimate that is told to a tenth.
+constexpr double kMuchLess = 0.8;
 /// A recording of a real robot needs a dozen (842a13d).
 constexpr std::size_t kMostFindings = 20;
 /// At one place: more would be a sum that fits anything, and takes minutes (a51463b).

@@ -31,6 +31,7 @@ Forms laws::base_frame() {
   law.traits.linear_in = 6;
   law.traits.is_in_family = true;
   law.traits.can_be_undone = false;
+  law.traits.registers = Registers::frame;
   law.parameters =
       constant({{"x", "m"}, {"y", "m"}, {"z", "m"}, {"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}});
   law.words = "place of the base";

@@ -9,6 +9,7 @@ Forms laws::tcp_offset() {
   law.joints = whole_machine;
   law.traits.linear_in = 3;
   law.traits.is_in_family = true;
+  law.traits.registers = Registers::point;
   law.parameters = constant({{"x", "m"}, {"y", "m"}, {"z", "m"}});
   law.words = "place of the tool's tip";
   law.statement = says("the tool tip is elsewhere");

@@ -5,7 +5,6 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 from unittest import mock
 
@@ -18,12 +17,13 @@ from scipy.integrate import solve_ivp  # noqa: E402
 from scipy.spatial.transform import Rotation  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 from campaign import case as campaign, cell  # noqa: E402
 from foreign import __main__ as command  # noqa: E402
 from foreign import cases, drives, judge, menu, sensors, stand, steady, trial, unseen  # noqa: E402
 from foreign.law import Seen, lagged  # noqa: E402
+from in_folder import InFolder  # noqa: E402
 from many import arm  # noqa: E402
 from plant import description as descriptions  # noqa: E402
 from plant.motion import LoadTest, Motion, Signals  # noqa: E402
@@ -163,13 +163,6 @@ class Sensors(unittest.TestCase):
         shown = self.signals([0, 0, 0, 0, 40, 0])  # about the tool's x
         sensors.ForceCrosstalk(None, force=1, moment=0, share=0.5).sense(shown, None)
         np.testing.assert_allclose(shown.wrench[0], [-20, 0, 0, 0, 40, 0], atol=1e-9)
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        kept = tempfile.TemporaryDirectory()
-        self.addCleanup(kept.cleanup)
-        self.folder = pathlib.Path(kept.name)
 
 
 class Steady(InFolder):

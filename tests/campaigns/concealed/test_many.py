@@ -5,7 +5,6 @@ import json
 import os
 import pathlib
 import sys
-import tempfile
 import unittest
 from unittest import mock
 
@@ -16,8 +15,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 
+from in_folder import InFolder  # noqa: E402
 from many import __main__ as command  # noqa: E402
 from many import (arm, cases, diagnosed, frame_refit, frames, friction, friction_refit,  # noqa: E402
                   intervals, judge, motions, plausible, robots)
@@ -36,13 +36,6 @@ def small():
     with (mock.patch.object(robots, "available", lambda: ["kr100", "kr270", "kr360", "kr500"]),
           mock.patch.object(frame_refit, "ROWS", 120), mock.patch.object(frames, "RATE", 10.0)):
         yield
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        kept = tempfile.TemporaryDirectory()
-        self.addCleanup(kept.cleanup)
-        self.folder = pathlib.Path(kept.name)
 
 
 class TwoEngines(InFolder):

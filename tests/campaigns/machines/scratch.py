@@ -1,19 +1,12 @@
 """A folder of its own for each test, and made-up files in it."""
 
-import pathlib
-import tempfile
-import unittest
+from in_folder import InFolder
 
 from . import synthetic
 from .registry import MACHINES
 
 
-class Scratch(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
-
+class Scratch(InFolder):
     def written(self, name):
         """Experiments from made-up files, and what the maker of these returns."""
         reader = MACHINES[name].reader

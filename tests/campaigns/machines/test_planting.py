@@ -4,7 +4,6 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
@@ -13,6 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent / "diagnosis")]
 
 from generator import dynamics, kinematics, robot as robots  # noqa: E402
+from in_folder import InFolder  # noqa: E402
 from machines import consequences, planting, synthetic, tables  # noqa: E402
 from machines.kuka_kr300 import reader as kr300  # noqa: E402
 from machines.robot_files import write_robot  # noqa: E402
@@ -34,16 +34,14 @@ def swing(**more):
             **more}
 
 
-class InFolder(unittest.TestCase):
+class WithArm(InFolder):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
+        super().setUp()
         self.model = write_robot(self.folder, kr300.chain())
         self.arm = UrdfArm(self.model)
 
 
-class Positions(InFolder):
+class Positions(WithArm):
     def tip(self, q, change=lambda robot: None):
         """(n, 3) by the generator's own kinematics, of a robot that was changed."""
         robot = robots.load(self.model)
@@ -76,7 +74,7 @@ class Positions(InFolder):
         np.testing.assert_allclose(law.shift(ANGLES, 2e-3), want, atol=1e-12)
 
 
-class Torques(InFolder):
+class Torques(WithArm):
     def check(self, law, amount, want, tolerance):
         found = law.trace(swing(), amount)
         self.assertEqual(list(found), [f"tau_{law.joint}"])
@@ -119,7 +117,7 @@ class Torques(InFolder):
                                        atol=0.5)
 
 
-class Sizes(InFolder):
+class Sizes(WithArm):
     def test_an_amount_stands_so_many_times_out_of_the_residual(self):
         law, left = consequences.ViscousFriction(3, {}, self.arm), {"tau_3": 2.5, "tau_1": 1.0}
         amount = planting.amount_for(law, swing(), left, 6)
@@ -150,7 +148,7 @@ class Sizes(InFolder):
         self.assertFalse({5, 6} & {law.joint for law in drawn})
 
 
-class Counting(InFolder):
+class Counting(WithArm):
     def test_a_name_is_right_at_its_joint_or_where_it_says_the_same(self):
         law = consequences.Payload(None, {}, self.arm)
         for effect, joint, right in (("payload", None, True), ("link_mass", 6, True),

@@ -5,15 +5,13 @@ import dataclasses
 import hashlib
 import json
 import shlex
-import shutil
 import signal
 import sys
-import time
 
 from scoring import figures
 
 from . import (arguments, cases, goals, judging, loops, report, sandbox, seal, trial, watch,
-               wording)
+               wording, workers)
 
 OURS = (arguments.TOLD, "cases", "answers", seal.SEALED, seal.HASH, seal.OPENED, seal.KEY,
         "report.html", "scores.json")
@@ -21,31 +19,6 @@ OURS = (arguments.TOLD, "cases", "answers", seal.SEALED, seal.HASH, seal.OPENED,
 
 class Void(Exception):
     """The campaign proves nothing; says why."""
-
-
-class Progress:
-    """On a terminal, how far a step is."""
-
-    def __init__(self, what):
-        self._what, self._begin = what, time.monotonic()
-
-    def __call__(self, done, total):
-        if sys.stderr.isatty():
-            left = (time.monotonic() - self._begin) / done * (total - done)
-            sys.stderr.write(f"\r{self._what}: {done} of {total}, about {left / 60:.0f} min left "
-                             "\033[K" + ("\n" if done == total else ""))
-            sys.stderr.flush()
-
-
-def _clear(folder):
-    """Takes an earlier campaign away; nothing else."""
-    for name in OURS:
-        path = folder / name
-        if path.is_dir() and not path.is_symlink():
-            shutil.rmtree(path)
-        else:
-            path.unlink(missing_ok=True)
-    folder.mkdir(parents=True, exist_ok=True)
 
 
 def _tell(folder, words):
@@ -69,7 +42,7 @@ def _check_untouched(watcher, running):
 
 def _run_all(options, way, names, watcher):
     """Every case, before the truth is known. Raises Void once somebody touches the sealed file."""
-    progress = Progress("diagnosed")
+    progress = workers.Progress("diagnosed")
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         waiting = {pool.submit(trial.run, way, options.out / "cases" / name,
                                options.out / "answers" / name): name for name in names}
@@ -145,17 +118,17 @@ def _print(options, scored, found):
 def _close_loops(options, truths, scored):
     drawn = cases.drawn(options.seed, options.cases)
     closed = loops.close(options.tool, drawn, truths, options.out, options.jobs,
-                         Progress("closed the loop"))
+                         workers.Progress("closed the loop"))
     for each in scored:
         each.loop = closed.get(each.case)
 
 
 def _prove(options):
     """The whole campaign; the exit code. Raises Void, seal.Altered, KeyboardInterrupt."""
-    _clear(options.out)
+    workers.clear(options.out, OURS)
     _tell(options.out, "drawing; nothing is sealed yet")
     truths = cases.write(options.seed, options.cases, options.out / "cases", options.jobs,
-                         Progress("recorded"))
+                         workers.Progress("recorded"))
     names = sorted(truths)
     if not names:
         raise Void("no case could be drawn")

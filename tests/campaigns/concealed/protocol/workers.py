@@ -13,16 +13,18 @@ _box = None  # this worker's
 
 
 class Progress:
-    """How far a step is: on a terminal, a line that changes; else one each case."""
+    """How far a step is: on a terminal a line that changes, else one each case."""
 
-    def __init__(self, what, total):
-        self._what, self._total, self._begin = what, total, time.monotonic()
+    def __init__(self, what):
+        self._what, self._begin = what, time.monotonic()
 
-    def __call__(self, done):
-        left = (time.monotonic() - self._begin) / done * (self._total - done)
-        end = "\r" if sys.stderr.isatty() and done < self._total else "\n"
-        print(f"{self._what}: {done} of {self._total}, about {math.ceil(left / 60)} min left",
-              end=end, file=sys.stderr, flush=True)
+    def __call__(self, done, total):
+        left = (time.monotonic() - self._begin) / done * (total - done)
+        words = f"{self._what}: {done} of {total}, about {math.ceil(left / 60)} min left"
+        if sys.stderr.isatty():
+            print(f"\r{words} \033[K", end="" if done < total else "\n", file=sys.stderr, flush=True)
+        else:
+            print(words, file=sys.stderr, flush=True)
 
 
 def box():
@@ -39,17 +41,20 @@ def _enter(*words):
 def each(jobs, work, tasks, what, box_words=()):
     """Results of work(task), as they come, with progress. box_words: of sandbox.Sandbox, where the work
     asks for `box`."""
-    progress, found = Progress(what, len(tasks)), []
+    progress, found = Progress(what), []
     with multiprocessing.Pool(jobs, _enter, box_words) as pool:
         for number, result in enumerate(pool.imap_unordered(work, tasks, chunksize=1), 1):
             found.append(result)
-            progress(number)
+            progress(number, len(tasks))
     return found
 
 
 def clear(folder, names):
-    """Removes what an earlier campaign left in the folder, which is there then."""
+    """Removes what an earlier campaign left in the folder, which is there then; nothing else."""
     for name in names:
         path = folder / name
-        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink(missing_ok=True)
     folder.mkdir(parents=True, exist_ok=True)
