@@ -16,6 +16,18 @@ constexpr double kMargin = 1.1;
 template <int Joints>
 using Square = Eigen::Matrix<double, Joints, Joints>;
 
+// For any size, though the sizes are known: a compiler takes seconds for each size of these.
+
+double norm_of(const Eigen::MatrixXd& matrix) { return matrix.jacobiSvd().singularValues()[0]; }
+
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) { return matrix.inverse(); }
+
+/// Of a symmetric matrix, the least first.
+Eigen::VectorXd eigenvalues_of(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
 /// The arm with its masses scaled and another payload.
 template <int Joints>
 InverseDynamics<double, Joints> dynamics_of(simulation::FlexibleArm<Joints> arm, double links,
@@ -65,8 +77,7 @@ class Posture {
     }
     Angles norms;
     for (Eigen::Index j = 0; j < Joints; ++j) {
-      const Eigen::MatrixXd form = forms[static_cast<std::size_t>(j)];
-      norms[j] = form.jacobiSvd().singularValues()[0];
+      norms[j] = norm_of(forms[static_cast<std::size_t>(j)]);
     }
     return norms;
   }
@@ -121,20 +132,16 @@ ArmExtremes<Joints> sample_extremes(const simulation::FlexibleArm<Joints>& arm,
     // A point of 1 kg at the TCP: D = JᵀJ with the linear Jacobian J.
     found.lever = found.lever.cwiseMax(
         kMargin * Posture<Joints>(point, q).inertia().diagonal().cwiseMax(0).cwiseSqrt());
-    found.effective = found.effective.cwiseMin(
-        Posture<Joints>(nominal, q).inertia().inverse().diagonal().cwiseInverse() / kMargin);
+    const Square<Joints> mobility = inverse_of(Posture<Joints>(nominal, q).inertia());
+    found.effective = found.effective.cwiseMin(mobility.diagonal().cwiseInverse() / kMargin);
     const Square<Joints> light = Posture<Joints>(lightest, q).inertia();
     const Square<Joints> heavy = Posture<Joints>(heaviest, q).inertia();
-    const auto eigenvalues = [](const Square<Joints>& matrix) {
-      return Eigen::SelfAdjointEigenSolver<Square<Joints>>(matrix, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .eval();
-    };
-    found.least_inertia = std::min(found.least_inertia, eigenvalues(light)[0] / kMargin);
+    found.least_inertia = std::min(found.least_inertia, eigenvalues_of(light)[0] / kMargin);
     found.largest_inertia =
-        std::max(found.largest_inertia, kMargin * eigenvalues(heavy)[Joints - 1]);
-    const Square<Joints> coupled = root.asDiagonal() * light.inverse() * root.asDiagonal();
-    found.coupling = std::max(found.coupling, kMargin * eigenvalues(coupled)[Joints - 1]);
+        std::max(found.largest_inertia, kMargin * eigenvalues_of(heavy)[Joints - 1]);
+    const Square<Joints> light_mobility = inverse_of(light);
+    const Square<Joints> coupled = root.asDiagonal() * light_mobility * root.asDiagonal();
+    found.coupling = std::max(found.coupling, kMargin * eigenvalues_of(coupled)[Joints - 1]);
   }
   return found;
 }

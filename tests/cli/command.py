@@ -12,6 +12,9 @@ ROBOTS = SOURCE / "host" / "robots"
 KR270 = ROBOTS / "kr270" / "robot.yaml"
 
 
+made = {}  # what commands said and wrote, by their words and the path that they read
+
+
 def flexcomp(*arguments):
     return subprocess.run(
         [str(FLEXCOMP), *(str(argument) for argument in arguments)], capture_output=True, text=True
@@ -37,6 +40,16 @@ class Command(unittest.TestCase):
         self.assertEqual(0, done.returncode, done.stderr)
         self.assertEqual("", done.stderr)
         return done.stdout
+
+    def make_once(self, out, *words, path=None):
+        """Runs a command well that writes `out`, and returns what it says: once for all tests that want the same."""
+        key = (*map(str, words), path and path.read_bytes())
+        if key not in made:
+            said = self.run_well(*words, *(("--path", path) if path else ()), "--out", out)
+            made[key] = said, out.read_bytes()
+        said, content = made[key]
+        out.write_bytes(content)
+        return said
 
     def assert_refused(self, *arguments, saying):
         """One clear line on standard error, exit code 2, nothing left behind."""

@@ -22,14 +22,13 @@ HEADER_BYTES = 268
 class PathCommand(Command):
     def plan(self, model=KR270, *more):
         path = self.folder / "path.csv"
-        self.run_well("plan", "circle", "--model", model, "--center", "1.6,0,1.2", "--plane", "xz",
-                      "--points", "120", "--out", path, *more)
+        self.make_once(path, "plan", "circle", "--model", model, "--center", "1.6,0,1.2", "--plane", "xz",
+                       "--points", "120", *more)
         return path
 
     def table(self, path, model=KR270, *more):
         table = self.folder / "table.fct"
-        self.run_well("table", "--model", model, "--path", path, "--tolerance", "1e-6",
-                      "--out", table, *more)
+        self.make_once(table, "table", "--model", model, "--tolerance", "1e-6", *more, path=path)
         return table
 
     def circularity(self, recording):
@@ -400,12 +399,11 @@ class StableGain(Command):
     def setUp(self):
         super().setUp()
         self.path, self.table = self.folder / "path.csv", self.folder / "t.fct"
-        self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz",
-                      "--points", "72", "--out", self.path)
+        self.make_once(self.path, "plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz",
+                       "--points", "72")
 
     def build(self, *words):
-        return json.loads(self.run_well("table", "--model", KR270, "--path", self.path, "--out", self.table,
-                                        "--json", *words))
+        return json.loads(self.make_once(self.table, "table", "--model", KR270, "--json", *words, path=self.path))
 
     def test_a_table_always_says_the_gain_and_the_process_it_assumes(self):
         usual = self.build()

@@ -29,10 +29,10 @@ class LyingTables(Command):
     def setUp(self):
         super().setUp()
         self.path = self.folder / "path.csv"
-        self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz",
-                      "--points", "60", "--out", self.path)
+        self.make_once(self.path, "plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--plane", "xz",
+                       "--points", "60")
         self.true = self.folder / "t.fct"
-        self.run_well("table", "--model", KR270, "--path", self.path, "--out", self.true, *PROCESS)
+        self.make_once(self.true, "table", "--model", KR270, *PROCESS, path=self.path)
 
     def lie(self, **altered):
         content = bytearray(self.true.read_bytes())

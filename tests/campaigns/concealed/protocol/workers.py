@@ -13,18 +13,16 @@ _box = None  # this worker's
 
 
 class Progress:
-    """How far a step is: on a terminal a line that changes, else one each case."""
+    """On a terminal, how far a step is; elsewhere nothing."""
 
     def __init__(self, what):
         self._what, self._begin = what, time.monotonic()
 
     def __call__(self, done, total):
-        left = (time.monotonic() - self._begin) / done * (total - done)
-        words = f"{self._what}: {done} of {total}, about {math.ceil(left / 60)} min left"
         if sys.stderr.isatty():
+            left = (time.monotonic() - self._begin) / done * (total - done)
+            words = f"{self._what}: {done} of {total}, about {math.ceil(left / 60)} min left"
             print(f"\r{words} \033[K", end="" if done < total else "\n", file=sys.stderr, flush=True)
-        else:
-            print(words, file=sys.stderr, flush=True)
 
 
 def box():
