@@ -12,8 +12,15 @@
 namespace flexcomp::effects {
 namespace {
 
-[[noreturn]] void refuse(const model::Robot& robot, const std::string& why) {
-  throw InputError(fmt::format("{}: effects: {}", robot.yaml.string(), why));
+[[noreturn]] void refuse(const std::string& place, const std::string& why) {
+  throw InputError(fmt::format("{}: {}", place, why));
+}
+
+std::string list_of(const model::Robot& robot) { return robot.yaml.string() + ": effects"; }
+
+[[noreturn]] void refuse(const model::Robot& robot, const model::LearnedEffect& learned,
+                         const std::string& why) {
+  refuse(learned.place.empty() ? list_of(robot) : learned.place, why);
 }
 
 const Effect& effect_of(const model::Robot& robot, const model::LearnedEffect& learned) {
@@ -24,8 +31,9 @@ const Effect& effect_of(const model::Robot& robot, const model::LearnedEffect& l
     }
     known.push_back(effect.name);
   }
-  refuse(robot, fmt::format("'{}' is unknown; expected one of: {}, {}", learned.effect,
-                            fmt::join(known, ", "), model::kLaw));
+  refuse(robot, learned,
+         fmt::format("'{}' is unknown; expected one of: {}, {}", learned.effect,
+                     fmt::join(known, ", "), model::kLaw));
 }
 
 LawPointer known_law(const model::Robot& robot, const model::LearnedEffect& learned) {
@@ -37,8 +45,11 @@ LawPointer known_law(const model::Robot& robot, const model::LearnedEffect& lear
     forms.push_back(law->form);
   }
   const bool has_one = forms.size() == 1 && forms.front().empty();
-  refuse(robot, fmt::format("{} has no form '{}'; expected {}", learned.effect, learned.form,
-                            has_one ? "none" : fmt::format("one of: {}", fmt::join(forms, ", "))));
+  const std::string found =
+      learned.form.empty() ? "needs a form" : fmt::format("has no form '{}'", learned.form);
+  refuse(robot, learned,
+         fmt::format("{} {}; expected {}", learned.effect, found,
+                     has_one ? "none" : fmt::format("one of: {}", fmt::join(forms, ", "))));
 }
 
 LawPointer written_law(const model::Robot& robot, const model::LearnedEffect& learned) {
@@ -58,13 +69,14 @@ void refuse_wrong_joint(const model::Robot& robot, const model::LearnedEffect& l
     const std::string found =
         learned.joint == 0 ? "has no joint" : fmt::format("has joint {}", learned.joint);
     const bool has_none = known.empty() || known.back() == 0;
-    refuse(robot,
+    refuse(robot, learned,
            fmt::format("{} {}; expected {}", learned.effect, found,
                        has_none ? "none" : fmt::format("one of: {}", fmt::join(known, ", "))));
   }
   const std::string why = law.impossible ? law.impossible(robot, learned.joint) : "";
   if (!why.empty()) {
-    refuse(robot, fmt::format("{} cannot be at joint {}: {}", learned.effect, learned.joint, why));
+    refuse(robot, learned,
+           fmt::format("{} cannot be at joint {}: {}", learned.effect, learned.joint, why));
   }
 }
 
@@ -75,16 +87,18 @@ Values values_of(const model::Robot& robot, const model::LearnedEffect& learned,
   for (const Parameter& parameter : parameters) {
     const auto at = learned.parameters.find(parameter.name);
     if (at == learned.parameters.end()) {
-      refuse(robot, fmt::format("{} needs the parameter '{}' ({})", learned.effect, parameter.name,
-                                parameter.unit));
+      refuse(robot, learned,
+             fmt::format("{} needs the parameter '{}' ({})", learned.effect, parameter.name,
+                         parameter.unit));
     }
     values.push_back(at->second);
     names.push_back(parameter.name);
   }
   for (const auto& [name, value] : learned.parameters) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      refuse(robot, fmt::format("{} has no parameter '{}'; expected {}", learned.effect, name,
-                                fmt::join(names, ", ")));
+      refuse(robot, learned,
+             fmt::format("{} has no parameter '{}'; expected {}", learned.effect, name,
+                         fmt::join(names, ", ")));
     }
   }
   return values;
@@ -197,9 +211,10 @@ Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes) 
   for (const Placed& each : listed_effects(robot)) {
     for (const Scene& scene : scenes) {
       if (each.law->traits.needs_temperature && scene.temperature.size() == 0) {
-        refuse(robot, fmt::format("a {} by {} cannot be simulated for {}, which has no temp_c",
-                                  each.law->effect,
-                                  each.law->written ? "temperature" : each.law->form, scene.file));
+        refuse(list_of(robot),
+               fmt::format("a {} by {} cannot be simulated for {}, which has no temp_c",
+                           each.law->effect, each.law->written ? "temperature" : each.law->form,
+                           scene.file));
       }
     }
   }

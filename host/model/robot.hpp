@@ -31,6 +31,7 @@ struct LearnedEffect {
   std::string form;    ///< which of its forms; empty where there is one
   std::map<std::string, double> parameters;  ///< SI
   std::optional<WrittenLaw> law;             ///< where the effect is `law`: the formula
+  std::string place = {};                    ///< file, line and key, for messages; empty if found
 };
 
 /// A robot as its two files describe it: a YAML file and the URDF it names.

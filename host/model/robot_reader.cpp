@@ -113,6 +113,7 @@ LearnedEffect read_effect(const YamlMap& yaml, int joints) {
   }
   LearnedEffect learned;
   learned.effect = yaml.text("effect");
+  learned.place = yaml.place_of("effect");
   learned.form = yaml.has("form") ? yaml.text("form") : "";
   learned.joint = read_joint_number(yaml, joints);
   for (const std::string& key : yaml.keys()) {

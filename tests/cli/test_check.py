@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import unittest
 
 from command import KR270, Command, flexcomp
@@ -67,6 +68,14 @@ class Check(Command):
         model = self.robot("gravity: [0, 0, 0]\n", "gravity: [0, 0, 0]\n" + payload)
         self.assertEqual(["gravity.missing"], self.wrong("--model", model))
         self.check("--model", self.robot("gravity: [0, 0, 0]\n", "gravity: [0, 0, -9.81]\n" + payload), exit_code=0)
+
+    def test_an_arm_whose_links_have_no_mass_weighs_nothing(self):
+        urdf = (KR270.parent / "kr270.urdf").read_text()
+        massless = self.file("massless.urdf", re.sub(r"<inertial>.*?</inertial>", "", urdf, flags=re.DOTALL))
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {massless}")
+        self.check("--model", self.file("robot.yaml", text), exit_code=0)
+        heavy = self.file("heavy.yaml", text.replace("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]"))
+        self.assertEqual(["masses.missing"], self.wrong("--model", heavy))
 
     def test_what_goes_together_is_in_order(self):
         recording, table = self.recorded(), self.table()

@@ -225,6 +225,15 @@ class Refusals(WithAFolder):
         self.assertRegex(done.stderr, r"robot\.yaml:\d+: 'effects\[0\]\.")
         return done.stderr
 
+    def test_file_line_and_key_of_an_effect_without_its_form_are_named(self):
+        model = self.model([{"effect": "backlash", "joint": 2, "gap": 1e-4}])
+        line = 1 + next(i for i, text in enumerate(model.read_text().splitlines()) if "effect: backlash" in text)
+        recording = self.folder / "recording.csv"
+        Swing(100).write(recording, position=np.zeros((100, 3)))
+        done = run("simulate", "--model", model, "--recording", recording, "--out", self.folder / "out.csv")
+        self.assertEqual(2, done.returncode)
+        self.assertRegex(done.stderr, rf"robot\.yaml:{line}: 'effects\[0\]\.effect': backlash needs a form; expected one of")
+
     def test_file_line_key_and_column_are_named(self):
         torque = {"place": "joint_torque", "joint": 5}
         self.assertRegex(self.refused({**torque, "formula": "a*v5 + b*v9", "a": 1, "b": 2}),

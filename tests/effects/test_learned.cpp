@@ -132,6 +132,7 @@ void assert_said(const char* what, const model::LearnedEffect& listed) {
 void every_mistake_in_the_list_is_refused_without_a_recording() {
   TEST_ASSERT_EQUAL_STRING("", said_of({"backlash", 2, "motion", {{"gap", 1e-4}}, {}}).c_str());
   assert_said("'backslash' is unknown", {"backslash", 2, "motion", {{"gap", 1e-4}}, {}});
+  assert_said("backlash needs a form; expected one of: ", {"backlash", 2, "", {{"gap", 1e-4}}, {}});
   assert_said("has no form 'slack'", {"backlash", 2, "slack", {{"gap", 1e-4}}, {}});
   assert_said("needs the parameter 'gap' (rad)", {"backlash", 2, "motion", {}, {}});
   assert_said("has no parameter 'hold'; expected gap",
