@@ -103,6 +103,13 @@ check::Checks check_input(const model::Robot& robot,
   return checks;
 }
 
+/// What is wrong with the input is to be mended, not to be composed a law for.
+bool is_in_order(const check::Checks& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const check::Check& each) {
+    return each.severity == check::Severity::note;
+  });
+}
+
 std::vector<simulation::Scene> scenes_of(const std::vector<recording::Recording>& recordings,
                                          std::vector<diagnosis::Quality>* qualities) {
   std::vector<simulation::Scene> scenes;
@@ -233,6 +240,9 @@ int run(const DiagnoseOptions& options) {
   diagnosis::Settings settings;
   settings.false_discovery = options.false_discovery;
   settings.law_seconds = options.law_seconds;
+  if (!settings.law_seconds && !is_in_order(origin.checks)) {
+    settings.law_seconds = 0;
+  }
   settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };
   settings.choosing = [&](std::size_t done, std::size_t) { choosing.show(done); };
   const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
@@ -276,7 +286,8 @@ void add_diagnose(CLI::App* app, Action* action) {
   command->add_option(
       "--law-seconds", options->law_seconds,
       "processor time (s) for composing laws that nobody listed, beside what is found "
-      "and in its place;\n0 for none; unless given, 40 where nothing is found");
+      "and in its place;\n0 for none; unless given, 40 where nothing is found and the input is in "
+      "order");
   command
       ->add_option("--without", options->without,
                    "effect that is not sought, to see which law is found instead; may be given "

@@ -89,6 +89,7 @@ recording::Recording random_recording(const model::Robot& robot, unsigned seed) 
 
 Settings quiet() {
   Settings settings;
+  settings.law_seconds = 0;
   settings.simulating = settings.choosing = [](std::size_t, std::size_t) {};
   return settings;
 }

@@ -148,6 +148,7 @@ void friction_everywhere_and_a_coupled_drive_are_found_together() {
   Observations observations = with_torques(swinging, coupled_friction(swinging));
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   diagnosis::Settings settings;
+  settings.law_seconds = 0;
   settings.simulating = settings.choosing = [](std::size_t, std::size_t) {};
   const diagnosis::Diagnosis found = diagnose(&observations, hypotheses, settings);
   std::set<int> with_friction;
