@@ -157,8 +157,7 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
       "left out.</p>\n",
       observations.outliers);
   for (const ClockCheck& clock : diagnosis.clocks) {
-    html += fmt::format("<p>Clock of {}: late by {:.2f} ± {:.2f} ms (95 %).</p>\n",
-                        in_words(clock.group), 1e3 * clock.delay, 1.96e3 * clock.deviation);
+    html += fmt::format("<p>{}</p>\n", statement_of_clock(clock));
   }
   const model::Chain& chain = observations.machine.robot.elastic;
   html += fmt::format(
