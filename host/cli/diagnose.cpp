@@ -160,7 +160,7 @@ void summarize(const model::Robot& robot, const diagnosis::Observations& observa
   }
   for (const diagnosis::Excitation& joint : result.excitation) {
     if (joint.tells_nothing()) {
-      say(fmt::format("joint {}: {}", joint.joint, diagnosis::verdict(joint)));
+      say(fmt::format("what can be told of joint {}: {}", joint.joint, diagnosis::verdict(joint)));
     }
   }
   fmt::print("{}{}\n", result.verdict, result.reason.empty() ? "" : ": " + result.reason);
