@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "diagnosis/output/courses.hpp"
 #include "diagnosis/output/errors.hpp"
@@ -73,15 +74,24 @@ std::string named(const Hypothesis& hypothesis) {
   return hypothesis.law->written ? place + ": " + escaped(hypothesis.law->written->formula) : place;
 }
 
+/// "dry friction that builds up of joint 3 (slider)"
+std::string with_form(const Hypothesis& hypothesis) {
+  const std::string& form = hypothesis.law->form;
+  return named(hypothesis) + (form.empty() ? "" : fmt::format(" ({})", in_words(form)));
+}
+
 std::string finding_rows(const Observations& observations, const Diagnosis& diagnosis) {
   std::string rows;
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const Finding& finding = diagnosis.choice.findings[i];
     const Hypothesis& hypothesis = finding.chosen.hypothesis;
     std::string others;
+    std::set<std::string> told;
     for (const Alternative& other : finding.alternatives) {
-      others += fmt::format("{}: {:.0f} worse<br>", place_in_words(other.effect, other.joint),
-                            other.delta_bic);
+      const std::string name = with_form(other.chosen.hypothesis);
+      if (told.insert(name).second) {  // else the same from another start, and worse
+        others += fmt::format("{}: {:.0f} worse<br>", name, other.delta_bic);
+      }
     }
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n", named(hypothesis),
