@@ -115,6 +115,9 @@ std::string joined(const List& list, const Text& text) {
   return all.empty() ? "none stands out" : all;
 }
 
+constexpr const char* kPathAngle =
+    " The path angle is the angle about the middle of the TCP's path.";
+
 std::string location_table(const Observations& observations, const Location& location) {
   const auto number = [](auto value) { return fmt::format("{:.4g}", static_cast<double>(value)); };
   const std::string unit = observations.is_static ? "" : " s";
@@ -123,20 +126,23 @@ std::string location_table(const Observations& observations, const Location& loc
       "<tr><th>{}</th><td>{}</td></tr>\n<tr><th>frequency</th><td>{}</td></tr>\n",
       joined(location.joints, number),
       joined(location.axes, [](const std::string& axis) { return axis; }),
-      observations.is_static ? "rows" : "time",
+      observations.is_static ? "rows" : "stretches of time",
       joined(location.time,
              [&](const auto& stretch) {
                return three_digits(stretch.first) + " to " + three_digits(stretch.second) + unit;
              }),
       joined(location.frequency_hz, [&](double hertz) { return three_digits(hertz) + " Hz"; }));
+  bool has_path_angle = false;
   for (const Correlate& each : location.correlates_with) {
-    rows += fmt::format("<tr><th>goes with</th><td>{}: {:.0f} % of its power</td></tr>\n", each.cue,
-                        100 * each.share);
+    has_path_angle = has_path_angle || each.cue == "path angle";
+    rows += fmt::format("<tr><th>goes with</th><td>{}: {:.0f} % of the error's power</td></tr>\n",
+                        each.cue, 100 * each.share);
   }
   return fmt::format(
       "<table>\n{}</table>\n<p>{} places were looked at; what stands here is "
-      "significant at 1 % with that counted.</p>\n",
-      rows, location.places);
+      "significant at 1 % with that counted. Shares do not add up, since quantities go together "
+      "along a recording.{}</p>\n",
+      rows, location.places, has_path_angle ? kPathAngle : "");
 }
 
 std::string quality_table(const Observations& observations, const Diagnosis& diagnosis,
@@ -317,6 +323,12 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
   }
   html += proposal(diagnosis.proposal);
   html += "<h2>Hypotheses</h2>\n" + ranking_picture(diagnosis.choice.ranking);
+  if (!diagnosis.choice.ranking.empty()) {
+    html +=
+        "<p>A first look, each alone and in proportion, before any was chosen. An error that "
+        "hangs together counts as few samples here, so these numbers are on another scale than "
+        "the evidence of the findings.</p>\n";
+  }
   html += "<h2>What cannot be told apart</h2>\n" + groups(diagnosis);
   html += "<h2>What to record next</h2>\n<p>" +
           (diagnosis.suggested_experiment.empty() ? "Nothing is open that a recording would settle."
