@@ -330,10 +330,13 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
         "the evidence of the findings.</p>\n";
   }
   html += "<h2>What cannot be told apart</h2>\n" + groups(diagnosis);
-  html += "<h2>What to record next</h2>\n<p>" +
-          (diagnosis.suggested_experiment.empty() ? "Nothing is open that a recording would settle."
-                                                  : escaped(diagnosis.suggested_experiment)) +
-          "</p>\n";
+  const std::string none = diagnosis.reason.empty()
+                               ? "Nothing is open that a recording would settle."
+                               : "No recording is known that would settle what is left.";
+  html +=
+      "<h2>What to record next</h2>\n<p>" +
+      (diagnosis.suggested_experiment.empty() ? none : escaped(diagnosis.suggested_experiment)) +
+      "</p>\n";
   html += "<h2>Data</h2>\n" + quality_table(observations, diagnosis, origin.qualities) +
           notes_html(origin.checks) + origin_html(origin);
   return html + "</body></html>\n";
