@@ -163,12 +163,11 @@ void summarize(const model::Robot& robot, const diagnosis::Observations& observa
     fmt::print("{}\n", with_joint_names(sentence, robot));
   };
   for (const diagnosis::ClockCheck& clock : result.clocks) {
-    fmt::print("clock of {}: late by {:.2f} ms, standard deviation {:.2f} ms\n", clock.group,
-               1e3 * clock.delay, 1e3 * clock.deviation);
+    say(diagnosis::statement_of_clock(clock));
   }
   for (const diagnosis::Excitation& joint : result.excitation) {
     if (joint.tells_nothing()) {
-      say(fmt::format("joint {}: {}", joint.joint, diagnosis::verdict(joint)));
+      say(fmt::format("what can be told of joint {}: {}", joint.joint, diagnosis::verdict(joint)));
     }
   }
   fmt::print("{}{}\n", result.verdict, result.reason.empty() ? "" : ": " + result.reason);

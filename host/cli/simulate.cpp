@@ -127,6 +127,7 @@ void add_simulate(CLI::App* app, Action* action) {
       "in\n"
       "the model, by its weight, at rest at every row (quasi-static), and moved by the model's "
       "effects.\n"
+      "Effects of a clock, a frame or a sensor show as well, though they move no robot.\n"
       "Writes the rows with q_meas (the motors follow the command) and x, y, z of the TCP; free of "
       "noise.\n"
       "With --recording, what it would show if the model were right, as flexcomp diagnose compares "

@@ -89,7 +89,8 @@ std::string verdict(const Excitation& excitation) {
   }
   if (excitation.largest_speed > 0) {
     add(excitation.reversals > 0
-            ? fmt::format("{} reversals of its motion", excitation.reversals)
+            ? fmt::format("{} reversal{} of its motion", excitation.reversals,
+                          excitation.reversals > 1 ? "s" : "")
             : "no reversal of its motion, so play and hysteresis of motion cannot show");
   }
   return clause;

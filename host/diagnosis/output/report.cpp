@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "diagnosis/output/courses.hpp"
 #include "diagnosis/output/errors.hpp"
@@ -73,15 +74,24 @@ std::string named(const Hypothesis& hypothesis) {
   return hypothesis.law->written ? place + ": " + escaped(hypothesis.law->written->formula) : place;
 }
 
+/// "dry friction that builds up of joint 3 (slider)"
+std::string with_form(const Hypothesis& hypothesis) {
+  const std::string& form = hypothesis.law->form;
+  return named(hypothesis) + (form.empty() ? "" : fmt::format(" ({})", in_words(form)));
+}
+
 std::string finding_rows(const Observations& observations, const Diagnosis& diagnosis) {
   std::string rows;
   for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
     const Finding& finding = diagnosis.choice.findings[i];
     const Hypothesis& hypothesis = finding.chosen.hypothesis;
     std::string others;
+    std::set<std::string> told;
     for (const Alternative& other : finding.alternatives) {
-      others += fmt::format("{}: {:.0f} worse<br>", place_in_words(other.effect, other.joint),
-                            other.delta_bic);
+      const std::string name = with_form(other.chosen.hypothesis);
+      if (told.insert(name).second) {  // else the same from another start, and worse
+        others += fmt::format("{}: {:.0f} worse<br>", name, other.delta_bic);
+      }
     }
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n", named(hypothesis),
@@ -105,6 +115,9 @@ std::string joined(const List& list, const Text& text) {
   return all.empty() ? "none stands out" : all;
 }
 
+constexpr const char* kPathAngle =
+    " The path angle is the angle about the middle of the TCP's path.";
+
 std::string location_table(const Observations& observations, const Location& location) {
   const auto number = [](auto value) { return fmt::format("{:.4g}", static_cast<double>(value)); };
   const std::string unit = observations.is_static ? "" : " s";
@@ -113,20 +126,23 @@ std::string location_table(const Observations& observations, const Location& loc
       "<tr><th>{}</th><td>{}</td></tr>\n<tr><th>frequency</th><td>{}</td></tr>\n",
       joined(location.joints, number),
       joined(location.axes, [](const std::string& axis) { return axis; }),
-      observations.is_static ? "rows" : "time",
+      observations.is_static ? "rows" : "stretches of time",
       joined(location.time,
              [&](const auto& stretch) {
                return three_digits(stretch.first) + " to " + three_digits(stretch.second) + unit;
              }),
       joined(location.frequency_hz, [&](double hertz) { return three_digits(hertz) + " Hz"; }));
+  bool has_path_angle = false;
   for (const Correlate& each : location.correlates_with) {
-    rows += fmt::format("<tr><th>goes with</th><td>{}: {:.0f} % of its power</td></tr>\n", each.cue,
-                        100 * each.share);
+    has_path_angle = has_path_angle || each.cue == "path angle";
+    rows += fmt::format("<tr><th>goes with</th><td>{}: {:.0f} % of the error's power</td></tr>\n",
+                        each.cue, 100 * each.share);
   }
   return fmt::format(
       "<table>\n{}</table>\n<p>{} places were looked at; what stands here is "
-      "significant at 1 % with that counted.</p>\n",
-      rows, location.places);
+      "significant at 1 % with that counted. Shares do not add up, since quantities go together "
+      "along a recording.{}</p>\n",
+      rows, location.places, has_path_angle ? kPathAngle : "");
 }
 
 std::string quality_table(const Observations& observations, const Diagnosis& diagnosis,
@@ -157,8 +173,7 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
       "left out.</p>\n",
       observations.outliers);
   for (const ClockCheck& clock : diagnosis.clocks) {
-    html += fmt::format("<p>Clock of {}: late by {:.2f} ± {:.2f} ms (95 %).</p>\n",
-                        in_words(clock.group), 1e3 * clock.delay, 1.96e3 * clock.deviation);
+    html += fmt::format("<p>{}</p>\n", statement_of_clock(clock));
   }
   const model::Chain& chain = observations.machine.robot.elastic;
   html += fmt::format(
@@ -308,11 +323,20 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
   }
   html += proposal(diagnosis.proposal);
   html += "<h2>Hypotheses</h2>\n" + ranking_picture(diagnosis.choice.ranking);
+  if (!diagnosis.choice.ranking.empty()) {
+    html +=
+        "<p>A first look, each alone and in proportion, before any was chosen. An error that "
+        "hangs together counts as few samples here, so these numbers are on another scale than "
+        "the evidence of the findings.</p>\n";
+  }
   html += "<h2>What cannot be told apart</h2>\n" + groups(diagnosis);
-  html += "<h2>What to record next</h2>\n<p>" +
-          (diagnosis.suggested_experiment.empty() ? "Nothing is open that a recording would settle."
-                                                  : escaped(diagnosis.suggested_experiment)) +
-          "</p>\n";
+  const std::string none = diagnosis.reason.empty()
+                               ? "Nothing is open that a recording would settle."
+                               : "No recording is known that would settle what is left.";
+  html +=
+      "<h2>What to record next</h2>\n<p>" +
+      (diagnosis.suggested_experiment.empty() ? none : escaped(diagnosis.suggested_experiment)) +
+      "</p>\n";
   html += "<h2>Data</h2>\n" + quality_table(observations, diagnosis, origin.qualities) +
           notes_html(origin.checks) + origin_html(origin);
   return html + "</body></html>\n";

@@ -125,6 +125,13 @@ std::string statement_of_band(const Observations& observations, const Diagnosis&
       written(diagnosis.updated().remainder));
 }
 
+std::string statement_of_clock(const ClockCheck& clock) {
+  const double side = 1.96 * clock.deviation;
+  return fmt::format("Clock of {}: late by {:.2f} ± {:.2f} ms (95 %){}.", in_words(clock.group),
+                     1e3 * clock.delay, 1e3 * side,
+                     std::abs(clock.delay) < side ? ", which is nothing" : "");
+}
+
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {
   const std::vector<Finding>& findings = diagnosis.choice.findings;
   if (findings.size() == 1) {

@@ -17,6 +17,9 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
 /// One plain sentence about the torques that the angles can tell of; empty where that is all.
 std::string statement_of_band(const Observations& observations, const Diagnosis& diagnosis);
 
+/// One plain sentence about a clock: how late it is, ± 95 %, and whether that is nothing.
+std::string statement_of_clock(const ClockCheck& clock);
+
 /// Where the search for laws ended for want of time.
 constexpr const char* kLawsStopped =
     "The search for laws ended for want of time: --law-seconds gives it more.";
