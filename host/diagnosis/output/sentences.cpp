@@ -126,7 +126,7 @@ std::string statement_of_band(const Observations& observations, const Diagnosis&
 }
 
 std::string statement_of_clock(const ClockCheck& clock) {
-  const double side = 1.96 * clock.deviation;
+  const double side = kTold * clock.deviation;
   return fmt::format("Clock of {}: late by {:.2f} ± {:.2f} ms (95 %){}.", in_words(clock.group),
                      1e3 * clock.delay, 1e3 * side,
                      std::abs(clock.delay) < side ? ", which is nothing" : "");
