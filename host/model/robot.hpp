@@ -31,7 +31,8 @@ struct LearnedEffect {
   std::string form;    ///< which of its forms; empty where there is one
   std::map<std::string, double> parameters;  ///< SI
   std::optional<WrittenLaw> law;             ///< where the effect is `law`: the formula
-  std::string place = {};                    ///< file, line and key, for messages; empty if found
+  // NOLINTNEXTLINE(readability-redundant-member-init): one that was found leaves it out
+  std::string place = {};  ///< file, line and key, for messages; empty if found
 };
 
 /// A robot as its two files describe it: a YAML file and the URDF it names.

@@ -24,7 +24,8 @@ struct Search {
   /// Sets where the parameters of a law at a joint are sought, and the starts that are the same
   /// whatever the residual; false where it could not show.
   bool (*prepare)(const Observations&, Hypothesis*);
-  Seek seek = nullptr;            ///< starts by the residual
+  Seek seek = nullptr;  ///< starts by the residual
+  // NOLINTNEXTLINE(readability-redundant-member-init): a search without may leave it out
   std::vector<Known> known = {};  ///< no such law is composed where the effect is sought
 };
 
