@@ -84,6 +84,12 @@ Checks check_gravity(const model::Robot& robot) {
                                   robot.elastic.payload_mass),
                       "set gravity to [0, 0, -9.81], in the base frame, or leave the payload out"));
   }
+  if (gravity > 0 && !has_masses(robot)) {
+    checks.push_back(said_of_model(
+        Severity::warning, "masses.missing", robot,
+        "gravity: the arm has no weight, because no link of the URDF has a mass",
+        "give the links their <inertial> in the URDF, or set gravity to zero to leave weight out"));
+  }
   return checks;
 }
 
