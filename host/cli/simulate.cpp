@@ -74,8 +74,24 @@ int run_recording(const SimulateOptions& options) {
   return kDone;
 }
 
+/// Positions of a robot that rests at every row of a path.
+recording::Samples resting(const model::Chain& robot, const recording::Samples& q_cmd,
+                           const recording::Samples& wrench) {
+  recording::Samples position(q_cmd.rows(), 3);
+  Progress progress("simulating", static_cast<std::size_t>(q_cmd.rows()));
+  for (Eigen::Index row = 0; row < q_cmd.rows(); ++row) {
+    const simulation::Equilibrium at =
+        simulation::settle(robot, q_cmd.row(row).transpose(), wrench.row(row).transpose());
+    position.row(row) = at.tcp.position.transpose();
+    progress.show(static_cast<std::size_t>(row));
+  }
+  return position;
+}
+
 /// Positions of a path that a robot with effects drives, with their history from row to row.
-recording::Samples driven(const model::Robot& robot, const recording::Recording& path) {
+recording::Samples driven(const model::Robot& robot, recording::Recording path) {
+  path.q_meas.reset();                                       // the motors follow the command
+  path.position = recording::Samples::Zero(path.size(), 3);  // asks for them
   return *expected(robot, path).position;
 }
 
@@ -83,27 +99,15 @@ int run_path(const SimulateOptions& options) {
   if (!(options.compliance_scale > 0)) {
     throw InputError("--compliance-scale: expected a number above zero");
   }
-  const model::Robot robot = load_robot(options.model);
-  const model::Chain plant =
-      simulation::with_scaled_compliance(robot.elastic, options.compliance_scale);
+  model::Robot robot = load_robot(options.model);
+  robot.elastic = simulation::with_scaled_compliance(robot.elastic, options.compliance_scale);
   recording::Recording recording = recording::read_recording_of(robot.elastic, options.path);
   const recording::Samples& q_cmd = recording::require(
       recording, recording.q_cmd, fmt::format("q_cmd_1..q_cmd_{}", robot.joints()));
   const recording::Samples& wrench = recording::require(recording, recording.wrench, "fx..mz");
-  recording::Samples position(recording.size(), 3);
-  Progress progress("simulating", static_cast<std::size_t>(recording.size()));
-  for (Eigen::Index row = 0; row < recording.size(); ++row) {
-    const simulation::Equilibrium at =
-        simulation::settle(plant, q_cmd.row(row).transpose(), wrench.row(row).transpose());
-    position.row(row) = at.tcp.position.transpose();
-    progress.show(static_cast<std::size_t>(row));
-  }
-  recording.position = position;
-  if (!robot.effects.empty() || !effects::machine_of(robot).terms.empty()) {
-    model::Robot softer = robot;
-    softer.elastic = plant;
-    recording.position = driven(softer, recording);
-  }
+  const bool has_effects = !robot.effects.empty() || !effects::machine_of(robot).terms.empty();
+  recording.position =
+      has_effects ? driven(robot, recording) : resting(robot.elastic, q_cmd, wrench);
   recording.q_meas = q_cmd;
   recording::write_recording(options.out, recording);
   fmt::print("{}: {} rows\n", options.out, recording.size());
