@@ -73,7 +73,7 @@ Changes::Changes(const Observations& observations, const Machine& around)
   std::vector<Prediction> predictions;
   for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
     simulation::Wanted wanted;
-    wanted.rigid = rigid_.empty() ? nullptr : &rigid_[s];
+    wanted.rigid = of_scene(rigid_, s);
     simulations_.push_back(simulate(machine_, observations.scenes[s], wanted));
     predictions.push_back(with_terms(machine_.terms, observations.scenes[s], simulations_.back()));
   }

@@ -100,7 +100,7 @@ std::vector<Simulation> Evaluator::simulate_scenes(
   for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
     const Scene& scene = observations_.scenes[s];
     simulation::Wanted wanted = wanted_of(machine, scene);
-    wanted.rigid = rigid.empty() ? nullptr : &rigid[s];
+    wanted.rigid = of_scene(rigid, s);
     simulations.push_back(simulate(machine, scene, wanted));
   }
   return simulations;

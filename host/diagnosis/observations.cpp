@@ -101,7 +101,7 @@ Observations::Observations(Machine model, std::vector<Scene> all, std::size_t ho
   rigid = simulation::rigid_torques(machine, scenes);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     simulation::Wanted wanted;
-    wanted.rigid = rigid.empty() ? nullptr : &rigid[s];
+    wanted.rigid = of_scene(rigid, s);
     simulations.push_back(simulate(machine, scenes[s], wanted));
     predictions.push_back(with_terms(machine.terms, scenes[s], simulations.back()));
   }

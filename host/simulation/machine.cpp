@@ -189,6 +189,10 @@ std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector
   return rigid;
 }
 
+const RigidTorque* of_scene(const std::vector<RigidTorque>& rigid, std::size_t scene) {
+  return rigid.empty() ? nullptr : &rigid[scene];
+}
+
 bool RigidTorque::holds_for(const Machine& machine) const {
   const Chain& own = robot_.elastic;
   const Chain& other = machine.robot.elastic;
@@ -274,7 +278,7 @@ std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>
   predictions.reserve(scenes.size());
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     Wanted wanted = wanted_of(machine, scenes[s]);
-    wanted.rigid = rigid.empty() ? nullptr : &rigid[s];
+    wanted.rigid = of_scene(rigid, s);
     predictions.push_back(
         with_terms(machine.terms, scenes[s], simulate(machine, scenes[s], wanted)));
   }

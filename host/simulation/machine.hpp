@@ -77,6 +77,9 @@ class RigidTorque {
 /// Of each scene; none where no scene has torques or deflections of joints to compare with.
 std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector<Scene>& scenes);
 
+/// Those of one of the scenes; null where there are none.
+const RigidTorque* of_scene(const std::vector<RigidTorque>& rigid, std::size_t scene);
+
 /// Which channels to simulate; levers and springs are kept only with `levers`.
 struct Wanted {
   std::array<bool, 3> channel = {true, true, true};
