@@ -84,19 +84,18 @@ Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) 
   Machine machine = machine_;
   if (hypothesis.traits().alters_model && !hypothesis.is_sketched) {
     hypothesis.apply(values, &machine);
-    return observations_.stacked(predict(machine, observations_.scenes, rigid_)) - predicted_;
+    return observations_.stacked(predict(machine, observations_.scenes, rigid_, simulations())) -
+           predicted_;
   }
   if (hypothesis.is_sketched) {
     machine.terms.push_back(hypothesis.law->sketch(values, hypothesis.joint));
   } else {
     hypothesis.apply(values, &machine);
   }
-  const std::vector<Simulation>& simulations =
-      simulations_.empty() ? observations_.simulations : simulations_;
   std::vector<Prediction> predictions;
   predictions.reserve(observations_.scenes.size());
   for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-    predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations[s]));
+    predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations()[s]));
   }
   return observations_.stacked(predictions) - predicted_;
 }

@@ -23,6 +23,11 @@ class Changes {
   Eigen::MatrixXd columns(const Hypothesis& hypothesis, const Values& start) const;
 
  private:
+  /// Of the machine.
+  const std::vector<Simulation>& simulations() const {
+    return simulations_.empty() ? observations_.simulations : simulations_;
+  }
+
   const Observations& observations_;
   Machine machine_;
   std::vector<simulation::RigidTorque> rigid_;  ///< of the machine

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "error.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
@@ -66,6 +67,14 @@ void Evaluator::set(const Values& all) {
   }
 }
 
+void Evaluator::halve_amplitudes() {
+  for (Chosen& each : chosen_) {
+    for (std::size_t i = 0; i < each.hypothesis.linear; ++i) {
+      each.values[i] *= 0.5;
+    }
+  }
+}
+
 model::Robot Evaluator::robot_with(const Values& values) const {
   Evaluator moved(observations_, chosen_, nullptr);
   moved.set(values);
@@ -91,16 +100,41 @@ const std::vector<simulation::RigidTorque>& Evaluator::rigid_torques(const Machi
   return rigid_;
 }
 
-std::vector<Simulation> Evaluator::simulate_scenes(
-    const Machine& machine, const std::vector<simulation::RigidTorque>& rigid) const {
+/// The values of parameters that alter the model.
+Values Evaluator::altering() const {
+  Values all = values();
+  for (std::size_t i = all.size(); i-- > 0;) {
+    if (!alters_[i]) {
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return all;
+}
+
+/// Of the machine at the present values. The last are kept: a step that is taken is evaluated once
+/// for its remainder, and again for its derivative.
+const std::vector<Simulation>& Evaluator::simulations(const Machine& machine) {
   if (!alters_any()) {
     return observations_.simulations;
   }
+  const Values here = altering();
+  if (simulations_.empty() || here != simulated_at_) {
+    simulations_ = simulate_scenes(machine, rigid_torques(machine),
+                                   simulations_.empty() ? observations_.simulations : simulations_);
+    simulated_at_ = here;
+  }
+  return simulations_;
+}
+
+std::vector<Simulation> Evaluator::simulate_scenes(
+    const Machine& machine, const std::vector<simulation::RigidTorque>& rigid,
+    const std::vector<Simulation>& near) const {
   std::vector<Simulation> simulations;
   for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
     const Scene& scene = observations_.scenes[s];
     simulation::Wanted wanted = wanted_of(machine, scene);
     wanted.rigid = of_scene(rigid, s);
+    wanted.near = &near[s];
     simulations.push_back(simulate(machine, scene, wanted));
   }
   return simulations;
@@ -115,15 +149,29 @@ std::vector<Prediction> Evaluator::add_terms(const Machine& machine,
   return predictions;
 }
 
+/// The prediction with one parameter a step further, from simulations without the step.
+Eigen::VectorXd Evaluator::stepped(const Values& values, std::size_t index, double step,
+                                   const std::vector<Simulation>& simulations,
+                                   const std::vector<simulation::RigidTorque>& rigid) const {
+  Evaluator moved(observations_, chosen_, nullptr);
+  Values other = values;
+  other[index] += step;
+  moved.set(other);
+  const Machine changed = machine_with(observations_, moved.chosen_);
+  return observations_.stacked(
+      alters_[index] ? add_terms(changed, moved.simulate_scenes(changed, rigid, simulations))
+                     : add_terms(changed, simulations));
+}
+
 Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* derivative) {
   set(values);
   const Machine machine = machine_with(observations_, chosen_);
-  const std::vector<simulation::RigidTorque>& rigid = rigid_torques(machine);
-  const std::vector<Simulation> simulations = simulate_scenes(machine, rigid);
-  Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
+  const std::vector<Simulation>& at = simulations(machine);
+  Eigen::VectorXd base = observations_.stacked(add_terms(machine, at));
   if (derivative == nullptr) {
     return base;
   }
+  const std::vector<simulation::RigidTorque>& rigid = rigid_torques(machine);
   derivative->resize(base.size(), static_cast<Eigen::Index>(size()));
   in_parallel(
       size(), [](std::size_t, std::size_t) {},
@@ -137,16 +185,14 @@ Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* deriv
         if (values[i] + step > bounds.upper) {
           step = -step;
         }
-        Evaluator moved(observations_, chosen_, nullptr);
-        Values other = values;
-        other[i] += step;
-        moved.set(other);
-        const Machine changed = machine_with(observations_, moved.chosen_);
-        const std::vector<Prediction> predictions =
-            alters_[i] ? add_terms(changed, moved.simulate_scenes(changed, rigid))
-                       : add_terms(changed, simulations);
-        derivative->col(static_cast<Eigen::Index>(i)) =
-            (observations_.stacked(predictions) - base) / step;
+        Eigen::VectorXd other;
+        try {
+          other = stepped(values, i, step, at, rigid);
+        } catch (const InputError&) {
+          step = -step;  // a spring that may get no softer may get stiffer
+          other = stepped(values, i, step, at, rigid);
+        }
+        derivative->col(static_cast<Eigen::Index>(i)) = (other - base) / step;
       });
   return base;
 }

@@ -27,20 +27,29 @@ class Evaluator {
   const std::vector<Chosen>& chosen() const { return chosen_; }
   Values values() const;
   void set(const Values& all);
+  /// Halves what acts in proportion.
+  void halve_amplitudes();
 
   Bodies bodies() const { return Bodies(observations_, chosen_); }
   /// The robot with the chosen hypotheses at other values.
   model::Robot robot_with(const Values& values) const;
-  /// Sets the values. Stacked prediction, and its derivative where wanted.
+  /// Sets the values. Stacked prediction, and its derivative where wanted. Throws InputError where
+  /// the machine has no rest.
   Eigen::VectorXd evaluate(const Values& values, Eigen::MatrixXd* derivative);
 
  private:
   bool alters_any() const;
   const std::vector<simulation::RigidTorque>& rigid_torques(const Machine& machine);
+  Values altering() const;
+  const std::vector<Simulation>& simulations(const Machine& machine);
   std::vector<Simulation> simulate_scenes(const Machine& machine,
-                                          const std::vector<simulation::RigidTorque>& rigid) const;
+                                          const std::vector<simulation::RigidTorque>& rigid,
+                                          const std::vector<Simulation>& near) const;
   std::vector<Prediction> add_terms(const Machine& machine,
                                     const std::vector<Simulation>& simulations) const;
+  Eigen::VectorXd stepped(const Values& values, std::size_t index, double step,
+                          const std::vector<Simulation>& simulations,
+                          const std::vector<simulation::RigidTorque>& rigid) const;
 
   const Observations& observations_;
   std::vector<Chosen> chosen_;
@@ -48,6 +57,8 @@ class Evaluator {
   std::vector<bool> alters_;
   std::vector<Eigen::Index> known_;             ///< column of the dictionary, or −1
   std::vector<simulation::RigidTorque> rigid_;  ///< of the machine evaluated last
+  Values simulated_at_;                         ///< values that alter the model, and what it does
+  std::vector<Simulation> simulations_;         ///< with them; none yet at first
 };
 
 }  // namespace flexcomp::diagnosis

@@ -74,7 +74,7 @@ Equilibrium settle_balanced(const Machine& machine, const Row& q, const Wrench<d
   return equilibrium;
 }
 
-/// Where the robot rests, with its levers; `springs`: what they gave in the row before, and give in
+/// Where the robot rests, with its levers; `springs`: what they gave in a state nearby, and give in
 /// this one.
 void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index row,
           Springs* springs, Simulation* at) {
@@ -234,9 +234,15 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
     at.compliance.resize(static_cast<std::size_t>(n));
   }
   if (wanted.levers || (wanted.channel[tcp_position] && scene.has(tcp_position))) {
+    const bool has_near = wanted.near != nullptr && !wanted.near->springs.empty();
+    at.springs.reserve(static_cast<std::size_t>(n));
     Springs springs(machine.robot.elastic);
     for (Eigen::Index row = 0; row < n; ++row) {
+      if (has_near) {
+        springs = wanted.near->springs[static_cast<std::size_t>(row)];
+      }
       rest(machine, scene, wanted.levers, row, &springs, &at);
+      at.springs.push_back(springs);
     }
   }
   if (moves &&
@@ -267,18 +273,22 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
 
 Wanted wanted_of(const Machine& machine, const Scene& scene) {
   Wanted wanted;
-  wanted.levers = machine.needs_levers ||
-                  (!machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench));
+  const bool moves_robot = std::any_of(machine.terms.begin(), machine.terms.end(),
+                                       [](const Term& each) { return each.moves_robot(); });
+  wanted.levers =
+      machine.needs_levers || (moves_robot && (scene.has(tcp_position) || scene.has_wrench));
   return wanted;
 }
 
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
-                                const std::vector<RigidTorque>& rigid) {
+                                const std::vector<RigidTorque>& rigid,
+                                const std::vector<Simulation>& near) {
   std::vector<Prediction> predictions;
   predictions.reserve(scenes.size());
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     Wanted wanted = wanted_of(machine, scenes[s]);
     wanted.rigid = of_scene(rigid, s);
+    wanted.near = near.empty() ? nullptr : &near[s];
     predictions.push_back(
         with_terms(machine.terms, scenes[s], simulate(machine, scenes[s], wanted)));
   }

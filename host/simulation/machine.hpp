@@ -5,6 +5,7 @@
 
 #include "model/chain_kinematics.hpp"
 #include "model/robot.hpp"
+#include "simulation/quasi_static.hpp"
 #include "simulation/scene.hpp"
 
 namespace flexcomp::simulation {
@@ -29,6 +30,7 @@ struct Simulation {
   std::vector<model::ChainKinematics> bent;    ///< links and TCP of the robot at rest under load
   std::vector<model::ChainJacobian> jacobian;  ///< of the TCP, bent
   std::vector<Compliance<double>> compliance;  ///< at the TCP, bent
+  std::vector<Springs> springs;                ///< what they give at rest, where that was sought
   JointValues joint_compliance;                ///< rad/(N·m)
   Prediction prediction;                       ///< of everything but the terms
 };
@@ -38,6 +40,9 @@ struct Term {
   enum Stage { wrench, load, output, instrument, clock };
   Stage stage;
   std::function<void(const Scene&, const Simulation&, Prediction*)> add;
+
+  /// What only an instrument or a clock shows needs no levers.
+  bool moves_robot() const { return stage < instrument; }
 };
 
 /// A machine as it is believed to be: its model, and physics that the model has no keys for.
@@ -85,6 +90,8 @@ struct Wanted {
   std::array<bool, 3> channel = {true, true, true};
   bool levers = true;
   const RigidTorque* rigid = nullptr;  ///< of the same scene; used where it holds for the machine
+  /// Of the same scene by a machine not far off: where its springs rest, theirs are sought first.
+  const Simulation* near = nullptr;
 };
 
 /// Simulates a scene of as many joints without the machine's terms. TCP position: forward
@@ -101,10 +108,11 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
 /// wrench.
 Wanted wanted_of(const Machine& machine, const Scene& scene);
 
-/// Predictions of a machine for scenes, with its terms. `rigid`: of these scenes, or none; used
-/// where it holds for the machine.
+/// Predictions of a machine for scenes, with its terms. `rigid` and `near`: of these scenes, or
+/// none, as in Wanted.
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
-                                const std::vector<RigidTorque>& rigid = {});
+                                const std::vector<RigidTorque>& rigid = {},
+                                const std::vector<Simulation>& near = {});
 
 /// 1, −1, or 0 at speeds (rad/s) below any programmed motion, where only noise has a sign.
 int direction_of_motion(double speed);

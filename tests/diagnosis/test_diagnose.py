@@ -343,8 +343,10 @@ class Diagnose(unittest.TestCase):
         finding = self.only_finding(self.torques(joint, rotor), "rotor_inertia", joint, model)
         inertia = finding["parameters"]["inertia"]
         self.assertAlmostEqual(inertia["value"], more, delta=4 * inertia["std"])
-        self.assertIn(("link_mass", joint),
-                      [(other["effect"], other["joint"]) for other in finding["alternatives"]])
+        whole = finding["parameters"]["whole_inertia"]
+        self.assertAlmostEqual(whole["value"], known + more, delta=4 * whole["std"])
+        self.assertIn(("link_mass", "body", joint),
+                      [(other["effect"], other["form"], other["joint"]) for other in finding["alternatives"]])
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_what_shows_at_another_joint_is_no_alternative(self):

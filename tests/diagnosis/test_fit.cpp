@@ -109,6 +109,18 @@ void intervals_hold_where_what_is_left_belongs_to_the_posture() {
   TEST_ASSERT_TRUE(hold >= 34);
 }
 
+void a_fit_begins_where_the_robot_comes_to_rest() {
+  constexpr double kTooSoft = 0.01;  // rad/(N·m): the weight of the arm turns it over
+  SwingingRobot swinging(1);
+  swinging.robot.elastic.gravity = {0, 0, -9.81};
+  const Observations observations = swinging.observed();
+  Hypothesis spring(flexcomp::effects::find_law("joint_stiffness", ""), 2,
+                    observations.machine.robot);
+  TEST_ASSERT_TRUE(search::joint_stiffness().prepare(observations, &spring));
+  const Fit found = fit(observations, {{spring, {kTooSoft}}}, 12);
+  TEST_ASSERT_TRUE(found.train_sum < fit(observations, {}, 0).train_sum);
+}
+
 /// A law that says it acts.
 flexcomp::effects::LawPointer made_up(const std::vector<flexcomp::effects::Parameter>& parameters,
                                       std::size_t linear_in) {
@@ -213,6 +225,7 @@ int main() {
   RUN_TEST(intervals_hold_in_noise_and_are_no_wider_than_they_must);
   RUN_TEST(intervals_hold_where_errors_hang_together);
   RUN_TEST(intervals_hold_where_what_is_left_belongs_to_the_posture);
+  RUN_TEST(a_fit_begins_where_the_robot_comes_to_rest);
   RUN_TEST(the_shape_of_what_cannot_be_told_from_nothing_is_unknown);
   RUN_TEST(no_number_is_told_better_than_laws_are_exact);
   RUN_TEST(a_finding_is_summed_up_by_its_surest_number_if_one_is_sure);

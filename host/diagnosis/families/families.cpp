@@ -46,7 +46,8 @@ Eigen::VectorXd change_by(const Known& known, const Machine& machine) {
   const Observations& observations = known.observations;
   return known.fit.remainder.head(observations.train) -
          (observations.residual + observations.stacked(observations.predictions) -
-          observations.stacked(predict(machine, observations.scenes, known.rigid)))
+          observations.stacked(
+              predict(machine, observations.scenes, known.rigid, observations.simulations)))
              .head(observations.train);
 }
 
@@ -130,8 +131,8 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
   Dictionary coupled = dictionary;
   Machine machine = observations.machine;
   coupling.hypothesis.apply(coupling.values, &machine);
-  const Eigen::VectorXd base =
-      observations.stacked(predict(machine, observations.scenes, observations.rigid));
+  const Eigen::VectorXd base = observations.stacked(
+      predict(machine, observations.scenes, observations.rigid, observations.simulations));
   for (const Entry& entry : coupled.entries) {
     const Hypothesis& hypothesis = coupled.hypotheses[entry.hypothesis];
     if (hypothesis.joint != coupling.hypothesis.joint || !hypothesis.traits().is_in_family) {
@@ -144,7 +145,9 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
       Machine changed = machine;
       hypothesis.apply(values, &changed);
       coupled.columns.col(entry.first + i) =
-          (observations.stacked(predict(changed, observations.scenes, observations.rigid)) - base) /
+          (observations.stacked(predict(changed, observations.scenes, observations.rigid,
+                                        observations.simulations)) -
+           base) /
           values[parameter];
     }
   }

@@ -57,6 +57,11 @@ Json parameters_of(const Observations& observations, const Chosen& chosen,
   return parameters;
 }
 
+/// Of effects that take several.
+Json form_or_null(const Hypothesis& hypothesis) {
+  return hypothesis.law->form.empty() ? Json(nullptr) : Json(hypothesis.law->form);
+}
+
 Json formula_json(const model::WrittenLaw& law) {
   return {{"place", law.place},
           {"axis", law.axis.empty() ? Json(nullptr) : Json(law.axis)},
@@ -70,11 +75,14 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
   Json alternatives = Json::array();
   for (const Alternative& other : finding.alternatives) {
     alternatives.push_back({{"effect", other.effect},
+                            {"form", form_or_null(other.chosen.hypothesis)},
                             {"joint", joint_or_null(other.joint)},
                             {"delta_bic", other.delta_bic}});
   }
   const Channel channel = main_channel(observations, finding.without, diagnosis.weighed());
-  Json json = {{"effect", hypothesis.effect()}, {"joint", joint_or_null(hypothesis.joint)}};
+  Json json = {{"effect", hypothesis.effect()},
+               {"form", form_or_null(hypothesis)},
+               {"joint", joint_or_null(hypothesis.joint)}};
   if (hypothesis.law->written) {
     json.update(formula_json(*hypothesis.law->written));
   }

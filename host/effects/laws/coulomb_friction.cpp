@@ -13,6 +13,7 @@ Forms laws::coulomb_friction() {
   law.traits.is_model_number = true;
   law.traits.measures = Measures::friction;
   law.parameters = of_joint({{"torque", "N·m"}});
+  law.derived = whole_of("whole_torque", "N·m", &model::JointDynamics::coulomb);
   law.words = "dry friction";
   law.statement = says("joint {} has another dry friction");
   alter_keys([](const Values& values, int joint,

@@ -58,6 +58,18 @@ std::function<std::vector<Parameter>(const model::Robot&, int)> wave_of_joint(
   };
 }
 
+std::function<std::vector<Derived>(const model::Robot&, int, const Values&)> whole_of(
+    const std::string& name, const std::string& unit, double model::JointDynamics::*number) {
+  return [name, unit, number](const model::Robot& robot, int joint, const Values& values) {
+    const double known = robot.dynamics[index_of(joint)].*number;
+    if (known == 0) {
+      return std::vector<Derived>{};
+    }
+    const std::string here = model::unit_of(robot.elastic.joint(joint - 1), unit);
+    return std::vector<Derived>{{name, here, known + values[0], 0}};
+  };
+}
+
 std::function<std::string(int)> says(const char* clause) {
   return [clause](int joint) { return fmt::format(fmt::runtime(clause), joint); };
 }

@@ -38,6 +38,11 @@ std::function<std::vector<Parameter>(const model::Robot&, int joint)> of_joint(
 std::function<std::vector<Parameter>(const model::Robot&, int joint)> wave_of_joint(
     const std::string& unit);
 
+/// The whole of a joint's number that a law's first parameter changes (its unit as at a joint that
+/// turns). None where the model's number is zero: the change is the whole there.
+std::function<std::vector<Derived>(const model::Robot&, int joint, const Values&)> whole_of(
+    const std::string& name, const std::string& unit, double model::JointDynamics::*number);
+
 /// A clause about a joint, its number in the place of {}.
 std::function<std::string(int joint)> says(const char* clause);
 

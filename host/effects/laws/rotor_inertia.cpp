@@ -11,6 +11,7 @@ Forms laws::rotor_inertia() {
   law.traits.tells_inertia = true;
   law.traits.is_in_family = true;
   law.parameters = of_joint({{"inertia", "kg·m^2"}});
+  law.derived = whole_of("whole_inertia", "kg·m^2", &model::JointDynamics::rotor_inertia);
   law.statement = says("the rotor of joint {} has another inertia");
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {

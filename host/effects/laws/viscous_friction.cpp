@@ -12,6 +12,7 @@ Forms laws::viscous_friction() {
   both_ways.traits.is_in_family = true;
   both_ways.traits.is_model_number = true;
   both_ways.parameters = of_joint({{"coefficient", "N·m·s/rad"}});
+  both_ways.derived = whole_of("whole_coefficient", "N·m·s/rad", &model::JointDynamics::viscous);
   both_ways.statement = says("joint {} has another viscous friction");
   alter_keys([](const Values& values, int joint,
                 model::Robot* robot) { robot->dynamics[index_of(joint)].viscous += values[0]; },
