@@ -68,13 +68,31 @@ std::vector<Rearranged> rearrangements(const Scene& scene) {
   return all;
 }
 
-/// Remainder of the torques of all joints, less that of some, in logarithms.
-double misfit(const std::vector<TorqueFit>& fits, const Rearranged& beside, bool all) {
+/// Can a joint's torque tell how the angles stand? Not where it fits by many times the model's
+/// weight or inertia: a rotor or a payload that the model lacks does that at a wrist, and follows
+/// whatever turns alike.
+bool is_of_model_size(const TorqueFit& fit) {
+  constexpr double kLeastPartial = 0.3;
+  constexpr double kFar = 8;
+  const auto is_far = [&](Part part) {
+    return fit.fit.is_told(part, kLeastPartial) && std::abs(fit.fit.value[part]) > kFar;
+  };
+  return !is_far(kWeight) && !is_far(kInertia);
+}
+
+/// By how much torques fit better with the angles rearranged, in logarithms of what is left: those
+/// of all joints, or less those that were rearranged.
+double improvement(const std::vector<TorqueFit>& fits, const std::vector<TorqueFit>& with,
+                   const Rearranged& beside, bool all) {
+  const auto left = [](const TorqueFit& each) {
+    return std::log(std::max(each.fit.left, 1e-9 * each.rms + 1e-15));
+  };
   double sum = 0;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const auto joint = static_cast<Eigen::Index>(i);
-    if (fits[i].is_there && (all || (joint != beside.one && joint != beside.other))) {
-      sum += std::log(std::max(fits[i].fit.left, 1e-9 * fits[i].rms + 1e-15));
+    const bool is_asked = all || (joint != beside.one && joint != beside.other);
+    if (is_asked && fits[i].is_there && is_of_model_size(fits[i]) && is_of_model_size(with[i])) {
+      sum += left(fits[i]) - left(with[i]);
     }
   }
   return sum;
@@ -100,9 +118,9 @@ Checks check_angles_by_torque(const model::Robot& robot, const Scene& scene,
   double most = kBetter;
   for (const Rearranged& each : all) {
     const std::vector<TorqueFit> with = fit_torques(robot, each.of(scene));
-    const double gain = misfit(fits, each, true) - misfit(with, each, true) +
+    const double gain = improvement(fits, with, each, true) +
                         kTurned * (turned_torques(fits) - turned_torques(with));
-    if (gain > most && misfit(fits, each, false) - misfit(with, each, false) > kOthersBetter) {
+    if (gain > most && improvement(fits, with, each, false) > kOthersBetter) {
       most = gain;
       best = &each;
     }

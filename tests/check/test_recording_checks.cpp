@@ -190,6 +190,32 @@ void test_torques_that_are_turned_or_of_the_motor_side() {
   assert_named("torque.unit", motors);
 }
 
+void test_that_a_rotor_on_a_coupled_wrist_turns_no_angle() {
+  flexcomp::test::MovingRobot moving(800);
+  // Joint 4 turns as joint 5 does, whose motor's place joint 6 takes.
+  moving.recording.q_meas->col(3) = moving.recording.q_meas->col(4).array() - 0.3;
+  moving.recording.q_cmd = moving.recording.q_meas;
+  model::Robot truth = moving.robot;
+  truth.transmission(5, 4) = -1;
+  truth.dynamics[5].rotor_inertia = 3;
+  truth.dynamics[5].coulomb = 5;
+  moving.recording.wrench.reset();
+  Recording shown = moving.recording;
+  shown.position.reset();
+  shown.q_link.reset();
+  shown.tau = simulation::predict(flexcomp::effects::machine_of(truth), {moving.scene()})
+                  .front()
+                  .channel[simulation::joint_torque];
+  Samples noise = Samples::Zero(shown.tau->rows(), shown.tau->cols());
+  Measured::add_noise(0.1, &noise);
+  noise.col(3) *= 10;  // else the torque of joint 4 alone tells
+  *shown.tau +=
+      noise.cwiseProduct(shown.tau->cwiseAbs().colwise().mean().replicate(noise.rows(), 1));
+  for (const auto& each : flexcomp::check::check_recording(&moving.robot, shown)) {
+    TEST_ASSERT_FALSE_MESSAGE(each.severity == Severity::error, each.name.c_str());
+  }
+}
+
 void test_weight_that_the_model_leaves_out() {
   Measured measured;
   measured.moving.robot.elastic.gravity.setZero();
@@ -248,6 +274,7 @@ int main() {
   RUN_TEST(test_a_force_of_the_tool_on_the_work);
   RUN_TEST(test_a_force_in_the_frame_of_the_tool);
   RUN_TEST(test_torques_that_are_turned_or_of_the_motor_side);
+  RUN_TEST(test_that_a_rotor_on_a_coupled_wrist_turns_no_angle);
   RUN_TEST(test_weight_that_the_model_leaves_out);
   RUN_TEST(test_two_slips_at_once_are_both_told);
   RUN_TEST(test_another_robot_s_recording);
