@@ -1,7 +1,10 @@
 #include "diagnosis/clock_check.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+
+#include "diagnosis/clusters.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -18,13 +21,32 @@ Eigen::MatrixXd delay_columns(const Observations& observations,
       continue;
     }
     groups->push_back(hypothesis.law->form);
-    columns.emplace_back(changes.by(hypothesis, {kStep}) / kStep);
+    // Both ways: a sample that is shifted one way has less of its own noise, as if it were late.
+    columns.emplace_back((changes.by(hypothesis, {kStep}) - changes.by(hypothesis, {-kStep})) /
+                         (2 * kStep));
   }
   Eigen::MatrixXd all(observations.size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     all.col(static_cast<Eigen::Index>(i)) = columns[i];
   }
   return all;
+}
+
+/// Variance of a number that is the sum of influence times error, with errors that hang together
+/// within a cluster (Liang and Zeger 1986), over time or at a posture.
+double clustered_variance(const Observations& observations, const Eigen::VectorXd& influence,
+                          const Eigen::VectorXd& error) {
+  double most = 0;
+  for (const Clusters& clusters :
+       {clusters_in_time(observations), clusters_in_state(observations)}) {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(clusters.count);
+    for (Eigen::Index i = 0; i < influence.size(); ++i) {
+      sums[clusters.of[static_cast<std::size_t>(i)]] += influence[i] * error[i];
+    }
+    const auto count = static_cast<double>(clusters.count);
+    most = std::max(most, sums.squaredNorm() * count / std::max(count - 1, 1.0));
+  }
+  return most;
 }
 
 }  // namespace
@@ -67,10 +89,14 @@ std::vector<ClockCheck> check_clocks(const Observations& observations,
   const Eigen::MatrixXd inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(all, all));
   const Eigen::VectorXd target = known.remainder.head(n);
   const Eigen::VectorXd solved = inverse * (columns.transpose() * target);
-  const double variance = (target - columns * solved).squaredNorm() / static_cast<double>(n);
+  const Eigen::VectorXd left = target - columns * solved;
+  const double variance = left.squaredNorm() / static_cast<double>(n);
   for (Eigen::Index i = count; i < all; ++i) {
+    const double deviation =
+        std::sqrt(std::max(variance * inverse(i, i),
+                           clustered_variance(observations, columns * inverse.col(i), left)));
     checks.push_back({groups[static_cast<std::size_t>(i - count)], solved[i] / length[i],
-                      std::sqrt(variance * inverse(i, i)) / length[i]});
+                      deviation / length[i]});
   }
   return checks;
 }

@@ -16,9 +16,6 @@ namespace {
 /// worse where it was not fitted.
 constexpr double kAsGoodAsNoise = 2;
 constexpr double kFarWorse = 1.5;
-/// Times the noise: single samples beyond are gross errors, which count no more than that where no
-/// fit told their deviation.
-constexpr double kGross = 30;
 constexpr Eigen::Index kNeighboursApart = 40;  // of all rows: half a stretch that is held out
 
 /// Samples that follow each other, though a slow sensor may have none in many rows between; not

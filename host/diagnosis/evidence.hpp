@@ -41,6 +41,9 @@ constexpr double kSameEvidence = 6;     ///< of BIC: below "strong" (the same)
 /// Times the noise: what leaves no more is as good as explained, since noise is estimated
 /// to a tenth.
 constexpr double kLikeNoise = 1.15;
+/// Times the noise: single samples beyond are gross errors, which count no more than that where no
+/// fit told their deviation.
+constexpr double kGross = 30;
 
 /// Compares two fits to the same observations; `with` has one hypothesis more, its last, or that
 /// and others weighed together with it.

@@ -13,7 +13,11 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kForce = 1000;  // N, a load test's: it bends an industrial arm by a millimetre
+/// N, the most of a load test: it bends an industrial arm by a millimetre.
+constexpr double kMostForce = 1000;
+/// Of the largest torque of a drive, by a load test's force: about what an arm's payload asks of
+/// it.
+constexpr double kShareOfDrive = 0.25;
 
 /// Something that could be recorded, and how a person would be told to.
 struct Experiment {
@@ -25,6 +29,23 @@ struct Experiment {
 std::pair<double, double> range_of(const model::ChainJoint& joint) {
   return joint.type == model::JointType::continuous ? std::pair(-M_PI, M_PI)
                                                     : std::pair(joint.lower, joint.upper);
+}
+
+/// The largest force (N, in one digit) along an axis of the base that a load test may have at joint
+/// angles: no drive holds more than its share of it, as far as the URDF tells what drives hold.
+double force_at(const model::Robot& robot, const model::JointValues& q, Eigen::Index axis) {
+  const model::ChainJacobian jacobian =
+      geometric_jacobian(robot.elastic, forward_kinematics(robot.elastic, q));
+  double force = kMostForce;
+  for (Eigen::Index joint = 0; joint < q.size(); ++joint) {
+    const double effort = robot.dynamics[static_cast<std::size_t>(joint)].effort;
+    const double lever = std::abs(jacobian(axis, joint));
+    if (effort > 0 && std::isfinite(effort) && lever > 0) {
+      force = std::min(force, kShareOfDrive * effort / lever);
+    }
+  }
+  const double digit = std::pow(10.0, std::floor(std::log10(force)));
+  return digit * std::floor(force / digit);
 }
 
 /// Poses within the middle of the joint limits, each under a force along and against an axis.
@@ -46,11 +67,12 @@ std::vector<Experiment> load_tests(const model::Robot& robot) {
       recording.time = Eigen::VectorXd::LinSpaced(4, 0, 3);
       recording.q_meas = recording::Samples(q.replicate(4, 1));
       recording.wrench = recording::Samples(recording::Samples::Zero(4, 6));
-      recording.wrench->col(axis) << kForce, -kForce, 0.5 * kForce, -0.5 * kForce;
+      const double force = force_at(robot, q.transpose(), axis);
+      recording.wrench->col(axis) << force, -force, 0.5 * force, -0.5 * force;
       experiment.description = fmt::format(
-          "a load test with {:.0f} and {:.0f} N along and against {} at the joint angles {:.2f} "
+          "a load test with {:.3g} and {:.3g} N along and against {} at the joint angles {:.2f} "
           "{}",
-          0.5 * kForce, kForce, "xyz"[axis], fmt::join(q.data(), q.data() + q.size(), ", "),
+          0.5 * force, force, "xyz"[axis], fmt::join(q.data(), q.data() + q.size(), ", "),
           unit_of(robot.elastic, "rad"));
       all.push_back(std::move(experiment));
     }

@@ -129,14 +129,19 @@ std::size_t surest_of(const Fit& whole, const std::vector<std::size_t>& indices)
 
 /// Forms of a joint's friction share what they explain where it moves in a small range of speeds,
 /// so that none may stand beside the others. Its friction stands all the same where they do
-/// together: the surest form is the finding then, as uncertain as it is beside the others.
+/// together: the surest form is the finding then, as uncertain as it is beside the others, if it is
+/// told from nothing.
 void add_friction_as_whole(const Inquiry& inquiry, const Fit& whole, const Without& without,
                            std::vector<Finding>* standing) {
   for (const auto& [joint, forms] : friction_by_joint(whole)) {
     if (forms.size() < 2 || has_friction_at(*standing, joint)) {
       continue;
     }
-    Finding finding = judge_linearly(inquiry, whole, without, surest_of(whole, forms), forms);
+    const std::size_t surest = surest_of(whole, forms);
+    if (!is_told_apart(whole, surest)) {
+      continue;
+    }
+    Finding finding = judge_linearly(inquiry, whole, without, surest, forms);
     if (stands_as_member(inquiry, finding.evidence)) {
       standing->push_back(std::move(finding));
     }
