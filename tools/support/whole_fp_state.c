@@ -11,6 +11,8 @@
 #include <sys/types.h>
 #include <sys/uio.h>
 
+#include "patient_clock.h"
+
 typedef long ptrace_call(enum __ptrace_request, ...);
 
 static ptrace_call* real_ptrace;
@@ -23,6 +25,7 @@ __attribute__((constructor)) static void find_ptrace(void) {
 
 static long set_registers(pid_t pid, const struct iovec* part) {
   struct iovec whole = {state, sizeof state};
+  begin_patience();
   if (real_ptrace(PTRACE_GETREGSET, pid, (void*)NT_X86_XSTATE, &whole) != 0 ||
       part->iov_len > whole.iov_len) {
     return real_ptrace(PTRACE_SETREGSET, pid, (void*)NT_X86_XSTATE, part);
