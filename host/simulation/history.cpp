@@ -62,11 +62,11 @@ void go_to(double wanted, const Eigen::VectorXd& time, Eigen::Index* row) {
   }
 }
 
-/// Rows of a signal of so many columns as they were `delay` (s) before. `between` gives it at a
-/// share of the way from a row to the next, `beyond` at a time that is not between any.
+/// A signal of so many columns, `delay` (s) late. `between` gives it at a share of the way from a
+/// row to the next, `beyond` at a time before the first row or after the last.
 template <typename Between, typename Beyond>
-Eigen::MatrixXd before(const Eigen::VectorXd& time, Eigen::Index columns, double delay,
-                       const Between& between, const Beyond& beyond) {
+Eigen::MatrixXd late(const Eigen::VectorXd& time, Eigen::Index columns, double delay,
+                     const Between& between, const Beyond& beyond) {
   Eigen::MatrixXd result(time.size(), columns);
   const Eigen::Index last = time.size() - 1;
   Eigen::Index at = 0;
@@ -82,15 +82,16 @@ Eigen::MatrixXd before(const Eigen::VectorXd& time, Eigen::Index columns, double
   return result;
 }
 
-/// The end of the times that a time lies beyond.
+/// The first row for a time before it, else the last.
 Eigen::Index edge_near(double wanted, const Eigen::VectorXd& time) {
   return wanted < time[0] ? 0 : time.size() - 1;
 }
 
-/// The same of a signal that goes on beyond its ends as it came there, turned about the last row.
+/// A signal (n×m), `delay` (s) late, which goes on beyond each end as it came there: turned by half
+/// a turn about the last row.
 template <typename Between>
-Eigen::MatrixXd turned_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                              double delay, const Between& between) {
+Eigen::MatrixXd late_turned_at_ends(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                                    double delay, const Between& between) {
   const auto beyond = [&](double wanted) -> Eigen::RowVectorXd {
     const Eigen::Index last = time.size() - 1;
     if (last == 0) {
@@ -102,7 +103,7 @@ Eigen::MatrixXd turned_before(const Eigen::VectorXd& time, const Eigen::MatrixXd
     go_to(inside, time, &at);
     return 2 * values.row(edge) - between(at, (inside - time[at]) / (time[at + 1] - time[at]));
   };
-  return before(time, values.cols(), delay, between, beyond);
+  return late(time, values.cols(), delay, between, beyond);
 }
 
 }  // namespace
@@ -212,7 +213,7 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
 }
 
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay) {
-  return turned_before(time, values, delay, [&](Eigen::Index row, double share) {
+  return late_turned_at_ends(time, values, delay, [&](Eigen::Index row, double share) {
     return Eigen::RowVectorXd((1 - share) * values.row(row) + share * values.row(row + 1));
   });
 }
@@ -220,13 +221,13 @@ Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& valu
 Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
                                  double delay) {
   const Eigen::MatrixXd slope = slopes(time, values);
-  return turned_before(time, values, delay, [&](Eigen::Index row, double share) {
+  return late_turned_at_ends(time, values, delay, [&](Eigen::Index row, double share) {
     return hermite(time, values, slope, row, share);
   });
 }
 
-Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
-                             const Eigen::MatrixXd& velocity, double delay) {
+Eigen::MatrixXd delayed_motion(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
+                               const Eigen::MatrixXd& velocity, double delay) {
   const auto between = [&](Eigen::Index row, double share) {
     return hermite(time, position, velocity, row, share);
   };
@@ -234,7 +235,7 @@ Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd&
     const Eigen::Index edge = edge_near(wanted, time);
     return position.row(edge) + (wanted - time[edge]) * velocity.row(edge);
   };
-  return before(time, position.cols(), delay, between, beyond) - position;
+  return late(time, position.cols(), delay, between, beyond);
 }
 
 }  // namespace flexcomp::simulation
