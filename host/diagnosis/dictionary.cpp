@@ -69,36 +69,25 @@ Changes::Changes(const Observations& observations)
 Changes::Changes(const Observations& observations, const Machine& around)
     : observations_(observations),
       machine_(around),
-      rigid_(simulation::rigid_torques(around, observations.scenes)) {
-  std::vector<Prediction> predictions;
-  for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
-    simulation::Wanted wanted;
-    wanted.rigid = of_scene(rigid_, s);
-    simulations_.push_back(simulate(machine_, observations.scenes[s], wanted));
-    predictions.push_back(with_terms(machine_.terms, observations.scenes[s], simulations_.back()));
-  }
-  predicted_ = observations.stacked(predictions);
-}
+      rigid_(simulation::rigid_torques(around, observations.scenes)),
+      simulations_(simulate(machine_, observations.scenes, rigid_, simulation::Levers::all)),
+      predicted_(
+          observations.stacked(with_terms(machine_.terms, observations.scenes, simulations_))) {}
 
 Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) const {
   Machine machine = machine_;
-  if (hypothesis.traits().alters_model && !hypothesis.is_sketched) {
-    hypothesis.apply(values, &machine);
-    return observations_.stacked(predict(machine, observations_.scenes, rigid_)) - predicted_;
-  }
   if (hypothesis.is_sketched) {
     machine.terms.push_back(hypothesis.law->sketch(values, hypothesis.joint));
   } else {
     hypothesis.apply(values, &machine);
   }
-  const std::vector<Simulation>& simulations =
+  const bool simulates_anew = hypothesis.traits().alters_model && !hypothesis.is_sketched;
+  const std::vector<Simulation>& known =
       simulations_.empty() ? observations_.simulations : simulations_;
-  std::vector<Prediction> predictions;
-  predictions.reserve(observations_.scenes.size());
-  for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-    predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations[s]));
-  }
-  return observations_.stacked(predictions) - predicted_;
+  return observations_.stacked(simulates_anew
+                                   ? predict(machine, observations_.scenes, rigid_)
+                                   : with_terms(machine.terms, observations_.scenes, known)) -
+         predicted_;
 }
 
 Eigen::MatrixXd Changes::columns(const Hypothesis& hypothesis, const Values& start) const {

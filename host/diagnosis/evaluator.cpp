@@ -96,23 +96,12 @@ std::vector<Simulation> Evaluator::simulate_scenes(
   if (!alters_any()) {
     return observations_.simulations;
   }
-  std::vector<Simulation> simulations;
-  for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-    const Scene& scene = observations_.scenes[s];
-    simulation::Wanted wanted = wanted_of(machine, scene);
-    wanted.rigid = of_scene(rigid, s);
-    simulations.push_back(simulate(machine, scene, wanted));
-  }
-  return simulations;
+  return simulate(machine, observations_.scenes, rigid, simulation::Levers::of_terms);
 }
 
-std::vector<Prediction> Evaluator::add_terms(const Machine& machine,
-                                             const std::vector<Simulation>& simulations) const {
-  std::vector<Prediction> predictions;
-  for (std::size_t s = 0; s < simulations.size(); ++s) {
-    predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations[s]));
-  }
-  return predictions;
+Eigen::VectorXd Evaluator::prediction(const Machine& machine,
+                                      const std::vector<Simulation>& simulations) const {
+  return observations_.stacked(with_terms(machine.terms, observations_.scenes, simulations));
 }
 
 Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* derivative) {
@@ -120,7 +109,7 @@ Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* deriv
   const Machine machine = machine_with(observations_, chosen_);
   const std::vector<simulation::RigidTorque>& rigid = rigid_torques(machine);
   const std::vector<Simulation> simulations = simulate_scenes(machine, rigid);
-  Eigen::VectorXd base = observations_.stacked(add_terms(machine, simulations));
+  Eigen::VectorXd base = prediction(machine, simulations);
   if (derivative == nullptr) {
     return base;
   }
@@ -142,11 +131,10 @@ Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* deriv
         other[i] += step;
         moved.set(other);
         const Machine changed = machine_with(observations_, moved.chosen_);
-        const std::vector<Prediction> predictions =
-            alters_[i] ? add_terms(changed, moved.simulate_scenes(changed, rigid))
-                       : add_terms(changed, simulations);
-        derivative->col(static_cast<Eigen::Index>(i)) =
-            (observations_.stacked(predictions) - base) / step;
+        const Eigen::VectorXd predicted =
+            alters_[i] ? prediction(changed, moved.simulate_scenes(changed, rigid))
+                       : prediction(changed, simulations);
+        derivative->col(static_cast<Eigen::Index>(i)) = (predicted - base) / step;
       });
   return base;
 }

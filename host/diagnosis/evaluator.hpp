@@ -39,8 +39,9 @@ class Evaluator {
   const std::vector<simulation::RigidTorque>& rigid_torques(const Machine& machine);
   std::vector<Simulation> simulate_scenes(const Machine& machine,
                                           const std::vector<simulation::RigidTorque>& rigid) const;
-  std::vector<Prediction> add_terms(const Machine& machine,
-                                    const std::vector<Simulation>& simulations) const;
+  /// Stacked prediction of a machine that was simulated so.
+  Eigen::VectorXd prediction(const Machine& machine,
+                             const std::vector<Simulation>& simulations) const;
 
   const Observations& observations_;
   std::vector<Chosen> chosen_;

@@ -96,15 +96,9 @@ const Eigen::MatrixXd& shown_load(const Scene& scene, const Prediction& predicti
 
 Observations::Observations(Machine model, std::vector<Scene> all, std::size_t holdouts)
     : machine(std::move(model)), scenes(std::move(all)) {
-  simulations.reserve(scenes.size());
-  predictions.reserve(scenes.size());
   rigid = simulation::rigid_torques(machine, scenes);
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    simulation::Wanted wanted;
-    wanted.rigid = of_scene(rigid, s);
-    simulations.push_back(simulate(machine, scenes[s], wanted));
-    predictions.push_back(with_terms(machine.terms, scenes[s], simulations.back()));
-  }
+  simulations = simulate(machine, scenes, rigid, simulation::Levers::all);
+  predictions = with_terms(machine.terms, scenes, simulations);
   is_static = scenes.front().is_static;
   noise_is_known = !is_static;
   collect(holdouts);

@@ -156,6 +156,16 @@ void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Sim
   }
 }
 
+/// The parts of a scene's simulation to compute; `rigid`: of each scene, or none.
+Wanted wanted_of(const Machine& machine, const Scene& scene, const std::vector<RigidTorque>& rigid,
+                 std::size_t index, Levers levers) {
+  Wanted wanted;
+  wanted.levers = levers == Levers::all || machine.needs_levers ||
+                  (!machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench));
+  wanted.rigid = rigid.empty() ? nullptr : &rigid[index];
+  return wanted;
+}
+
 }  // namespace
 
 Machine::Machine(model::Robot of)
@@ -187,10 +197,6 @@ std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector
     rigid.emplace_back(machine, scene);
   }
   return rigid;
-}
-
-const RigidTorque* of_scene(const std::vector<RigidTorque>& rigid, std::size_t scene) {
-  return rigid.empty() ? nullptr : &rigid[scene];
 }
 
 bool RigidTorque::holds_for(const Machine& machine) const {
@@ -265,11 +271,25 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
   return prediction;
 }
 
-Wanted wanted_of(const Machine& machine, const Scene& scene) {
-  Wanted wanted;
-  wanted.levers = machine.needs_levers ||
-                  (!machine.terms.empty() && (scene.has(tcp_position) || scene.has_wrench));
-  return wanted;
+std::vector<Prediction> with_terms(const std::vector<Term>& terms, const std::vector<Scene>& scenes,
+                                   const std::vector<Simulation>& simulations) {
+  std::vector<Prediction> predictions;
+  predictions.reserve(scenes.size());
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    predictions.push_back(with_terms(terms, scenes[s], simulations[s]));
+  }
+  return predictions;
+}
+
+std::vector<Simulation> simulate(const Machine& machine, const std::vector<Scene>& scenes,
+                                 const std::vector<RigidTorque>& rigid, Levers levers) {
+  std::vector<Simulation> simulations;
+  simulations.reserve(scenes.size());
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    simulations.push_back(
+        simulate(machine, scenes[s], wanted_of(machine, scenes[s], rigid, s, levers)));
+  }
+  return simulations;
 }
 
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
@@ -277,8 +297,7 @@ std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>
   std::vector<Prediction> predictions;
   predictions.reserve(scenes.size());
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    Wanted wanted = wanted_of(machine, scenes[s]);
-    wanted.rigid = of_scene(rigid, s);
+    const Wanted wanted = wanted_of(machine, scenes[s], rigid, s, Levers::of_terms);
     predictions.push_back(
         with_terms(machine.terms, scenes[s], simulate(machine, scenes[s], wanted)));
   }

@@ -92,14 +92,11 @@ class Portrait {
     Machine alone = observations_.machine;
     alone.terms.clear();
     law.hypothesis.apply(law.values, &alone);
-    std::vector<Prediction> with;
-    std::vector<Prediction> without;
-    for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-      const Simulation& at = observations_.simulations[s];
-      with.push_back(with_terms(alone.terms, observations_.scenes[s], at));
-      without.push_back(at.prediction);
-    }
-    return observations_.stacked(with) - observations_.stacked(without);
+    const auto predicted = [&](const std::vector<simulation::Term>& terms) {
+      return observations_.stacked(
+          with_terms(terms, observations_.scenes, observations_.simulations));
+    };
+    return predicted(alone.terms) - predicted({});
   }
 
   Eigen::VectorXd along_samples(const effects::Signal& signal) const {
