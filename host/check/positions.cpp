@@ -108,8 +108,8 @@ Check unlike_any(const recording::Recording& recording, double off) {
 
 Checks check_positions(const model::Robot& robot, recording::Recording* recording, bool* fits) {
   *fits = false;
-  const auto& q = recording->q_meas ? recording->q_meas : recording->q_cmd;
-  if (!q || !recording->position || q->cols() != joint_count(robot)) {
+  const recording::Samples* q = recording->angles();
+  if (q == nullptr || !recording->position || q->cols() != joint_count(robot)) {
     return {};
   }
   const PoseRows rows = pose_rows(robot, *q, *recording->position);

@@ -218,7 +218,7 @@ Checks check_torques(const model::Robot& robot, bool proved, recording::Recordin
   const bool has_deflections = recording->q_link && recording->q_meas;
   const bool has_angles = recording->q_meas || recording->q_cmd;
   if ((!recording->tau && !has_deflections) || !has_angles || !has_masses(robot) ||
-      angles_of(*recording)->cols() != joint_count(robot)) {
+      recording->angles()->cols() != joint_count(robot)) {
     return {};
   }
   simulation::Preparation preparation;

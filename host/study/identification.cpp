@@ -75,8 +75,8 @@ struct Tests {
 };
 
 Tests complete_rows(const recording::Recording& recording) {
-  const auto& angles = recording.q_meas ? recording.q_meas : recording.q_cmd;
-  if (!angles || !recording.wrench || !recording.position) {
+  const recording::Samples* angles = recording.angles();
+  if (angles == nullptr || !recording.wrench || !recording.position) {
     throw InputError(fmt::format(
         "{}: a load test needs q_meas or q_cmd, the wrench fx..mz and x, y, z", recording.file));
   }
