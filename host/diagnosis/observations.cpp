@@ -317,11 +317,14 @@ Eigen::VectorXd Observations::residual_of(const std::vector<Prediction>& values)
   return column;
 }
 
-double Observations::rms(const Eigen::VectorXd& values, Channel channel, bool held_out) const {
+double Observations::rms(const Eigen::VectorXd& values, Channel channel, bool held_out,
+                         std::optional<Eigen::Index> component) const {
   double sum = 0;
   double count = 0;
-  for (Eigen::Index i = held_out ? train : 0; i < (held_out ? size() : train); ++i) {
-    if (samples[static_cast<std::size_t>(i)].channel == channel) {
+  const Part asked = part(held_out);
+  for (Eigen::Index i = asked.first; i < asked.end; ++i) {
+    const Sample& at = samples[static_cast<std::size_t>(i)];
+    if (at.channel == channel && at.component == component.value_or(at.component)) {
       sum += std::pow(values[i] * noise[i], 2);
       ++count;
     }

@@ -120,8 +120,8 @@ class Portrait {
     Means means;
     const double middle =
         sides() > 1 ? statistics::median({drivers_[1].begin(), drivers_[1].end()}) : 0;
-    for (Eigen::Index i = held_out ? observations_.train : 0;
-         i < (held_out ? observations_.size() : observations_.train); ++i) {
+    const Part part = observations_.part(held_out);
+    for (Eigen::Index i = part.first; i < part.end; ++i) {
       if (lever_[i] == 0 || (sides() > 1 && (drivers_[1][i] > middle) != (side == 0))) {
         continue;
       }

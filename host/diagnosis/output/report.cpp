@@ -35,17 +35,8 @@ constexpr const char* kStyle =
 /// The 95 % interval of an estimate to either side, in one digit; tens and thousands are written
 /// out.
 std::string margin(double deviation) {
-  const double side = 1.96 * deviation;
+  const double side = kTold * deviation;
   return side < 9.5 || side >= 1e6 ? fmt::format("{:.1g}", side) : fmt::format("{:.0f}", side);
-}
-
-/// A unit with a prefix in which a size is easy to read, and how many of it are in one.
-Scale easy_unit(double size, const std::string& unit) {
-  const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";
-  if (!has_prefixes || size == 0 || size >= 0.1) {
-    return {1, unit};
-  }
-  return size < 1e-4 ? Scale{1e6, "µ" + unit} : Scale{1e3, "m" + unit};
 }
 
 std::string chance(double p_value) {
@@ -57,8 +48,8 @@ std::string parameters(const Observations& observations, const Chosen& chosen,
   std::string values;
   for (const Estimate& each : estimates(observations, chosen, covariance)) {
     const bool is_told = std::isfinite(each.deviation);
-    const auto [factor, unit] = easy_unit(
-        is_told ? std::max(std::abs(each.value), 1.96 * each.deviation) : std::abs(each.value),
+    const auto [factor, unit] = readable_scale(
+        is_told ? std::max(std::abs(each.value), kTold * each.deviation) : std::abs(each.value),
         each.unit);
     // A number that rests on zero from below is zero.
     values += fmt::format("{} = {:.4g}{}{}{}<br>", each.name, factor * each.value + 0.0,
