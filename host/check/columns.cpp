@@ -56,7 +56,7 @@ bool is_there_regularly(const recording::Samples& samples) {
 
 Checks check_missing(const recording::Recording& recording, const recording::Samples& samples,
                      const char* name) {
-  constexpr double kMany = 0.3;
+  constexpr double kMany = 0.3;  // of the samples, chosen by judgement: fewer are worth no note
   const Eigen::Index missing = count_missing(samples);
   if (missing == samples.rows()) {
     return {said_of(Severity::warning, "column.empty", recording,
@@ -229,6 +229,8 @@ Checks check_motion(const recording::Recording& recording) {
 
 Checks check_limits(const model::Robot& robot, const recording::Recording& recording) {
   constexpr double kAngleMargin = 0.1;  // rad: limits in a model may be a little off
+  // Times the limit, chosen by judgement: differentiation and noise raise a speed, an overload is
+  // allowed for a while, and a wrong unit is off by far more.
   constexpr double kSpeedMargin = 1.5;
   constexpr double kTorqueMargin = 1.5;
   Checks checks;

@@ -12,8 +12,8 @@
 namespace flexcomp::check {
 namespace {
 
-constexpr Eigen::Index kMostRows = 240;
-constexpr Eigen::Index kFewestRows = 3;
+constexpr Eigen::Index kMostRows = 240;  // time: dozens of readings are tried on each
+constexpr Eigen::Index kFewestRows = 3;  // points that tell where a frame is
 /// m: springs, lengths and zeros of a robot that is not calibrated put its TCP this far off at
 /// most; what is within is for a diagnosis.
 constexpr double kPhysical = 0.02;

@@ -63,7 +63,7 @@ Checks check_unit(const model::Robot* robot, double step, recording::Recording* 
 }
 
 Checks check_speed(const model::Robot* robot, const recording::Recording& recording) {
-  constexpr double kFarTooFast = 5;
+  constexpr double kFarTooFast = 5;  // times the limit: a wrong unit is off by 1000
   const recording::Samples* q = recording.angles();
   if (robot == nullptr || q == nullptr || recording::counts_rows(recording.time) ||
       !is_too_fast(robot, usual_top_speed(recording.time, *q), 1, kFarTooFast)) {

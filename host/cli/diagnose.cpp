@@ -32,7 +32,7 @@ namespace {
 
 /// Rows and scalars that are looked at in all; more tell little, and take time and memory.
 constexpr Eigen::Index kMostRows = 8000;
-constexpr Eigen::Index kMostSamples = 48000;
+constexpr Eigen::Index kMostSamples = 48000;  // of all components, six a row
 
 struct DiagnoseOptions {
   RobotChoice model;

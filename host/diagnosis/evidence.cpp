@@ -12,9 +12,10 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Times the noise: a fit that comes so near claims to be right, and must not be so many times
-/// worse where it was not fitted.
+/// Times the noise: a fit that comes so near claims to be right. Chosen by judgement, as is the
+/// next.
 constexpr double kAsGoodAsNoise = 2;
+/// Times its error where it was fitted: such a fit must not be so much worse elsewhere.
 constexpr double kFarWorse = 1.5;
 /// Times the noise: single samples beyond are gross errors, which count no more than that where no
 /// fit told their deviation.

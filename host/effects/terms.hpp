@@ -20,6 +20,11 @@ void add_load_driven(const Simulation& simulation, int joint,
                      const std::function<Eigen::VectorXd(const Eigen::VectorXd& load)>& angle,
                      Prediction* prediction);
 
+/// N·m (N of a joint that slides), chosen by judgement: a joint that bears less presses on no flank
+/// of its gear, so that its play follows the motion. Arms that bear less all over are not told of
+/// play by their load.
+constexpr double kLeastFlankLoad = 1;
+
 /// Adds a torque (n, N·m) to a joint's drive.
 void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction);
 

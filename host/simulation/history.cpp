@@ -143,7 +143,7 @@ Eigen::VectorXd bouc_wen(const Eigen::VectorXd& torque, double yield) {
 }
 
 Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield) {
-  constexpr int kElements = 10;
+  constexpr int kElements = 10;  // chosen by judgement: the loop's corners are a tenth of it
   Eigen::VectorXd loop = Eigen::VectorXd::Zero(torque.size());
   const double first = torque.size() > 0 ? torque[0] : 0;
   const Eigen::VectorXd input = torque.array() - first;

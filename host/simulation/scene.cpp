@@ -34,7 +34,7 @@ void mark_creeping(Scene* scene) {
 /// Does a sensor repeat its last sample in a log that is faster than it? Then it does so regularly;
 /// what stays the same in a motion, or at rest, does not. `runs`: rows that each sample lasts.
 bool is_held(const std::vector<Eigen::Index>& runs) {
-  constexpr std::size_t kFewest = 20;
+  constexpr std::size_t kFewest = 20;  // chosen by judgement: fewer are regular by chance
   return runs.size() >= kFewest && recording::regular_step(runs).value_or(1) > 1;
 }
 

@@ -6,7 +6,8 @@ namespace {
 /// Needs the TCP, and load. Beyond the last joint it is the tool that gives; a link that is short
 /// bends like its springs.
 bool prepare_link_flexibility(const Observations& observations, Hypothesis* hypothesis) {
-  // In m: no longer than an arm's links are wide, so that they are no beam.
+  // m, chosen by judgement: about as wide as an arm's links, which are no beams if they are no
+  // longer. Of two forms that show alike, one then is not tried.
   constexpr double kShort = 0.2;
   if (!observations.has(simulation::tcp_position) || !is_loaded(observations) ||
       hypothesis->joint == observations.machine.robot.joints()) {
