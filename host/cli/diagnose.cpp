@@ -103,7 +103,8 @@ check::Checks check_input(const model::Robot& robot,
   return checks;
 }
 
-/// What is wrong with the input is to be mended, not to be composed a law for.
+/// Did the checks find nothing wrong? A fault of the input is to be mended: no law is composed for
+/// it.
 bool is_in_order(const check::Checks& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const check::Check& each) {
     return each.severity == check::Severity::note;

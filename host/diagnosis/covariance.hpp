@@ -15,9 +15,9 @@ struct NormalInverse {
   Eigen::MatrixXd inner;
 };
 
-/// By the prediction's derivative (samples to fit to × parameters, over the noise), the samples'
-/// weights, and the precision by which each parameter is held to the model beside the samples
-/// (zero: not at all).
+/// The inverse by the prediction's derivative (samples to fit to × parameters, over the noise), the
+/// samples' weights, and the precision by which each parameter is held to the model beside the
+/// samples (zero: not at all).
 NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
                          const Eigen::VectorXd& precision);
 

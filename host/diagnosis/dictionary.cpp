@@ -19,8 +19,8 @@ Eigen::Index columns_of(const Hypothesis& hypothesis) {
   return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(hypothesis.linear));
 }
 
-/// Which of the linear parameters of hypotheses, whose columns follow each other, is the most out
-/// of bounds, in steps of it; -1 where none is.
+/// Index of the linear parameter that is the farthest out of its bounds, in steps of it, among
+/// those of hypotheses whose columns follow each other; −1 where none is.
 Eigen::Index most_out_of_bounds(const std::vector<const Hypothesis*>& hypotheses,
                                 const Eigen::VectorXd& amplitude) {
   constexpr double kTolerance = 2;  // noise may take a parameter that is nothing so far below zero

@@ -20,9 +20,9 @@ class Evaluator {
 
   std::size_t size() const { return alters_.size(); }
   const Parameter& parameter(std::size_t index) const;
-  /// By which the parameters' tolerances hold them: one over the square of each.
+  /// Precisions by which the parameters are held: one over the square of each tolerance.
   Eigen::VectorXd precisions() const;
-  /// Times the standard deviation of each parameter (Parameter::widening).
+  /// Factors of the parameters' standard deviations (Parameter::widening).
   Eigen::VectorXd widenings() const;
   const std::vector<Chosen>& chosen() const { return chosen_; }
   Values values() const;

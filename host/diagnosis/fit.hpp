@@ -41,7 +41,7 @@ struct Fit {
 /// Weights by Huber's function of a remainder over the noise: one within three deviations of what
 /// remains, less beyond, so that single samples do not decide.
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder);
-/// The same where the deviation of what remains is known.
+/// Huber's weights by a known deviation of the remainder.
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder, double deviation);
 
 /// Deviations of a remainder, beyond which a sample is an outlier: of normally distributed samples

@@ -27,10 +27,10 @@ struct Part {
   Eigen::Index first, end;
 };
 
-/// Stretches of time that a recording is divided into: what lies within one may hang together.
+/// Stretches of time into which a recording is divided: errors within one may hang together.
 constexpr Eigen::Index kHoldoutStretches = 20;
 
-/// Which of them a row of a recording is in, from zero.
+/// The stretch, from zero, that a row of a recording is in.
 Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows);
 
 /// Noise that the motion's differentiation brings into predictions, by channel; empty without any.

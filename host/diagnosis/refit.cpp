@@ -46,8 +46,9 @@ bool is_number_of_family(const Inquiry& inquiry, const Chosen& chosen) {
          !is_chosen(inquiry.given.chosen, chosen.hypothesis);
 }
 
-/// What was found, without the numbers of positions: nothing holds single ones of those to the size
-/// of their like. Torques tell their numbers one by one too.
+/// The findings to begin with. Where torques were recorded these are all, since torques tell each
+/// number by itself. Numbers that positions show are left out: nothing would hold a single one to
+/// the size of its like.
 std::vector<Chosen> kept_of(const Inquiry& inquiry, const Fit& found) {
   if (inquiry.observations.has(simulation::joint_torque)) {
     return found.chosen;

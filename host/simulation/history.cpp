@@ -41,7 +41,7 @@ class Cubic {
         square_(((last - first) / length * 3 - 2 * slope - last_slope) / length),
         cube_((slope + last_slope - 2 * (last - first) / length) / (length * length)) {}
 
-  /// By how much a first-order lag is behind it at `s` after the first row, once it has settled.
+  /// Distance of a first-order lag behind the signal at `s` after the first row, once settled.
   double lag(double s, double constant) const {
     const double velocity = linear_ + s * (2 * square_ + s * 3 * cube_);
     const double acceleration = 2 * square_ + s * 6 * cube_;

@@ -160,8 +160,8 @@ struct Solution {
   Eigen::Index rank = 0;
 };
 
-/// By singular values of the columns over their lengths; the smallest solution where not all is
-/// told.
+/// Least squares by singular values of the columns over their lengths; the smallest solution where
+/// not all is told.
 Solution solve(const Problem& problem) {
   const Eigen::VectorXd length = problem.columns.colwise().norm().transpose();
   const Eigen::VectorXd scale =

@@ -16,7 +16,7 @@ struct Modulation {
   const Shape* shape = nullptr;
 };
 
-/// What a law says, but for its numbers.
+/// A law without its numbers.
 struct Form {
   const Shape* shape = nullptr;
   bool has_constant = false;  ///< one more term: the factor by itself
@@ -36,7 +36,7 @@ struct Composed {
   std::size_t numbers() const {
     return parameters.size() + static_cast<std::size_t>(amplitude.size());
   }
-  /// What it costs to say: its numbers, its factor, and its second driver.
+  /// Numbers, factor and second driver that the law's formula needs.
   std::size_t complexity() const {
     return numbers() + (lead.factor.text.empty() ? 0 : 1) +
            (form.modulation.driver == nullptr ? 0 : 1);

@@ -13,14 +13,14 @@ struct Normal {
 
   /// Amplitudes of least squares; terms that others make up have none.
   Eigen::VectorXd amplitude() const;
-  /// By how much amplitudes lower the sum of squares.
+  /// Fall of the sum of squares by amplitudes.
   double gain(const Eigen::VectorXd& amplitude) const;
 };
 
-/// Of all samples to fit to, beside what is fitted already.
+/// Normal equations of all samples to fit to, beside the fit that there is.
 Normal normal_of(const Seat& seat, const Eigen::MatrixXd& courses);
 
-/// Of each stretch by itself, as if nothing were fitted.
+/// Normal equations of each stretch by itself, as if nothing were fitted.
 std::vector<Normal> normals_by_stretch(const Seat& seat, const Rows& rows,
                                        const Eigen::MatrixXd& courses);
 

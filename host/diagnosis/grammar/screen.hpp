@@ -5,7 +5,7 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// What the search for laws needs of the observations, whatever is fitted.
+/// Rows and drivers of the observations: the material of all laws, whatever is fitted.
 struct Material {
   explicit Material(const Observations& all)
       : observations(all), rows(all), drivers(drivers_of(all, rows)) {}

@@ -15,7 +15,7 @@ struct Rows {
 
   /// Values of all rows of a scene, thinned.
   Eigen::VectorXd of(const Eigen::VectorXd& values) const;
-  /// Where a row of a scene is; −1 where it is left out.
+  /// Place of a scene's row among those that are taken; −1 where it is left out.
   Eigen::Index at(std::size_t scene, Eigen::Index row) const;
   Eigen::Index rows(std::size_t scene) const;
 
@@ -47,11 +47,11 @@ struct Seat {
   double left() const;
 };
 
-/// By how much (over the noise) each sample moves where a law at a place has the value one.
+/// Change of each sample (over the noise) by a law at a place whose value is one.
 Eigen::VectorXd levers_of(const Observations& observations, const effects::LawPlace& place);
 
-/// The places at which what was recorded could show a law, beside a fit; those where little more
-/// than noise is left are not among them.
+/// The places at which the recordings could show a law beside a fit. Places where the fit leaves
+/// little more than noise are left out.
 std::vector<Seat> seats_of(const Observations& observations, const Rows& rows, const Fit& fit);
 
 }  // namespace flexcomp::diagnosis::grammar

@@ -38,8 +38,7 @@ class Periodogram {
       gram += weight_[i] * basis * basis.transpose();
       moment += product_[i] * basis;
     }
-    // Of a square: keeps a wave that is nearly constant solvable.
-    constexpr double kIndependent = 1e-6;
+    constexpr double kIndependent = 1e-6;  // of a square: keeps a nearly constant wave solvable
     gram.diagonal() *= 1 + kIndependent;
     return moment.dot(gram.ldlt().solve(moment)) - moment[2] * moment[2] / gram(2, 2);
   }

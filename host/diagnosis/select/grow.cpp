@@ -12,7 +12,8 @@ namespace {
 /// How many findings show in a place.
 using Places = std::map<Group, int>;
 
-/// Those of a shortlist beside a fit that can be, quickly fitted, the best first.
+/// Candidates of a shortlist, each fitted quickly beside a fit, the best first. Fits of machines
+/// that cannot be are left out.
 std::vector<Fit> tried_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
   std::vector<Fit> all;
   std::size_t looked_at = 0;

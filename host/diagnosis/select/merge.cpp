@@ -11,7 +11,8 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// One hypothesis in the place of two that are not far better than it; nothing where there is none.
+/// The selection with one hypothesis in the place of two that are not far better than it; nothing
+/// where no two are.
 std::optional<Selection> merged(const Inquiry& inquiry, const Sought& sought,
                                 const Selection& selection) {
   const std::size_t count = selection.findings.size();
