@@ -38,8 +38,8 @@ bool is_remnant(const Evidence& evidence, const std::vector<Group>& fallen) {
                      [&](const Group& other) { return are_of_one_place(other, evidence.group); });
 }
 
-/// Withdraws what proves nothing; `fallen` are the places where it showed. What is kept may have
-/// stood by what is not: true where it is to be looked at anew.
+/// Withdraws the findings that prove nothing, and adds the places where they showed to `fallen`.
+/// Returns true where the others must be judged anew, since they may have stood by those.
 bool withdraw_unproved(const Inquiry& inquiry, Proved* proved, std::vector<Group>* fallen) {
   const Selection& selection = proved->selection;
   std::vector<Chosen> kept;
