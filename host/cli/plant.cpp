@@ -188,7 +188,7 @@ std::unique_ptr<simulation::PlantBus> rsi_controller(const PlantOptions& options
   return simulation::open_rsi_controller(options.rsi, rsi);
 }
 
-int run(const PlantOptions& options) {
+void refuse_contradictions(const PlantOptions& options) {
   const int peers = !options.bus.empty() + !options.rsi.empty() + !options.table.empty();
   if (peers != 1) {
     throw InputError("expected --bus or --rsi, or --table for a compensator inside this process");
@@ -199,26 +199,109 @@ int run(const PlantOptions& options) {
   if (options.arc && options.dynamic.empty()) {
     throw InputError("--arc needs --dynamic: a robot that stands still needs no control");
   }
-  model::Robot known = load_robot(options.model);
-  const model::Robot robot = known;
-  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
-  known.elastic = compensated_model(options, robot);
+}
+
+/// The other side of the plant's bus, and the table that a compensator inside holds on to.
+struct Peer {
+  std::unique_ptr<TableFile> table;
   std::unique_ptr<simulation::PlantBus> bus;
+};
+
+/// Connects the plant, and sets the options that depend on the peer. `known`: the robot as the
+/// compensator knows it.
+Peer open_peer(const PlantOptions& options, const model::Robot& known,
+               simulation::PlantOptions* plant) {
+  Peer peer;
+  if (!options.rsi.empty()) {
+    peer.bus = rsi_controller(options);
+    plant->obeys = true;
+    plant->hold_time = std::numeric_limits<double>::infinity();
+  } else if (options.bus.empty()) {
+    peer.table = std::make_unique<TableFile>(read_table(options.table, known));
+    peer.bus = simulation::make_inner_bus(node_config(options, known), peer.table->table, false);
+    plant->lockstep = true;
+  } else {
+    peer.bus = simulation::open_plant_bus(options.bus, options.key);
+  }
+  return peer;
+}
+
+void print_json(const PlantOptions& options, const GainLimit& limit,
+                const simulation::PlantRun& result) {
+  nlohmann::ordered_json json = summary(result);
+  json["largest_stable_gain"] =
+      std::isfinite(limit.stable) ? nlohmann::ordered_json(limit.stable) : nullptr;
+  json["largest_safe_gain"] = limit.safe;
+  json["process"] = to_json(options.process);
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_refusal(const simulation::PlantRun& result) {
+  const std::string why = result.arm_reply != 0
+                              ? describe_reply(result.arm_reply)
+                              : "nothing was refused, but the correction did not become active";
+  fmt::print("not armed: {}; largest safe gain {:.4g}\n", why, result.largest_gain);
+}
+
+void print_summary(const PlantOptions& options, const GainLimit& limit,
+                   const simulation::PlantRun& result) {
+  fmt::print("{} ticks, {} without an answer; engagement {:.3f} to {:.3f} of the nominal depth\n",
+             result.ticks, result.unanswered, result.least_engagement, result.most_engagement);
+  fmt::print("largest safe gain {:.4g}, with a cut {:g} mm deep\n", limit.safe,
+             1e3 * options.process.process.depth_of_cut);
+}
+
+/// Did the cut become so deep that the tool was stopped? Then it says so.
+bool has_run_away(const PlantOptions& options, const simulation::PlantRun& result) {
+  constexpr double kStopped = 0.999;  // of the engagement at which the tool is stopped: rounding
+  if (options.allow_unstable ||
+      result.most_engagement <= kStopped * simulation::RobotInCut::kMostEngagement) {
+    return false;
+  }
+  fmt::print(stderr,
+             "flexcomp: {}: the cut became {:g} times as deep as it should be, and was stopped "
+             "there, as a spindle would stall: a deeper cut (--depth-of-cut) or less force\n",
+             options.path, simulation::RobotInCut::kMostEngagement);
+  return true;
+}
+
+/// Writes and prints what came of the plant's run; the exit code.
+int finish(const PlantOptions& options, const GainLimit& limit,
+           const simulation::PlantRun& result) {
+  const bool refused = !options.without_compensation && (!result.armed || result.is_unstable);
+  if (!refused && !options.out.empty()) {
+    recording::write_recording(options.out, result.recording);
+  }
+  if (result.is_unstable) {
+    fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));
+  }
+  if (options.json) {
+    print_json(options, limit, result);
+  } else if (result.is_unstable) {
+    return kDoesNotHold;
+  } else if (refused) {
+    print_refusal(result);
+  } else {
+    print_summary(options, limit, result);
+  }
+  if (refused) {
+    return kDoesNotHold;
+  }
+  const bool ran_away = has_run_away(options, result);
+  warn(options, limit, result);
+  return ran_away ? kDoesNotHold : kDone;
+}
+
+int run(const PlantOptions& options) {
+  refuse_contradictions(options);
+  const model::Robot robot = load_robot(options.model);
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
+  model::Robot known = robot;
+  known.elastic = compensated_model(options, robot);
   simulation::PlantOptions plant_options = options.plant;
   plant_options.compensate = !options.without_compensation;
   plant_options.model_hash = model_hash(model::six_axis_model(known));
-  std::unique_ptr<TableFile> table;
-  if (!options.rsi.empty()) {
-    bus = rsi_controller(options);
-    plant_options.obeys = true;
-    plant_options.hold_time = std::numeric_limits<double>::infinity();
-  } else if (options.bus.empty()) {
-    table = std::make_unique<TableFile>(read_table(options.table, known));
-    bus = simulation::make_inner_bus(node_config(options, known), table->table, false);
-    plant_options.lockstep = true;
-  } else {
-    bus = simulation::open_plant_bus(options.bus, options.key);
-  }
+  const Peer peer = open_peer(options, known, &plant_options);
   const recording::Recording path = recording::read_recording(options.path);
   const GainLimit limit = gain_limit_of(options, known, path);
   simulation::Contour contour(elastic, path, options.process.process.side);
@@ -231,49 +314,11 @@ int run(const PlantOptions& options) {
     plant_options.stable_gain = limit.stable;
   }
   simulation::Plant plant(with_laws(options, robot, robot_in_cut(options, robot)),
-                          std::move(contour), plant_options, bus.get());
+                          std::move(contour), plant_options, peer.bus.get());
   Progress progress("milling", 1000);
-  const simulation::PlantRun result =
-      plant.run([&](double share) { progress.show(static_cast<std::size_t>(1000 * share)); });
-  const bool refused = plant_options.compensate && (!result.armed || result.is_unstable);
-  if (!refused && !options.out.empty()) {
-    recording::write_recording(options.out, result.recording);
-  }
-  if (result.is_unstable) {
-    fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));
-  }
-  if (options.json) {
-    nlohmann::ordered_json json = summary(result);
-    json["largest_stable_gain"] =
-        std::isfinite(limit.stable) ? nlohmann::ordered_json(limit.stable) : nullptr;
-    json["largest_safe_gain"] = limit.safe;
-    json["process"] = to_json(options.process);
-    fmt::print("{}\n", json.dump(2));
-  } else if (result.is_unstable) {
-    return kDoesNotHold;
-  } else if (refused) {
-    const std::string why = result.arm_reply != 0
-                                ? describe_reply(result.arm_reply)
-                                : "nothing was refused, but the correction did not become active";
-    fmt::print("not armed: {}; largest safe gain {:.4g}\n", why, result.largest_gain);
-  } else {
-    fmt::print("{} ticks, {} without an answer; engagement {:.3f} to {:.3f} of the nominal depth\n",
-               result.ticks, result.unanswered, result.least_engagement, result.most_engagement);
-    fmt::print("largest safe gain {:.4g}, with a cut {:g} mm deep\n", limit.safe,
-               1e3 * options.process.process.depth_of_cut);
-  }
-  const bool ran_away = !refused && !options.allow_unstable &&
-                        result.most_engagement > 0.999 * simulation::RobotInCut::kMostEngagement;
-  if (ran_away) {
-    fmt::print(stderr,
-               "flexcomp: {}: the cut became {:g} times as deep as it should be, and was stopped "
-               "there, as a spindle would stall: a deeper cut (--depth-of-cut) or less force\n",
-               options.path, simulation::RobotInCut::kMostEngagement);
-  }
-  if (!refused) {
-    warn(options, limit, result);
-  }
-  return refused || ran_away ? kDoesNotHold : kDone;
+  return finish(options, limit, plant.run([&](double share) {
+    progress.show(static_cast<std::size_t>(1000 * share));
+  }));
 }
 
 /// A controller stops the robot in the midst of a cut: then there is no contour to write.
