@@ -238,6 +238,64 @@ void seek_laws_last(const Inquiry& inquiry, const Settings& settings, Diagnosis*
   diagnosis->laws_stopped = budget.has_stopped();
 }
 
+/// The frame in which positions were measured, as it was registered, and the hypotheses about it.
+struct Basis {
+  Fit given;
+  Dictionary dictionary;
+};
+
+/// Fits the registered frame again, and simulates the hypotheses about it: the noise has changed.
+void renew(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+           const Settings& settings, Basis* basis) {
+  basis->given = fit(observations, basis->given.chosen, kSteps);
+  basis->dictionary =
+      Dictionary(observations, hypotheses, basis->given.machine, settings.simulating);
+}
+
+Basis basis_of(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+               const Settings& settings) {
+  Fit given = register_frame(*observations, hypotheses);
+  Dictionary dictionary(*observations, hypotheses, given.machine, settings.simulating);
+  Basis basis{std::move(given), std::move(dictionary)};
+  if (observations->is_static) {
+    learn_noise(observations, hypotheses, basis.dictionary, basis.given);
+    renew(*observations, hypotheses, settings, &basis);
+  }
+  return basis;
+}
+
+/// Fits anew where the findings leave something, or are many.
+void refit_open(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+                Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  const bool leaves_something = is_open(*diagnosis);
+  if (!leaves_something && !are_many(inquiry, diagnosis->choice.fit)) {
+    return;
+  }
+  if (leaves_something && diagnosis->proposal.empty()) {
+    diagnosis->proposal = propose(observations, diagnosis->choice.fit).terms;
+  }
+  refit(inquiry, hypotheses, diagnosis);
+  diagnosis->left = locate(observations, diagnosis->choice.fit.remainder);
+}
+
+/// Suggests what to record next: what tells a finding from its nearest alternative, else what shows
+/// the cause of a law in time.
+void suggest(const Observations& observations, Diagnosis* diagnosis) {
+  for (std::size_t i = 0; i < diagnosis->choice.findings.size(); ++i) {
+    const std::vector<Alternative>& others = diagnosis->choice.findings[i].alternatives;
+    if (diagnosis->suggested_experiment.empty() && !others.empty() &&
+        others.front().delta_bic < kSameEvidence) {
+      diagnosis->suggested_experiment = suggest_experiment(observations, *diagnosis, i);
+    }
+  }
+  for (const Finding& finding : diagnosis->choice.findings) {
+    if (diagnosis->suggested_experiment.empty()) {
+      diagnosis->suggested_experiment = grammar::next_recording(finding.chosen);
+    }
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -250,21 +308,14 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
              &diagnosis);
     return diagnosis;
   }
-  Fit given = register_frame(*observations, hypotheses);
-  Dictionary dictionary(*observations, hypotheses, given.machine, settings.simulating);
-  if (observations->is_static) {
-    learn_noise(observations, hypotheses, dictionary, given);
-    given = fit(*observations, given.chosen, kSteps);
-    dictionary = Dictionary(*observations, hypotheses, given.machine, settings.simulating);
-  }
-  const Inquiry inquiry{*observations, dictionary, settings.false_discovery, given};
-  diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary, given);
-  diagnosis.excitation = excitation(*observations, hypotheses, dictionary);
-  diagnosis.location = locate(*observations, given.remainder);
+  Basis basis = basis_of(observations, hypotheses, settings);
+  const Inquiry inquiry{*observations, basis.dictionary, settings.false_discovery, basis.given};
+  diagnosis.clocks = check_clocks(*observations, hypotheses, basis.dictionary, basis.given);
+  diagnosis.excitation = excitation(*observations, hypotheses, basis.dictionary);
+  diagnosis.location = locate(*observations, basis.given.remainder);
   diagnosis.choice = choose(inquiry, settings.choosing);
   const auto choose_anew = [&] {
-    given = fit(*observations, given.chosen, kSteps);
-    dictionary = Dictionary(*observations, hypotheses, given.machine, settings.simulating);
+    renew(*observations, hypotheses, settings, &basis);
     diagnosis.choice = choose(inquiry, settings.choosing);
   };
   for (int round = 0; round < kNoiseRounds && lower_noise(observations, diagnosis.choice.fit);
@@ -280,14 +331,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     diagnosis.indistinguishable.clear();
     settle(inquiry, settings, &diagnosis);
   }
-  const bool leaves_something = is_open(diagnosis);
-  if (leaves_something || are_many(inquiry, diagnosis.choice.fit)) {
-    if (leaves_something && diagnosis.proposal.empty()) {
-      diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
-    }
-    refit(inquiry, hypotheses, &diagnosis);
-    diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
-  }
+  refit_open(inquiry, hypotheses, &diagnosis);
   if (!settings.law_seconds && diagnosis.verdict == "unexplained") {
     seek_laws_last(inquiry, settings, &diagnosis);
   }
@@ -295,18 +339,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     settle_forms(inquiry, &diagnosis.choice);
   }
   diagnosis.trials = weigh_trials(inquiry, diagnosis.choice);
-  for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
-    const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;
-    if (diagnosis.suggested_experiment.empty() && !others.empty() &&
-        others.front().delta_bic < kSameEvidence) {
-      diagnosis.suggested_experiment = suggest_experiment(*observations, diagnosis, i);
-    }
-  }
-  for (const Finding& finding : diagnosis.choice.findings) {
-    if (diagnosis.suggested_experiment.empty()) {
-      diagnosis.suggested_experiment = grammar::next_recording(finding.chosen);
-    }
-  }
+  suggest(*observations, &diagnosis);
   return diagnosis;
 }
 
