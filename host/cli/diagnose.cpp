@@ -171,7 +171,7 @@ void summarize(const model::Robot& robot, const diagnosis::Observations& observa
       say(fmt::format("what can be told of joint {}: {}", joint.joint, diagnosis::verdict(joint)));
     }
   }
-  fmt::print("{}{}\n", result.verdict, result.reason.empty() ? "" : ": " + result.reason);
+  fmt::print("{}{}\n", name_of(result.verdict), result.reason.empty() ? "" : ": " + result.reason);
   for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
     say(diagnosis::statement(observations, result, i));
   }

@@ -91,7 +91,7 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
   diagnosis->choice.findings.clear();
   diagnosis->choice.fit = fit(observations, {}, 0);
   diagnosis->indistinguishable.clear();
-  diagnosis->verdict = "unexplained";
+  diagnosis->verdict = Verdict::unexplained;
   diagnosis->reason = reason;
 }
 
@@ -128,7 +128,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   const std::string more = more_than_noise(observations, found.remainder);
   const bool is_noise = more.empty();
   if (found.chosen.empty()) {
-    diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
+    diagnosis->verdict = is_noise ? Verdict::no_mismatch : Verdict::unexplained;
     diagnosis->reason = is_noise ? "" : reason_of_nothing(diagnosis->choice);
   } else if (found.chosen.size() > 1 && diagnosis->cancellation > kMostCancellation) {
     withdraw(observations,
@@ -136,7 +136,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
              "is not there",
              diagnosis);
   } else {
-    diagnosis->verdict = is_noise ? "explained" : "partly_explained";
+    diagnosis->verdict = is_noise ? Verdict::explained : Verdict::partly_explained;
     diagnosis->reason = more;
     // A law is such a form itself, with proof.
     if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
@@ -151,7 +151,8 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
 }
 
 bool is_open(const Diagnosis& diagnosis) {
-  return diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained";
+  return diagnosis.verdict == Verdict::unexplained ||
+         diagnosis.verdict == Verdict::partly_explained;
 }
 
 /// The diagnosis with laws that nobody listed in the place of its findings, if these leave much
@@ -170,7 +171,7 @@ Diagnosis with_laws(const Observations& observations, const Diagnosis& before, C
   diagnosis.proposal.clear();
   find_groups(&diagnosis);
   judge(observations, &diagnosis);
-  return diagnosis.verdict == "unexplained" ? before : diagnosis;
+  return diagnosis.verdict == Verdict::unexplained ? before : diagnosis;
 }
 
 /// Which of two diagnoses with laws: the second only by strong evidence, or with fewer numbers that
@@ -298,6 +299,20 @@ void suggest(const Observations& observations, Diagnosis* diagnosis) {
 
 }  // namespace
 
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_mismatch:
+      return "no_mismatch";
+    case Verdict::explained:
+      return "explained";
+    case Verdict::partly_explained:
+      return "partly_explained";
+    case Verdict::unexplained:
+      break;
+  }
+  return "unexplained";
+}
+
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
                    const Settings& settings) {
   Diagnosis diagnosis;
@@ -332,7 +347,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     settle(inquiry, settings, &diagnosis);
   }
   refit_open(inquiry, hypotheses, &diagnosis);
-  if (!settings.law_seconds && diagnosis.verdict == "unexplained") {
+  if (!settings.law_seconds && diagnosis.verdict == Verdict::unexplained) {
     seek_laws_last(inquiry, settings, &diagnosis);
   }
   if (!diagnosis.is_weighed_whole) {

@@ -38,7 +38,7 @@ void take_members(const Inquiry& inquiry, const Fit& whole, std::size_t others,
   diagnosis->nearest.clear();
   diagnosis->indistinguishable.clear();
   diagnosis->reason = more_than_noise(observations, diagnosis->updated().remainder);
-  diagnosis->verdict = diagnosis->reason.empty() ? "explained" : "partly_explained";
+  diagnosis->verdict = diagnosis->reason.empty() ? Verdict::explained : Verdict::partly_explained;
 }
 
 bool is_number_of_family(const Inquiry& inquiry, const Chosen& chosen) {
@@ -113,7 +113,7 @@ void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   if (is_begun || are_many(inquiry, found)) {
     take_members(inquiry, together(inquiry, found, hypotheses), 0, diagnosis);
   }
-  if (diagnosis->is_weighed_whole || diagnosis->verdict == "explained") {
+  if (diagnosis->is_weighed_whole || diagnosis->verdict == Verdict::explained) {
     return;
   }
   const std::size_t findings = diagnosis->choice.findings.size();
@@ -165,7 +165,7 @@ void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   const Eigen::VectorXd found =
       model_error(observations, first.updated().remainder.head(observations.train));
   // A coupled drive or a delay is no number, so that less is left than was thought.
-  if (first.verdict != "explained" && (found.array() < kMuchLess * expected.array()).any()) {
+  if (first.verdict != Verdict::explained && (found.array() < kMuchLess * expected.array()).any()) {
     Diagnosis second = refit_over(found, inquiry, hypotheses, *diagnosis);
     if (!predicts_better(observations, second.updated(), first.updated())) {
       first = std::move(second);

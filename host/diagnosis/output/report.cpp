@@ -294,9 +294,10 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of {0}"
       "</title>\n<style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n{2}",
       escaped(observations.machine.robot.name), kStyle, checks_html(origin.checks));
-  html += fmt::format("<p class=\"lead\">{}</p>\n<p>Verdict: <b>{}</b>{}</p>\n",
-                      escaped(headline(observations, diagnosis)), in_words(diagnosis.verdict),
-                      diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
+  html +=
+      fmt::format("<p class=\"lead\">{}</p>\n<p>Verdict: <b>{}</b>{}</p>\n",
+                  escaped(headline(observations, diagnosis)), in_words(name_of(diagnosis.verdict)),
+                  diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
   html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
   html += law_pictures(observations, diagnosis) +
           (diagnosis.laws_stopped ? fmt::format("<p>{}</p>\n", kLawsStopped) : "");
