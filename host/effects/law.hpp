@@ -98,7 +98,7 @@ struct Law {
   std::function<std::string(const model::Robot&, int joint)> impossible;
   /// Gives the machine the effect, beside the effects it has.
   std::function<void(const Values&, int joint, Machine*)> apply;
-  /// A term that does nearly the same, where `apply` alters the model; may be left out.
+  /// A term that acts to first order as `apply` does where that alters the model; may be left out.
   std::function<Term(const Values&, int joint)> sketch;
   /// Numbers that follow from the parameters; may be left out.
   std::function<std::vector<Derived>(const model::Robot&, int joint, const Values&)> derived;

@@ -24,8 +24,8 @@ Normal normal_of(const Seat& seat, const Eigen::MatrixXd& courses);
 std::vector<Normal> normals_by_stretch(const Seat& seat, const Rows& rows,
                                        const Eigen::MatrixXd& courses);
 
-/// By how much courses lower the sum of squares where they were not fitted to: for each of several
-/// random halves of the stretches the gain on the other half (Meinshausen and Bühlmann 2010,
+/// Fall of the sum of squares by courses where they were not fitted: for each of several random
+/// halves of the stretches the gain on the other half (Meinshausen and Bühlmann 2010,
 /// "Stability selection", whose subsamples are single samples). The halves are the same for all
 /// courses.
 std::vector<double> unseen_gains(const std::vector<Normal>& by_stretch);

@@ -27,11 +27,11 @@ struct Rows {
   int stretches = 0;
 };
 
-/// A place where a law may act, and how what a fit leaves shows there.
+/// A place where a law may act, with the remainder of a fit as it shows there.
 ///
-/// A law whose value is u in a row moves each sample of that row by lever · u. So least squares
-/// over the samples to fit to become sums over rows: those of w·u² and of p·u. Samples that are far
-/// off count as if they were less so.
+/// A law whose value is u in a row moves each sample of that row by lever · u. Least squares over
+/// the samples to fit to therefore become sums over rows, of w·u² and of p·u. Outliers count as if
+/// they were just no outliers.
 struct Seat {
   effects::LawPlace place;
   std::string name;         ///< as robot.yaml has it
@@ -40,10 +40,10 @@ struct Seat {
   Eigen::VectorXd product;  ///< p: levers times remainder
   Eigen::MatrixXd fitted;   ///< levers times an orthonormal base of what is fitted already
 
-  /// Is it a sensor's? What is no function of what was recorded is told there, as an error of the
+  /// Is it a sensor's? An error that follows no recorded signal shows there, as an error of the
   /// measurement in time: nobody knows whether the machine moved.
   bool is_sensor() const;
-  /// Root mean square of what is left there, over the noise.
+  /// Root mean square of the remainder there, over the noise.
   double left() const;
 };
 
