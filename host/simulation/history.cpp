@@ -6,15 +6,6 @@
 namespace flexcomp::simulation {
 namespace {
 
-/// A signal (n×m) with its slopes at a share of the way from one row to the next: cubic (Hermite).
-Eigen::RowVectorXd hermite(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                           const Eigen::MatrixXd& slope, Eigen::Index row, double share) {
-  const double length = time[row + 1] - time[row];
-  const double to_end = share * share * (3 - 2 * share);
-  return (1 - to_end) * values.row(row) + to_end * values.row(row + 1) +
-         length * share * (1 - share) * ((1 - share) * slope.row(row) - share * slope.row(row + 1));
-}
-
 /// Slopes of the parabolas through each row and its neighbours; straight at the ends.
 Eigen::MatrixXd slopes(const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
   const Eigen::Index last = time.size() - 1;
@@ -33,24 +24,40 @@ Eigen::MatrixXd slopes(const Eigen::VectorXd& time, const Eigen::MatrixXd& value
   return slope;
 }
 
-/// A signal between two rows, cubic (Hermite).
+/// A signal between two rows: the cubic with its values and slopes there (Hermite). `Value`: a
+/// number, or one for each column.
+template <typename Value>
 class Cubic {
  public:
-  Cubic(double first, double last, double slope, double last_slope, double length)
-      : linear_(slope),
+  Cubic(const Value& first, const Value& last, const Value& slope, const Value& last_slope,
+        double length)
+      : first_(first),
+        linear_(slope),
         square_(((last - first) / length * 3 - 2 * slope - last_slope) / length),
         cube_((slope + last_slope - 2 * (last - first) / length) / (length * length)) {}
 
+  /// The signal at `s` after the first row.
+  Value at(double s) const { return first_ + s * (linear_ + s * (square_ + s * cube_)); }
+
   /// Distance of a first-order lag behind the signal at `s` after the first row, once settled.
-  double lag(double s, double constant) const {
-    const double velocity = linear_ + s * (2 * square_ + s * 3 * cube_);
-    const double acceleration = 2 * square_ + s * 6 * cube_;
+  Value lag(double s, double constant) const {
+    const Value velocity = linear_ + s * (2 * square_ + s * 3 * cube_);
+    const Value acceleration = 2 * square_ + s * 6 * cube_;
     return constant * (velocity - constant * (acceleration - constant * 6 * cube_));
   }
 
  private:
-  double linear_, square_, cube_;
+  Value first_, linear_, square_, cube_;
 };
+
+/// A signal (n×m) with its slopes at a share of the way from a row to the next.
+Eigen::RowVectorXd between_rows(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                                const Eigen::MatrixXd& slope, Eigen::Index row, double share) {
+  const double length = time[row + 1] - time[row];
+  const Cubic<Eigen::RowVectorXd> piece(values.row(row), values.row(row + 1), slope.row(row),
+                                        slope.row(row + 1), length);
+  return piece.at(share * length);
+}
 
 /// Goes to the row at or before a time that the recording spans; of its last row to the one before.
 void go_to(double wanted, const Eigen::VectorXd& time, Eigen::Index* row) {
@@ -203,7 +210,7 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
   output[0] -= behind;
   for (Eigen::Index row = 1; row < input.size(); ++row) {
     const double step = time[row] - time[row - 1];
-    const Cubic piece(input[row - 1], input[row], slope[row - 1], slope[row], step);
+    const Cubic<double> piece(input[row - 1], input[row], slope[row - 1], slope[row], step);
     const double start = piece.lag(0, constant);
     const double end = piece.lag(step, constant);
     behind = end + (behind - start) * std::exp(-step / constant);
@@ -222,14 +229,14 @@ Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::Matri
                                  double delay) {
   const Eigen::MatrixXd slope = slopes(time, values);
   return late_turned_at_ends(time, values, delay, [&](Eigen::Index row, double share) {
-    return hermite(time, values, slope, row, share);
+    return between_rows(time, values, slope, row, share);
   });
 }
 
 Eigen::MatrixXd delayed_motion(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
                                const Eigen::MatrixXd& velocity, double delay) {
   const auto between = [&](Eigen::Index row, double share) {
-    return hermite(time, position, velocity, row, share);
+    return between_rows(time, position, velocity, row, share);
   };
   const auto beyond = [&](double wanted) -> Eigen::RowVectorXd {
     const Eigen::Index edge = edge_near(wanted, time);
