@@ -185,18 +185,18 @@ bool fails_held_out(const Observations& observations, const Eigen::VectorXd& rem
   if (observations.is_static) {
     return false;
   }
-  struct Part {
+  struct Sum {
     double sum = 0, count = 0;
     double ratio() const { return std::sqrt(sum / std::max(count, 1.0)); }
   };
-  std::map<Eigen::Index, std::array<Part, 2>> components;
+  std::map<Eigen::Index, std::array<Sum, 2>> components;
   for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
     if (at.channel != group.first ||
         (at.channel != simulation::tcp_position && at.component != group.second)) {
       continue;
     }
-    Part& part = components[at.component][i < observations.train ? 0 : 1];
+    Sum& part = components[at.component][i < observations.train ? 0 : 1];
     const double value = std::clamp(remainder[i], -kGross, kGross);
     part.sum += value * value;
     part.count += 1;
