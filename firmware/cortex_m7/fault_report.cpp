@@ -1,12 +1,6 @@
 #include "cortex_m7/fault_report.hpp"
 
-namespace {
-
-std::uint32_t system_control(std::uint32_t address) {
-  return *reinterpret_cast<volatile std::uint32_t*>(address);
-}
-
-}  // namespace
+#include "cortex_m7/register_at.hpp"
 
 extern "C" {
 
@@ -16,11 +10,11 @@ extern const std::uint32_t __stack_bottom[];
 /// for it, it pushed nothing.
 [[noreturn, gnu::used]] void report_fault(const std::uint32_t* frame) {
   constexpr std::uint32_t kPushFailed = 0x1010;  // CFSR: MSTKERR, STKERR
-  const std::uint32_t status = system_control(0xE000ED28);
+  const std::uint32_t status = flexcomp::cortex_m7::register_at(0xE000ED28);
   const bool pushed = frame >= __stack_bottom && (status & kPushFailed) == 0;
-  const flexcomp::cortex_m7::FaultReport report = {pushed ? frame[6] : 0, pushed ? frame[5] : 0,
-                                                   status, system_control(0xE000ED2C),
-                                                   system_control(0xE000ED38)};
+  const flexcomp::cortex_m7::FaultReport report = {
+      pushed ? frame[6] : 0, pushed ? frame[5] : 0, status,
+      flexcomp::cortex_m7::register_at(0xE000ED2C), flexcomp::cortex_m7::register_at(0xE000ED38)};
   fault_reported(report);
 }
 

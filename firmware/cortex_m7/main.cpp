@@ -5,6 +5,7 @@
 
 #include "cortex_m7/board.hpp"
 #include "cortex_m7/fault_report.hpp"
+#include "cortex_m7/register_at.hpp"
 #include "cortex_m7/stack.hpp"
 
 namespace {
@@ -14,6 +15,7 @@ using flexcomp::NodeSettings;
 using flexcomp::SlcanNode;
 using flexcomp::TableSlot;
 using flexcomp::cortex_m7::FaultReport;
+using flexcomp::cortex_m7::register_at;
 namespace board = flexcomp::cortex_m7::board;
 
 constexpr std::uint32_t kStepsASecond = 1000;
@@ -35,10 +37,6 @@ struct LastWords {
   FaultReport report;
 };
 [[gnu::section(".noinit")]] LastWords last_words;
-
-volatile std::uint32_t& system_control(std::uint32_t address) {
-  return *reinterpret_cast<volatile std::uint32_t*>(address);
-}
 
 }  // namespace
 
@@ -71,7 +69,7 @@ void tick() {
 /// Armv7-M Architecture Reference Manual, B3.2.6: a reset by software.
 [[noreturn]] void restart() {
   asm volatile("dsb" ::: "memory");
-  system_control(0xE000ED0C) = 0x05FA0004;
+  register_at(0xE000ED0C) = 0x05FA0004;
   for (;;) {
   }
 }
@@ -110,10 +108,10 @@ void report_last_words() {
 void start_steps() {
   constexpr std::uint32_t kLowestPriority = 0xFFU << 24U;
   constexpr std::uint32_t kEnableInterruptProcessorClock = 7;
-  system_control(0xE000ED20) = system_control(0xE000ED20) | kLowestPriority;
-  system_control(0xE000E014) = board::clock_frequency() / kStepsASecond - 1;
-  system_control(0xE000E018) = 0;
-  system_control(0xE000E010) = kEnableInterruptProcessorClock;
+  register_at(0xE000ED20) = register_at(0xE000ED20) | kLowestPriority;
+  register_at(0xE000E014) = board::clock_frequency() / kStepsASecond - 1;
+  register_at(0xE000E018) = 0;
+  register_at(0xE000E010) = kEnableInterruptProcessorClock;
 }
 
 }  // namespace

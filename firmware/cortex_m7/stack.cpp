@@ -1,5 +1,7 @@
 #include "cortex_m7/stack.hpp"
 
+#include "cortex_m7/register_at.hpp"
+
 extern "C" {
 extern std::uint32_t __stack_guard[];
 extern std::uint32_t __stack_bottom[];
@@ -11,10 +13,6 @@ namespace {
 
 constexpr std::uint32_t kPaint = 0xA5C3F00F;
 
-volatile std::uint32_t& word(std::uint32_t address) {
-  return *reinterpret_cast<volatile std::uint32_t*>(address);
-}
-
 /// Armv7-M Architecture Reference Manual, B3.5: region 0 of the memory protection unit, 256 bytes,
 /// no access; elsewhere the default map. The handlers of hard faults and of the watchdog run
 /// without it, and have the guarded bytes for their own.
@@ -23,10 +21,10 @@ void guard_stack() {
   constexpr std::uint32_t kSize256 = 7U << 1U;
   constexpr std::uint32_t kEnableRegion = 1;
   constexpr std::uint32_t kEnableWithDefaultMap = 5;
-  word(0xE000ED98) = 0;
-  word(0xE000ED9C) = reinterpret_cast<std::uint32_t>(__stack_guard);
-  word(0xE000EDA0) = kNoExecution | kSize256 | kEnableRegion;
-  word(0xE000ED94) = kEnableWithDefaultMap;
+  register_at(0xE000ED98) = 0;
+  register_at(0xE000ED9C) = reinterpret_cast<std::uint32_t>(__stack_guard);
+  register_at(0xE000EDA0) = kNoExecution | kSize256 | kEnableRegion;
+  register_at(0xE000ED94) = kEnableWithDefaultMap;
   asm volatile("dsb\n isb" ::: "memory");
 }
 

@@ -7,6 +7,7 @@
 
 #include "check/arm.hpp"
 #include "check/motion.hpp"
+#include "recording/sampling.hpp"
 #include "statistics/median.hpp"
 
 namespace flexcomp::check {
@@ -39,6 +40,7 @@ Eigen::Index count_missing(const recording::Samples& samples) {
 
 /// Is a sample there in every so many rows, as of a sensor slower than the log?
 bool is_there_regularly(const recording::Samples& samples) {
+  constexpr std::size_t kFewestSteps = 5;  // chosen by judgement: fewer are regular by chance
   std::vector<Eigen::Index> steps;
   Eigen::Index last = -1;
   for (Eigen::Index row = 0; row < samples.rows(); ++row) {
@@ -49,16 +51,12 @@ bool is_there_regularly(const recording::Samples& samples) {
       last = row;
     }
   }
-  if (steps.size() < 5) {
-    return false;
-  }
-  std::sort(steps.begin(), steps.end());
-  return steps[steps.size() * 9 / 10] <= steps[steps.size() / 2] + 1;
+  return steps.size() >= kFewestSteps && recording::regular_step(std::move(steps)).has_value();
 }
 
 Checks check_missing(const recording::Recording& recording, const recording::Samples& samples,
                      const char* name) {
-  constexpr double kMany = 0.3;
+  constexpr double kMany = 0.3;  // of the samples, chosen by judgement: fewer are worth no note
   const Eigen::Index missing = count_missing(samples);
   if (missing == samples.rows()) {
     return {said_of(Severity::warning, "column.empty", recording,
@@ -159,7 +157,7 @@ Checks check_encoders(const recording::Recording& recording) {
 
 Checks check_columns(const recording::Recording& recording) {
   Checks checks;
-  const recording::Samples* q = angles_of(recording);
+  const recording::Samples* q = recording.angles();
   if (q == nullptr || recording.size() < kFewestForColumns) {
     return checks;
   }
@@ -189,7 +187,7 @@ Checks check_columns(const recording::Recording& recording) {
 Checks check_motion(const recording::Recording& recording) {
   constexpr double kMoves = 1e-4;  // rad
   constexpr double kTogether = 0.9995;
-  const recording::Samples* q = angles_of(recording);
+  const recording::Samples* q = recording.angles();
   Checks checks;
   if (q == nullptr || recording.size() < kFewestForColumns) {
     return checks;
@@ -231,10 +229,12 @@ Checks check_motion(const recording::Recording& recording) {
 
 Checks check_limits(const model::Robot& robot, const recording::Recording& recording) {
   constexpr double kAngleMargin = 0.1;  // rad: limits in a model may be a little off
+  // Times the limit, chosen by judgement: differentiation and noise raise a speed, an overload is
+  // allowed for a while, and a wrong unit is off by far more.
   constexpr double kSpeedMargin = 1.5;
   constexpr double kTorqueMargin = 1.5;
   Checks checks;
-  const recording::Samples* q = angles_of(recording);
+  const recording::Samples* q = recording.angles();
   if (q == nullptr || q->cols() != joint_count(robot)) {
     return checks;
   }

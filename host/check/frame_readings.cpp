@@ -14,6 +14,7 @@ namespace {
 constexpr double kFewestExtent = 0.02;
 /// rad: tools that turn by less than this look like a frame that is shifted.
 constexpr double kToolTurns = 0.1;
+/// Poses: a frame has six numbers, and three points tell it; twice as many show a misfit.
 constexpr Eigen::Index kFewestPoses = 6;
 
 std::string vector_text(const Vector3<double>& vector) {
@@ -102,7 +103,7 @@ Reading tool(const model::Robot& robot, const PoseRows& rows) {
 }
 
 Reading frame_and_tool(const PoseRows& rows) {
-  constexpr int kRounds = 60;
+  constexpr int kRounds = 60;  // of two fits in turn
   Registration found;
   Vector3<double> offset = Vector3<double>::Zero();
   for (int round = 0; round < kRounds; ++round) {

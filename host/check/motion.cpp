@@ -19,10 +19,6 @@ double quantile(std::vector<double> values, double share) {
 
 }  // namespace
 
-const recording::Samples* angles_of(const recording::Recording& recording) {
-  return recording.q_meas ? &*recording.q_meas : recording.q_cmd ? &*recording.q_cmd : nullptr;
-}
-
 bool moves_smoothly(const recording::Samples& q) {
   constexpr Eigen::Index kMost = 1500;  // rows that are looked at
   constexpr double kSmooth = 0.35;      // of a step, by which the next one differs

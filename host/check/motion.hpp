@@ -5,9 +5,6 @@
 /// How the joints of a recording move, before anything is known of units.
 namespace flexcomp::check {
 
-/// Motor-side angles, else commanded ones; null where there are none.
-const recording::Samples* angles_of(const recording::Recording& recording);
-
 /// Does any joint move from row to row as a sampled motion does, rather than from pose to pose?
 bool moves_smoothly(const recording::Samples& q);
 

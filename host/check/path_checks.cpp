@@ -52,8 +52,8 @@ Checks check_angle_limits(const model::Robot& robot, const recording::Recording&
 }
 
 Checks check_speed_limits(const model::Robot& robot, const recording::Recording& path) {
-  constexpr double kMargin = 1.02;
-  constexpr double kJump = 5;  // times the limit
+  constexpr double kMargin = 1.02;  // times the limit, for a planner's rounding
+  constexpr double kJump = 5;       // times the limit
   Checks checks;
   for (Eigen::Index joint = 0; joint < joint_count(robot); ++joint) {
     const double limit = robot.dynamics[static_cast<std::size_t>(joint)].velocity;
@@ -84,7 +84,7 @@ Checks check_speed_limits(const model::Robot& robot, const recording::Recording&
 Checks check_singularities(const model::Robot& robot, const recording::Recording& path) {
   // Least singular value, metres and radians alike. flexcomp place stays above 0.05.
   constexpr double kNear = 0.02;
-  constexpr Eigen::Index kMostLookedAt = 4000;
+  constexpr Eigen::Index kMostLookedAt = 4000;  // rows: time against a stretch between two of them
   if (joint_count(robot) < 6) {
     return {};
   }

@@ -12,8 +12,8 @@
 namespace flexcomp::check {
 namespace {
 
-constexpr Eigen::Index kMostRows = 240;
-constexpr Eigen::Index kFewestRows = 3;
+constexpr Eigen::Index kMostRows = 240;  // time: dozens of readings are tried on each
+constexpr Eigen::Index kFewestRows = 3;  // points that tell where a frame is
 /// m: springs, lengths and zeros of a robot that is not calibrated put its TCP this far off at
 /// most; what is within is for a diagnosis.
 constexpr double kPhysical = 0.02;
@@ -108,8 +108,8 @@ Check unlike_any(const recording::Recording& recording, double off) {
 
 Checks check_positions(const model::Robot& robot, recording::Recording* recording, bool* fits) {
   *fits = false;
-  const auto& q = recording->q_meas ? recording->q_meas : recording->q_cmd;
-  if (!q || !recording->position || q->cols() != joint_count(robot)) {
+  const recording::Samples* q = recording->angles();
+  if (q == nullptr || !recording->position || q->cols() != joint_count(robot)) {
     return {};
   }
   const PoseRows rows = pose_rows(robot, *q, *recording->position);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kRidge = 1e-8;
 constexpr double kHuber = 2.5;  // deviations
 constexpr double kRounding = 1e-9;
-constexpr int kRounds = 4;
+constexpr int kRounds = 4;  // of Huber's weights
 
 double correlation_of_neighbours(const Eigen::VectorXd& values) {
   const Eigen::Index n = values.size();

@@ -25,15 +25,6 @@ constexpr ClockUnit kClockUnits[] = {
 constexpr double kSlowestStep = 0.15;
 constexpr double kFastestStep = 5e-5;
 
-bool counts_rows(const Eigen::VectorXd& time) {
-  for (Eigen::Index i = 0; i < time.size(); ++i) {
-    if (time[i] != static_cast<double>(i)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// Would any joint be faster than `most` times its limit if the times were divided by `count`?
 bool is_too_fast(const model::Robot* robot, const Eigen::RowVectorXd& speed, double count,
                  double most) {
@@ -49,9 +40,9 @@ bool is_too_fast(const model::Robot* robot, const Eigen::RowVectorXd& speed, dou
 Checks check_unit(const model::Robot* robot, double step, recording::Recording* recording) {
   constexpr Eigen::Index kFewestOfCounted = 100;  // rows: a load test may be as smooth by chance
   constexpr double kMostSpeed = 1.5;
-  const recording::Samples* q = angles_of(*recording);
+  const recording::Samples* q = recording->angles();
   if (step < kSlowestStep || q == nullptr || !moves_smoothly(*q) ||
-      (counts_rows(recording->time) && recording->size() < kFewestOfCounted)) {
+      (recording::counts_rows(recording->time) && recording->size() < kFewestOfCounted)) {
     return {};
   }
   const Eigen::RowVectorXd speed = usual_top_speed(recording->time, *q);
@@ -72,9 +63,9 @@ Checks check_unit(const model::Robot* robot, double step, recording::Recording* 
 }
 
 Checks check_speed(const model::Robot* robot, const recording::Recording& recording) {
-  constexpr double kFarTooFast = 5;
-  const recording::Samples* q = angles_of(recording);
-  if (robot == nullptr || q == nullptr || counts_rows(recording.time) ||
+  constexpr double kFarTooFast = 5;  // times the limit: a wrong unit is off by 1000
+  const recording::Samples* q = recording.angles();
+  if (robot == nullptr || q == nullptr || recording::counts_rows(recording.time) ||
       !is_too_fast(robot, usual_top_speed(recording.time, *q), 1, kFarTooFast)) {
     return {};
   }
@@ -109,10 +100,10 @@ Checks check_gaps(double step, const recording::Recording& recording) {
 /// Rows that repeat a sample, and times that are not those of the samples: `diagnose` and
 /// `simulate` make up for both.
 Checks check_sampling(const recording::Recording& recording) {
-  if (!recording.q_meas || counts_rows(recording.time) || !recording.q_meas->allFinite()) {
+  if (recording.angles() == nullptr) {
     return {};
   }
-  const recording::Sampling sampling = recording::sampling_of(recording.time, *recording.q_meas);
+  const recording::Sampling sampling = recording::sampling_of(recording);
   Checks checks;
   if (!sampling.repeats.empty()) {
     checks.push_back(
@@ -181,7 +172,7 @@ Checks check_times(const model::Robot* robot, recording::Recording* recording) {
   if (checks.empty()) {
     add(check_speed(robot, *recording), &checks);
   }
-  if (checks.empty() && !counts_rows(recording->time)) {
+  if (checks.empty() && !recording::counts_rows(recording->time)) {
     add(check_gaps(step, *recording), &checks);
     add(check_sampling(*recording), &checks);
   }

@@ -9,6 +9,7 @@ namespace {
 
 using simulation::Scene;
 
+/// Rows, chosen by judgement: ten for each number that is fitted to them.
 constexpr Eigen::Index kFewestTorqueRows = 60;
 
 /// Torques of all joints as the model has them, row by row.
@@ -90,6 +91,8 @@ TorqueFit fit_torque(const Scene& scene, const ModelTorques& torques,
 }  // namespace
 
 Witnesses witnesses_of(const TorqueFit& torque) {
+  // Chosen by judgement: a sign is told of what is a part of the torque at all, of about the size
+  // that the model gives it.
   constexpr double kLeastPartial = 0.3;
   constexpr double kLeastSlope = 0.2;
   constexpr double kSure = 8;             // deviations
@@ -110,6 +113,8 @@ Witnesses witnesses_of(const TorqueFit& torque) {
 }
 
 double scale_of(const TorqueFit& torque) {
+  // Chosen by judgement: weight and inertia agree on a scale better than a factor of 2.5, which
+  // masses may be off by; one alone is believed where it is plainer, and off by a unit's size.
   constexpr double kBothTold = 0.6;
   constexpr double kOneTold = 0.7;
   constexpr double kAgree = 2.5;

@@ -13,7 +13,7 @@ namespace {
 
 using simulation::Scene;
 
-constexpr Eigen::Index kMostTorqueRows = 2500;
+constexpr Eigen::Index kMostTorqueRows = 2500;  // time: each regression takes all of them
 
 std::string listed(const std::vector<Eigen::Index>& joints) {
   std::string text = joints.size() > 1 ? "joints " : "joint ";
@@ -109,9 +109,9 @@ int turned_torques(const std::vector<TorqueFit>& fits) {
 /// which a turned or swapped torque does not make them do.
 Checks check_angles_by_torque(const model::Robot& robot, const Scene& scene,
                               recording::Recording* recording) {
-  constexpr double kBetter = 0.6;
-  constexpr double kOthersBetter = 0.25;
-  constexpr double kTurned = 0.7;  // what a torque counts that then has the right sign
+  constexpr double kBetter = 0.6;         // of misfits, each up to 1; chosen by judgement, as
+  constexpr double kOthersBetter = 0.25;  // of those of the other joints
+  constexpr double kTurned = 0.7;         // what a torque counts that then has the right sign
   const std::vector<TorqueFit> fits = fit_torques(robot, scene);
   const std::vector<Rearranged> all = rearrangements(scene);
   const Rearranged* best = nullptr;
@@ -171,7 +171,7 @@ Checks check_signs(const Scene& scene, const std::vector<TorqueFit>& fits,
 
 Checks check_scales(const Scene& scene, const std::vector<TorqueFit>& fits,
                     recording::Samples* tau) {
-  constexpr double kFar = 8;
+  constexpr double kFar = 8;  // chosen by judgement: beyond what masses are off by, within a unit
   std::vector<Eigen::Index> far;
   std::vector<double> scales;
   std::size_t told = 0;
@@ -232,11 +232,11 @@ Checks check_gravity(const model::Robot& robot, const Scene& scene) {
 }  // namespace
 
 Checks check_torques(const model::Robot& robot, bool proved, recording::Recording* recording) {
-  constexpr Eigen::Index kRowsToTryWith = 600;
+  constexpr Eigen::Index kRowsToTryWith = 600;  // time: every change of an angle is simulated
   const bool has_deflections = recording->q_link && recording->q_meas;
   const bool has_angles = recording->q_meas || recording->q_cmd;
   if ((!recording->tau && !has_deflections) || !has_angles || !has_masses(robot) ||
-      angles_of(*recording)->cols() != joint_count(robot)) {
+      recording->angles()->cols() != joint_count(robot)) {
     return {};
   }
   simulation::Preparation preparation;

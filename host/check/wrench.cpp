@@ -14,8 +14,8 @@ namespace {
 
 using simulation::Scene;
 
-constexpr Eigen::Index kMostWrenchRows = 1500;
-constexpr Eigen::Index kFewestWrenchRows = 12;
+constexpr Eigen::Index kMostWrenchRows = 1500;  // time: each is simulated
+constexpr Eigen::Index kFewestWrenchRows = 12;  // for two columns, in proportion for more
 
 /// A target by the wrench, in the first column, and by what else may be in it.
 struct WrenchEvidence {
@@ -121,8 +121,8 @@ struct Answer {
 };
 
 Answer ask(const WrenchEvidence& evidence) {
-  constexpr double kLeastPartial = 0.5;
-  constexpr double kFarBetter = 0.4;
+  constexpr double kLeastPartial = 0.5;  // correlation, chosen by judgement: half is something else
+  constexpr double kFarBetter = 0.4;     // of the squares left, for the less usual frame
   Answer answer;
   answer.what = evidence.what;
   if (evidence.target.size() < kFewestWrenchRows * evidence.in_base.cols() / 2 ||
@@ -182,6 +182,8 @@ const Answer* majority(const std::vector<Answer>& answers, const Says& says) {
 }  // namespace
 
 Checks check_wrench(const model::Robot& robot, const recording::Recording& recording) {
+  // Times what the model says, chosen by judgement: a model's springs may be several times too soft
+  // or too stiff, a unit is off by 1000, and a slope near nothing has no sign.
   constexpr double kLeastSlope = 0.15;
   constexpr double kOrders = 30;
   const bool shows = recording.position || recording.tau || (recording.q_link && recording.q_meas);

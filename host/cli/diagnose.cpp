@@ -33,7 +33,7 @@ namespace {
 
 /// Rows and scalars that are looked at in all; more tell little, and take time and memory.
 constexpr Eigen::Index kMostRows = 8000;
-constexpr Eigen::Index kMostSamples = 48000;
+constexpr Eigen::Index kMostSamples = 48000;  // of all components, six a row
 
 struct DiagnoseOptions {
   RobotChoice model;
@@ -104,7 +104,8 @@ check::Checks check_input(const model::Robot& robot,
   return checks;
 }
 
-/// What is wrong with the input is to be mended, not to be composed a law for.
+/// Did the checks find nothing wrong? A fault of the input is to be mended: no law is composed for
+/// it.
 bool is_in_order(const check::Checks& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const check::Check& each) {
     return each.severity == check::Severity::note;
@@ -171,7 +172,7 @@ void summarize(const model::Robot& robot, const diagnosis::Observations& observa
       say(fmt::format("what can be told of joint {}: {}", joint.joint, diagnosis::verdict(joint)));
     }
   }
-  fmt::print("{}{}\n", result.verdict, result.reason.empty() ? "" : ": " + result.reason);
+  fmt::print("{}{}\n", name_of(result.verdict), result.reason.empty() ? "" : ": " + result.reason);
   for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
     say(diagnosis::statement(observations, result, i));
   }

@@ -39,20 +39,25 @@ void print(const FormOptions& options, const Json& json, const std::string& text
   fmt::print("{}", options.json ? json.dump(2) + "\n" : text);
 }
 
+void print_form(const FormOptions& options, const char* form, const char* norm, std::size_t points,
+                double least_squares, double zone) {
+  print(options,
+        {{"points", points},
+         {"least_squares", least_squares},
+         {"minimum_zone", zone},
+         {"filter", nullptr}},
+        fmt::format("{} of {} points ({}, no filter), mm\n"
+                    "least squares  {:.6f}\nminimum zone   {:.6f}\n",
+                    form, points, norm, 1e3 * least_squares, 1e3 * zone));
+}
+
 int run_straightness(const FormOptions& options) {
   const recording::NumberTable table = recording::read_csv(options.path);
   const geometry::Points points = points_in(table, plane_columns(table, options.columns));
   return measured(options.path, [&] {
-    const double least_squares = geometry::least_squares_straightness(points).value();
-    const double zone = geometry::minimum_zone_straightness(points).value();
-    print(options,
-          {{"points", points.size()},
-           {"least_squares", least_squares},
-           {"minimum_zone", zone},
-           {"filter", nullptr}},
-          fmt::format("straightness of {} points (ISO 12780-1, no filter), mm\n"
-                      "least squares  {:.6f}\nminimum zone   {:.6f}\n",
-                      points.size(), 1e3 * least_squares, 1e3 * zone));
+    print_form(options, "straightness", "ISO 12780-1", points.size(),
+               geometry::least_squares_straightness(points).value(),
+               geometry::minimum_zone_straightness(points).value());
     return kDone;
   });
 }
@@ -61,16 +66,9 @@ int run_flatness(const FormOptions& options) {
   const recording::NumberTable table = recording::read_csv(options.path);
   const geometry::SpacePoints points = points_in_space(table);
   return measured(options.path, [&] {
-    const double least_squares = geometry::least_squares_flatness(points).value();
-    const double zone = geometry::minimum_zone_flatness(points).value();
-    print(options,
-          {{"points", points.size()},
-           {"least_squares", least_squares},
-           {"minimum_zone", zone},
-           {"filter", nullptr}},
-          fmt::format("flatness of {} points (ISO 12781-1, no filter), mm\n"
-                      "least squares  {:.6f}\nminimum zone   {:.6f}\n",
-                      points.size(), 1e3 * least_squares, 1e3 * zone));
+    print_form(options, "flatness", "ISO 12781-1", points.size(),
+               geometry::least_squares_flatness(points).value(),
+               geometry::minimum_zone_flatness(points).value());
     return kDone;
   });
 }

@@ -47,16 +47,12 @@ struct MapOptions {
   bool json = false;
 };
 
-Vector3<double> vector(const std::array<double, 3>& values) {
-  return {values[0], values[1], values[2]};
-}
-
 study::MilledCircle circle_of(const MapOptions& options) {
   study::MilledCircle circle = study::preset(options.preset).circle;
   circle.radius = options.radius;
   circle.points = options.points;
-  circle.force = options.has_force ? vector(options.force) : circle.force;
-  circle.moment = options.has_moment ? vector(options.moment) : circle.moment;
+  circle.force = options.has_force ? Vector3<double>(options.force.data()) : circle.force;
+  circle.moment = options.has_moment ? Vector3<double>(options.moment.data()) : circle.moment;
   circle.is_first_order = circle.is_first_order || options.first_order;
   circle.has_limits = !options.no_limits;
   if (!options.sense.empty()) {

@@ -26,20 +26,16 @@ struct PlanOptions {
   planning::CirclePlan plan{};
 };
 
-Vector3<double> vector(const std::array<double, 3>& values) {
-  return {values[0], values[1], values[2]};
-}
-
 Vector3<double> unit_axis(char name) { return Vector3<double>::Unit(name - 'x'); }
 
 int run(const PlanOptions& options, bool has_tool_axis) {
   planning::CirclePlan plan = options.plan;
-  plan.center = vector(options.center);
+  plan.center = Vector3<double>(options.center.data());
   plan.first_axis = unit_axis(options.plane[0]);
   plan.second_axis = unit_axis(options.plane[1]);
-  plan.force = vector(options.force);
-  plan.moment = vector(options.moment);
-  plan.tool_axis = has_tool_axis ? vector(options.tool_axis)
+  plan.force = Vector3<double>(options.force.data());
+  plan.moment = Vector3<double>(options.moment.data());
+  plan.tool_axis = has_tool_axis ? Vector3<double>(options.tool_axis.data())
                                  : Vector3<double>(-plan.first_axis.cross(plan.second_axis));
   if (!(plan.tool_axis.norm() > 0) || !plan.tool_axis.allFinite()) {
     throw InputError("--tool-axis: expected a direction, not zero");

@@ -42,10 +42,6 @@ struct ProgramOptions {
   std::array<double, 3> tool_axis{0, 0, -1};
 };
 
-Vector3<double> vector_of(const std::array<double, 3>& values) {
-  return {values[0], values[1], values[2]};
-}
-
 /// Along the feed, to the left of it, up the spindle; the options give {to the right, along, up}.
 Vector3<double> in_cutting_frame(const std::array<double, 3>& given) {
   return {given[1], -given[0], given[2]};
@@ -222,12 +218,12 @@ Program shape_of_pocket(const ProgramOptions& options, bool has_diameter) {
 }
 
 Program shape_of_line(const ProgramOptions& options) {
-  const Vector3<double> axis = -vector_of(options.tool_axis);
+  const Vector3<double> axis = -Vector3<double>(options.tool_axis.data());
   if (!(axis.norm() > 0) || !axis.allFinite()) {
     throw InputError("--tool-axis: expected a direction, not zero");
   }
-  Program program =
-      programs::line_program(vector_of(options.from), vector_of(options.to), axis.normalized());
+  Program program = programs::line_program(Vector3<double>(options.from.data()),
+                                           Vector3<double>(options.to.data()), axis.normalized());
   program.frame = Pose<double>{};
   return program;
 }

@@ -1,16 +1,13 @@
-#include "simulation/plant.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "cli/process_options.hpp"
+#include "cli/plant_result.hpp"
 #include "cli/progress.hpp"
-#include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "control/arc_parameters.hpp"
 #include "control/arc_request.hpp"
@@ -20,36 +17,12 @@
 #include "error.hpp"
 #include "model/robot.hpp"
 #include "node/default_config.hpp"
-#include "node/node_status.hpp"
-#include "node/reply.hpp"
 #include "recording/plausible_angles.hpp"
 #include "simulation/displaced_robot.hpp"
 #include "simulation/rsi_controller.hpp"
 
 namespace flexcomp::cli {
 namespace {
-
-struct PlantOptions {
-  RobotChoice model;
-  std::string path;
-  std::string bus;
-  std::string rsi;
-  std::string rsi_type = "ImFree";
-  bool rsi_relative = false;
-  std::string key;
-  std::string table;
-  std::string out;
-  std::string dynamic;
-  bool arc = false;
-  double compliance_scale = 1;
-  double gain = 1;
-  double filter_cutoff = 20;
-  ProcessOptions process;
-  simulation::PlantOptions plant;
-  bool allow_unstable = false;
-  bool without_compensation = false;
-  bool json = false;
-};
 
 NodeConfig node_config(const PlantOptions& options, const model::Robot& robot) {
   NodeConfig config = default_node_config();
@@ -70,63 +43,6 @@ GainLimit gain_limit_of(const PlantOptions& options, const model::Robot& known,
       simulation::with_scaled_compliance(model::six_axis_model(known), options.compliance_scale),
       path, options.process.process);
   return gain_limit(feedback, loop, options.compliance_scale);
-}
-
-/// One line that says what would be stable, and how to have it.
-std::string unstable_text(const GainLimit& limit) {
-  return limit.digs_in()
-             ? fmt::format("no stable gain is safe: {}; --allow-unstable mills all the same",
-                           describe_digging_in(limit))
-             : fmt::format(
-                   "unstable: with this process the largest stable gain is {:.4g}, the largest "
-                   "safe one {:.4g}: make the table for it (flexcomp table --depth-of-cut) and "
-                   "configure anew, or give --gain; --allow-unstable mills all the same",
-                   limit.stable, limit.safe);
-}
-
-/// The faults of the status words, in words. A fault of the node comes to the core as one "reported
-/// by the caller", which is left out beside it.
-std::string faults_of(std::uint32_t status, std::uint16_t node_status) {
-  if ((node_status & kNodeFaultBits) != 0) {
-    status &= ~static_cast<std::uint32_t>(kExternalFault);
-  }
-  std::string text;
-  for (std::uint32_t bit = 1; (bit & kFaultBits) != 0; bit <<= 1) {
-    if ((status & bit) != 0) {
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(static_cast<StatusBit>(bit)));
-    }
-    if ((node_status & kNodeFaultBits & bit) != 0) {
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(static_cast<NodeBit>(bit)));
-    }
-  }
-  return text.empty() ? "no fault reported" : text;
-}
-
-/// Warns of what went on but should not have.
-void warn(const PlantOptions& options, const GainLimit& limit, const simulation::PlantRun& run) {
-  if (run.gain > limit.safe * (1 + 1e-6)) {
-    fmt::print(stderr, "flexcomp: {}: the gain {:.4g} is {} above the largest safe one, {:.4g}\n",
-               options.path, run.gain, run.gain > limit.stable ? "unstable," : "stable but",
-               limit.safe);
-  }
-  if (run.was_lost) {
-    fmt::print(stderr, "flexcomp: {}: the correction did not last, it faded out on the way: {}\n",
-               options.path, faults_of(run.status, run.node_status));
-  }
-}
-
-nlohmann::ordered_json summary(const simulation::PlantRun& run) {
-  return {{"ticks", run.ticks},
-          {"unanswered", run.unanswered},
-          {"armed", run.armed},
-          {"unstable", run.is_unstable},
-          {"lost", run.was_lost},
-          {"arm_reply", describe_reply(run.arm_reply)},
-          {"largest_gain", run.largest_gain},
-          {"status", run.status},
-          {"node_status", run.node_status},
-          {"least_engagement", run.least_engagement},
-          {"most_engagement", run.most_engagement}};
 }
 
 /// The model that the compensator needs: with link encoders the joint springs are the controller's.
@@ -188,7 +104,7 @@ std::unique_ptr<simulation::PlantBus> rsi_controller(const PlantOptions& options
   return simulation::open_rsi_controller(options.rsi, rsi);
 }
 
-int run(const PlantOptions& options) {
+void refuse_contradictions(const PlantOptions& options) {
   const int peers = !options.bus.empty() + !options.rsi.empty() + !options.table.empty();
   if (peers != 1) {
     throw InputError("expected --bus or --rsi, or --table for a compensator inside this process");
@@ -199,26 +115,43 @@ int run(const PlantOptions& options) {
   if (options.arc && options.dynamic.empty()) {
     throw InputError("--arc needs --dynamic: a robot that stands still needs no control");
   }
-  model::Robot known = load_robot(options.model);
-  const model::Robot robot = known;
-  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
-  known.elastic = compensated_model(options, robot);
+}
+
+/// The other side of the plant's bus, and the table that a compensator inside holds on to.
+struct Peer {
+  std::unique_ptr<TableFile> table;
   std::unique_ptr<simulation::PlantBus> bus;
+};
+
+/// Connects the plant, and sets the options that depend on the peer. `known`: the robot as the
+/// compensator knows it.
+Peer open_peer(const PlantOptions& options, const model::Robot& known,
+               simulation::PlantOptions* plant) {
+  Peer peer;
+  if (!options.rsi.empty()) {
+    peer.bus = rsi_controller(options);
+    plant->obeys = true;
+    plant->hold_time = std::numeric_limits<double>::infinity();
+  } else if (options.bus.empty()) {
+    peer.table = std::make_unique<TableFile>(read_table(options.table, known));
+    peer.bus = simulation::make_inner_bus(node_config(options, known), peer.table->table, false);
+    plant->lockstep = true;
+  } else {
+    peer.bus = simulation::open_plant_bus(options.bus, options.key);
+  }
+  return peer;
+}
+
+int run(const PlantOptions& options) {
+  refuse_contradictions(options);
+  const model::Robot robot = load_robot(options.model);
+  const RobotModel<double, 6> elastic = model::six_axis_model(robot);
+  model::Robot known = robot;
+  known.elastic = compensated_model(options, robot);
   simulation::PlantOptions plant_options = options.plant;
   plant_options.compensate = !options.without_compensation;
   plant_options.model_hash = model_hash(model::six_axis_model(known));
-  std::unique_ptr<TableFile> table;
-  if (!options.rsi.empty()) {
-    bus = rsi_controller(options);
-    plant_options.obeys = true;
-    plant_options.hold_time = std::numeric_limits<double>::infinity();
-  } else if (options.bus.empty()) {
-    table = std::make_unique<TableFile>(read_table(options.table, known));
-    bus = simulation::make_inner_bus(node_config(options, known), table->table, false);
-    plant_options.lockstep = true;
-  } else {
-    bus = simulation::open_plant_bus(options.bus, options.key);
-  }
+  const Peer peer = open_peer(options, known, &plant_options);
   const recording::Recording path = recording::read_recording(options.path);
   const GainLimit limit = gain_limit_of(options, known, path);
   simulation::Contour contour(elastic, path, options.process.process.side);
@@ -231,49 +164,11 @@ int run(const PlantOptions& options) {
     plant_options.stable_gain = limit.stable;
   }
   simulation::Plant plant(with_laws(options, robot, robot_in_cut(options, robot)),
-                          std::move(contour), plant_options, bus.get());
+                          std::move(contour), plant_options, peer.bus.get());
   Progress progress("milling", 1000);
-  const simulation::PlantRun result =
-      plant.run([&](double share) { progress.show(static_cast<std::size_t>(1000 * share)); });
-  const bool refused = plant_options.compensate && (!result.armed || result.is_unstable);
-  if (!refused && !options.out.empty()) {
-    recording::write_recording(options.out, result.recording);
-  }
-  if (result.is_unstable) {
-    fmt::print(stderr, "flexcomp: {}: {}\n", options.path, unstable_text(limit));
-  }
-  if (options.json) {
-    nlohmann::ordered_json json = summary(result);
-    json["largest_stable_gain"] =
-        std::isfinite(limit.stable) ? nlohmann::ordered_json(limit.stable) : nullptr;
-    json["largest_safe_gain"] = limit.safe;
-    json["process"] = to_json(options.process);
-    fmt::print("{}\n", json.dump(2));
-  } else if (result.is_unstable) {
-    return kDoesNotHold;
-  } else if (refused) {
-    const std::string why = result.arm_reply != 0
-                                ? describe_reply(result.arm_reply)
-                                : "nothing was refused, but the correction did not become active";
-    fmt::print("not armed: {}; largest safe gain {:.4g}\n", why, result.largest_gain);
-  } else {
-    fmt::print("{} ticks, {} without an answer; engagement {:.3f} to {:.3f} of the nominal depth\n",
-               result.ticks, result.unanswered, result.least_engagement, result.most_engagement);
-    fmt::print("largest safe gain {:.4g}, with a cut {:g} mm deep\n", limit.safe,
-               1e3 * options.process.process.depth_of_cut);
-  }
-  const bool ran_away = !refused && !options.allow_unstable &&
-                        result.most_engagement > 0.999 * simulation::RobotInCut::kMostEngagement;
-  if (ran_away) {
-    fmt::print(stderr,
-               "flexcomp: {}: the cut became {:g} times as deep as it should be, and was stopped "
-               "there, as a spindle would stall: a deeper cut (--depth-of-cut) or less force\n",
-               options.path, simulation::RobotInCut::kMostEngagement);
-  }
-  if (!refused) {
-    warn(options, limit, result);
-  }
-  return refused || ran_away ? kDoesNotHold : kDone;
+  return finish_plant(options, limit, plant.run([&](double share) {
+    progress.show(static_cast<std::size_t>(1000 * share));
+  }));
 }
 
 /// A controller stops the robot in the midst of a cut: then there is no contour to write.

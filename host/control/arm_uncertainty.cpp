@@ -16,13 +16,13 @@ constexpr double kMargin = 1.1;
 template <int Joints>
 using Square = Eigen::Matrix<double, Joints, Joints>;
 
-// For any size, though the sizes are known: a compiler takes seconds for each size of these.
+// These take any size, though the sizes are known: a compiler takes seconds for each.
 
 double norm_of(const Eigen::MatrixXd& matrix) { return matrix.jacobiSvd().singularValues()[0]; }
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) { return matrix.inverse(); }
 
-/// Of a symmetric matrix, the least first.
+/// Eigenvalues of a symmetric matrix, the least first.
 Eigen::VectorXd eigenvalues_of(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
       .eigenvalues();
@@ -63,7 +63,7 @@ class Posture {
     return d;
   }
 
-  /// For each joint the norm of the bilinear form of its velocity torque.
+  /// Each joint's norm of the bilinear form of its velocity torque.
   Angles velocity_norms() const {
     std::array<Square<Joints>, static_cast<std::size_t>(Joints)> forms;
     for (Eigen::Index k = 0; k < Joints; ++k) {

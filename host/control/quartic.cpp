@@ -26,7 +26,7 @@ double positive_root(double p, double r) {
 }
 
 std::vector<double> positive_roots_by_companion(double p, double r) {
-  // In units of the largest term, which keeps the matrix balanced.
+  // The largest term is the unit, which keeps the matrix balanced.
   const double unit = std::pow(r, 0.25) + std::cbrt(std::abs(p));
   Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
   companion.diagonal<-1>().setOnes();

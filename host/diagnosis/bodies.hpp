@@ -8,23 +8,23 @@
 
 namespace flexcomp::diagnosis {
 
-/// The bodies among hypotheses that have an edge, and how far they are beyond what can be.
+/// The bodies among hypotheses that have an edge, and their excess over bodies that can be.
 ///
-/// Masses are told by torques only in combinations: of the many that fit the same, one may be of
-/// bodies that can be and another not. Who holds the bodies while all numbers are fitted finds the
-/// first; who leaves out the impossible ones afterwards loses what the combination explained.
+/// Torques tell masses in combinations only: of many that fit the same, some are of bodies that can
+/// be and some are not. Holding the bodies while all numbers are fitted finds the first. Leaving
+/// out impossible ones afterwards would lose what their combination explains.
 class Bodies {
  public:
   Bodies(const Observations& observations, const std::vector<Chosen>& chosen);
 
-  /// How many numbers tell what is outside.
+  /// Number of figures that tell an excess.
   Eigen::Index size() const { return size_; }
 
-  /// The excess of each in a machine, a little before the edge already, over what it is held
-  /// within; zeros inside.
+  /// The excess of each in a machine over the amount within which it is held; it begins a little
+  /// before the edge, and is zero inside.
   Eigen::VectorXd outside(const model::Robot& altered) const;
 
-  /// Are all of them within what they can be, in a machine?
+  /// Are all bodies of a machine within their edges?
   bool can_be(const model::Robot& altered) const;
 
  private:

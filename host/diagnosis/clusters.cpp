@@ -6,8 +6,9 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr Eigen::Index kMostCells =
-    16;  // large enough to hold what belongs together; few scatter themselves
+/// Chosen by judgement: fewer cells scatter too much themselves, and more would part rows whose
+/// errors hang together.
+constexpr Eigen::Index kMostCells = 16;
 constexpr Eigen::Index kFewestRows = 3;  // of a cell
 constexpr double kStill = 1e-6;          // rad, rad/s: a joint that moves by less stands
 

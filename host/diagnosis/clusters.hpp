@@ -6,19 +6,19 @@
 
 namespace flexcomp::diagnosis {
 
-/// Samples to fit to, divided into clusters: errors may hang together within one, and not between
-/// two.
+/// The samples to fit to, divided into clusters. Errors may hang together within a cluster, but not
+/// between two.
 struct Clusters {
   std::vector<Eigen::Index> of;  ///< the cluster of each sample, from zero
   Eigen::Index count = 0;
 };
 
-/// By time: the stretches of each scene. They hold what drifts, or comes late.
+/// Clusters by time: the stretches of each scene. Errors that drift or come late stay within one.
 Clusters clusters_in_time(const Observations& observations);
 
-/// By the state of the motion, of all scenes together: rows whose angles and speeds lie near each
-/// other, in cells of equally many rows. They hold what the model lacks at a posture: it is the
-/// same in each round of a motion that repeats, so that rounds are not independent of each other.
+/// Clusters by the state of the motion, of all scenes together: cells of equally many rows whose
+/// angles and speeds lie near each other. An error of the model at a posture stays within one: it
+/// is the same in each round of a motion that repeats, so that rounds are not independent.
 Clusters clusters_in_state(const Observations& observations);
 
 }  // namespace flexcomp::diagnosis

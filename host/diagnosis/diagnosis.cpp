@@ -91,7 +91,7 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
   diagnosis->choice.findings.clear();
   diagnosis->choice.fit = fit(observations, {}, 0);
   diagnosis->indistinguishable.clear();
-  diagnosis->verdict = "unexplained";
+  diagnosis->verdict = Verdict::unexplained;
   diagnosis->reason = reason;
 }
 
@@ -128,7 +128,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
   const std::string more = more_than_noise(observations, found.remainder);
   const bool is_noise = more.empty();
   if (found.chosen.empty()) {
-    diagnosis->verdict = is_noise ? "no_mismatch" : "unexplained";
+    diagnosis->verdict = is_noise ? Verdict::no_mismatch : Verdict::unexplained;
     diagnosis->reason = is_noise ? "" : reason_of_nothing(diagnosis->choice);
   } else if (found.chosen.size() > 1 && diagnosis->cancellation > kMostCancellation) {
     withdraw(observations,
@@ -136,7 +136,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
              "is not there",
              diagnosis);
   } else {
-    diagnosis->verdict = is_noise ? "explained" : "partly_explained";
+    diagnosis->verdict = is_noise ? Verdict::explained : Verdict::partly_explained;
     diagnosis->reason = more;
     // A law is such a form itself, with proof.
     if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
@@ -151,7 +151,8 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
 }
 
 bool is_open(const Diagnosis& diagnosis) {
-  return diagnosis.verdict == "unexplained" || diagnosis.verdict == "partly_explained";
+  return diagnosis.verdict == Verdict::unexplained ||
+         diagnosis.verdict == Verdict::partly_explained;
 }
 
 /// The diagnosis with laws that nobody listed in the place of its findings, if these leave much
@@ -170,7 +171,7 @@ Diagnosis with_laws(const Observations& observations, const Diagnosis& before, C
   diagnosis.proposal.clear();
   find_groups(&diagnosis);
   judge(observations, &diagnosis);
-  return diagnosis.verdict == "unexplained" ? before : diagnosis;
+  return diagnosis.verdict == Verdict::unexplained ? before : diagnosis;
 }
 
 /// Which of two diagnoses with laws: the second only by strong evidence, or with fewer numbers that
@@ -238,7 +239,79 @@ void seek_laws_last(const Inquiry& inquiry, const Settings& settings, Diagnosis*
   diagnosis->laws_stopped = budget.has_stopped();
 }
 
+/// The frame in which positions were measured, as it was registered, and the hypotheses about it.
+struct Basis {
+  Fit given;
+  Dictionary dictionary;
+};
+
+/// Fits the registered frame again, and simulates the hypotheses about it: the noise has changed.
+void renew(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+           const Settings& settings, Basis* basis) {
+  basis->given = fit(observations, basis->given.chosen, kSteps);
+  basis->dictionary =
+      Dictionary(observations, hypotheses, basis->given.machine, settings.simulating);
+}
+
+Basis basis_of(Observations* observations, const std::vector<Hypothesis>& hypotheses,
+               const Settings& settings) {
+  Fit given = register_frame(*observations, hypotheses);
+  Dictionary dictionary(*observations, hypotheses, given.machine, settings.simulating);
+  Basis basis{std::move(given), std::move(dictionary)};
+  if (observations->is_static) {
+    learn_noise(observations, hypotheses, basis.dictionary, basis.given);
+    renew(*observations, hypotheses, settings, &basis);
+  }
+  return basis;
+}
+
+/// Fits anew where the findings leave something, or are many.
+void refit_open(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+                Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  const bool leaves_something = is_open(*diagnosis);
+  if (!leaves_something && !are_many(inquiry, diagnosis->choice.fit)) {
+    return;
+  }
+  if (leaves_something && diagnosis->proposal.empty()) {
+    diagnosis->proposal = propose(observations, diagnosis->choice.fit).terms;
+  }
+  refit(inquiry, hypotheses, diagnosis);
+  diagnosis->left = locate(observations, diagnosis->choice.fit.remainder);
+}
+
+/// Suggests what to record next: what tells a finding from its nearest alternative, else what shows
+/// the cause of a law in time.
+void suggest(const Observations& observations, Diagnosis* diagnosis) {
+  for (std::size_t i = 0; i < diagnosis->choice.findings.size(); ++i) {
+    const std::vector<Alternative>& others = diagnosis->choice.findings[i].alternatives;
+    if (diagnosis->suggested_experiment.empty() && !others.empty() &&
+        others.front().delta_bic < kSameEvidence) {
+      diagnosis->suggested_experiment = suggest_experiment(observations, *diagnosis, i);
+    }
+  }
+  for (const Finding& finding : diagnosis->choice.findings) {
+    if (diagnosis->suggested_experiment.empty()) {
+      diagnosis->suggested_experiment = grammar::next_recording(finding.chosen);
+    }
+  }
+}
+
 }  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_mismatch:
+      return "no_mismatch";
+    case Verdict::explained:
+      return "explained";
+    case Verdict::partly_explained:
+      return "partly_explained";
+    case Verdict::unexplained:
+      break;
+  }
+  return "unexplained";
+}
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
                    const Settings& settings) {
@@ -250,21 +323,14 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
              &diagnosis);
     return diagnosis;
   }
-  Fit given = register_frame(*observations, hypotheses);
-  Dictionary dictionary(*observations, hypotheses, given.machine, settings.simulating);
-  if (observations->is_static) {
-    learn_noise(observations, hypotheses, dictionary, given);
-    given = fit(*observations, given.chosen, kSteps);
-    dictionary = Dictionary(*observations, hypotheses, given.machine, settings.simulating);
-  }
-  const Inquiry inquiry{*observations, dictionary, settings.false_discovery, given};
-  diagnosis.clocks = check_clocks(*observations, hypotheses, dictionary, given);
-  diagnosis.excitation = excitation(*observations, hypotheses, dictionary);
-  diagnosis.location = locate(*observations, given.remainder);
+  Basis basis = basis_of(observations, hypotheses, settings);
+  const Inquiry inquiry{*observations, basis.dictionary, settings.false_discovery, basis.given};
+  diagnosis.clocks = check_clocks(*observations, hypotheses, basis.dictionary, basis.given);
+  diagnosis.excitation = excitation(*observations, hypotheses, basis.dictionary);
+  diagnosis.location = locate(*observations, basis.given.remainder);
   diagnosis.choice = choose(inquiry, settings.choosing);
   const auto choose_anew = [&] {
-    given = fit(*observations, given.chosen, kSteps);
-    dictionary = Dictionary(*observations, hypotheses, given.machine, settings.simulating);
+    renew(*observations, hypotheses, settings, &basis);
     diagnosis.choice = choose(inquiry, settings.choosing);
   };
   for (int round = 0; round < kNoiseRounds && lower_noise(observations, diagnosis.choice.fit);
@@ -280,33 +346,15 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     diagnosis.indistinguishable.clear();
     settle(inquiry, settings, &diagnosis);
   }
-  const bool leaves_something = is_open(diagnosis);
-  if (leaves_something || are_many(inquiry, diagnosis.choice.fit)) {
-    if (leaves_something && diagnosis.proposal.empty()) {
-      diagnosis.proposal = propose(*observations, diagnosis.choice.fit).terms;
-    }
-    refit(inquiry, hypotheses, &diagnosis);
-    diagnosis.left = locate(*observations, diagnosis.choice.fit.remainder);
-  }
-  if (!settings.law_seconds && diagnosis.verdict == "unexplained") {
+  refit_open(inquiry, hypotheses, &diagnosis);
+  if (!settings.law_seconds && diagnosis.verdict == Verdict::unexplained) {
     seek_laws_last(inquiry, settings, &diagnosis);
   }
   if (!diagnosis.is_weighed_whole) {
     settle_forms(inquiry, &diagnosis.choice);
   }
   diagnosis.trials = weigh_trials(inquiry, diagnosis.choice);
-  for (std::size_t i = 0; i < diagnosis.choice.findings.size(); ++i) {
-    const std::vector<Alternative>& others = diagnosis.choice.findings[i].alternatives;
-    if (diagnosis.suggested_experiment.empty() && !others.empty() &&
-        others.front().delta_bic < kSameEvidence) {
-      diagnosis.suggested_experiment = suggest_experiment(*observations, diagnosis, i);
-    }
-  }
-  for (const Finding& finding : diagnosis.choice.findings) {
-    if (diagnosis.suggested_experiment.empty()) {
-      diagnosis.suggested_experiment = grammar::next_recording(finding.chosen);
-    }
-  }
+  suggest(*observations, &diagnosis);
   return diagnosis;
 }
 

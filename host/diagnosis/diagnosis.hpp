@@ -14,6 +14,16 @@
 
 namespace flexcomp::diagnosis {
 
+enum class Verdict {
+  no_mismatch,       ///< the residual is noise
+  explained,         ///< what the findings leave is noise
+  partly_explained,  ///< they leave more
+  unexplained,       ///< a mismatch without findings
+};
+
+/// The verdict's name in `diagnosis.json`.
+const char* name_of(Verdict verdict);
+
 /// An effect at a place, as a person names it.
 struct Place {
   std::string effect;
@@ -22,8 +32,8 @@ struct Place {
 
 /// The mismatch between a model and its recordings, and its causes.
 struct Diagnosis {
-  std::string verdict;  ///< no_mismatch, explained, partly_explained or unexplained
-  std::string reason;   ///< why not explained; empty where it is
+  Verdict verdict = Verdict::unexplained;
+  std::string reason;  ///< why not explained; empty where it is
   std::vector<ClockCheck> clocks;
   std::vector<Excitation> excitation;  ///< of each joint
   Choice choice;

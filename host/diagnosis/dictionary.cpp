@@ -19,8 +19,8 @@ Eigen::Index columns_of(const Hypothesis& hypothesis) {
   return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(hypothesis.linear));
 }
 
-/// Which of the linear parameters of hypotheses, whose columns follow each other, is the most out
-/// of bounds, in steps of it; -1 where none is.
+/// Index of the linear parameter that is the farthest out of its bounds, in steps of it, among
+/// those of hypotheses whose columns follow each other; −1 where none is.
 Eigen::Index most_out_of_bounds(const std::vector<const Hypothesis*>& hypotheses,
                                 const Eigen::VectorXd& amplitude) {
   constexpr double kTolerance = 2;  // noise may take a parameter that is nothing so far below zero
@@ -69,35 +69,23 @@ Changes::Changes(const Observations& observations)
 Changes::Changes(const Observations& observations, const Machine& around)
     : observations_(observations),
       machine_(around),
-      rigid_(simulation::rigid_torques(around, observations.scenes)) {
-  std::vector<Prediction> predictions;
-  for (std::size_t s = 0; s < observations.scenes.size(); ++s) {
-    simulation::Wanted wanted;
-    wanted.rigid = of_scene(rigid_, s);
-    simulations_.push_back(simulate(machine_, observations.scenes[s], wanted));
-    predictions.push_back(with_terms(machine_.terms, observations.scenes[s], simulations_.back()));
-  }
-  predicted_ = observations.stacked(predictions);
-}
+      rigid_(simulation::rigid_torques(around, observations.scenes)),
+      simulations_(simulate(machine_, observations.scenes, rigid_, simulation::Levers::all)),
+      predicted_(
+          observations.stacked(with_terms(machine_.terms, observations.scenes, simulations_))) {}
 
 Eigen::VectorXd Changes::by(const Hypothesis& hypothesis, const Values& values) const {
   Machine machine = machine_;
-  if (hypothesis.traits().alters_model && !hypothesis.is_sketched) {
-    hypothesis.apply(values, &machine);
-    return observations_.stacked(predict(machine, observations_.scenes, rigid_, simulations())) -
-           predicted_;
-  }
   if (hypothesis.is_sketched) {
     machine.terms.push_back(hypothesis.law->sketch(values, hypothesis.joint));
   } else {
     hypothesis.apply(values, &machine);
   }
-  std::vector<Prediction> predictions;
-  predictions.reserve(observations_.scenes.size());
-  for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-    predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations()[s]));
-  }
-  return observations_.stacked(predictions) - predicted_;
+  const bool simulates_anew = hypothesis.traits().alters_model && !hypothesis.is_sketched;
+  return observations_.stacked(
+             simulates_anew ? predict(machine, observations_.scenes, rigid_, simulations())
+                            : with_terms(machine.terms, observations_.scenes, simulations())) -
+         predicted_;
 }
 
 Eigen::MatrixXd Changes::columns(const Hypothesis& hypothesis, const Values& start) const {

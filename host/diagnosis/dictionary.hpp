@@ -49,7 +49,7 @@ class Dictionary {
   /// Progress is told after each hypothesis: done, of how many.
   Dictionary(const Observations& observations, std::vector<Hypothesis> all,
              const std::function<void(std::size_t, std::size_t)>& progress);
-  /// The same about a machine that is the observations' model with what is known of it already.
+  /// The dictionary of a machine that is the observations' model with what is known of it already.
   Dictionary(const Observations& observations, std::vector<Hypothesis> all, const Machine& around,
              const std::function<void(std::size_t, std::size_t)>& progress);
 

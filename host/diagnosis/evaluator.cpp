@@ -129,24 +129,12 @@ const std::vector<Simulation>& Evaluator::simulations(const Machine& machine) {
 std::vector<Simulation> Evaluator::simulate_scenes(
     const Machine& machine, const std::vector<simulation::RigidTorque>& rigid,
     const std::vector<Simulation>& near) const {
-  std::vector<Simulation> simulations;
-  for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-    const Scene& scene = observations_.scenes[s];
-    simulation::Wanted wanted = wanted_of(machine, scene);
-    wanted.rigid = of_scene(rigid, s);
-    wanted.near = &near[s];
-    simulations.push_back(simulate(machine, scene, wanted));
-  }
-  return simulations;
+  return simulate(machine, observations_.scenes, rigid, simulation::Levers::of_terms, near);
 }
 
-std::vector<Prediction> Evaluator::add_terms(const Machine& machine,
-                                             const std::vector<Simulation>& simulations) const {
-  std::vector<Prediction> predictions;
-  for (std::size_t s = 0; s < simulations.size(); ++s) {
-    predictions.push_back(with_terms(machine.terms, observations_.scenes[s], simulations[s]));
-  }
-  return predictions;
+Eigen::VectorXd Evaluator::prediction(const Machine& machine,
+                                      const std::vector<Simulation>& simulations) const {
+  return observations_.stacked(with_terms(machine.terms, observations_.scenes, simulations));
 }
 
 /// The prediction with one parameter a step further, from simulations without the step.
@@ -158,16 +146,15 @@ Eigen::VectorXd Evaluator::stepped(const Values& values, std::size_t index, doub
   other[index] += step;
   moved.set(other);
   const Machine changed = machine_with(observations_, moved.chosen_);
-  return observations_.stacked(
-      alters_[index] ? add_terms(changed, moved.simulate_scenes(changed, rigid, simulations))
-                     : add_terms(changed, simulations));
+  return alters_[index] ? prediction(changed, moved.simulate_scenes(changed, rigid, simulations))
+                        : prediction(changed, simulations);
 }
 
 Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* derivative) {
   set(values);
   const Machine machine = machine_with(observations_, chosen_);
   const std::vector<Simulation>& at = simulations(machine);
-  Eigen::VectorXd base = observations_.stacked(add_terms(machine, at));
+  Eigen::VectorXd base = prediction(machine, at);
   if (derivative == nullptr) {
     return base;
   }

@@ -20,9 +20,9 @@ class Evaluator {
 
   std::size_t size() const { return alters_.size(); }
   const Parameter& parameter(std::size_t index) const;
-  /// By which the parameters' tolerances hold them: one over the square of each.
+  /// Precisions by which the parameters are held: one over the square of each tolerance.
   Eigen::VectorXd precisions() const;
-  /// Times the standard deviation of each parameter (Parameter::widening).
+  /// Factors of the parameters' standard deviations (Parameter::widening).
   Eigen::VectorXd widenings() const;
   const std::vector<Chosen>& chosen() const { return chosen_; }
   Values values() const;
@@ -45,8 +45,9 @@ class Evaluator {
   std::vector<Simulation> simulate_scenes(const Machine& machine,
                                           const std::vector<simulation::RigidTorque>& rigid,
                                           const std::vector<Simulation>& near) const;
-  std::vector<Prediction> add_terms(const Machine& machine,
-                                    const std::vector<Simulation>& simulations) const;
+  /// Stacked prediction of a machine that was simulated so.
+  Eigen::VectorXd prediction(const Machine& machine,
+                             const std::vector<Simulation>& simulations) const;
   Eigen::VectorXd stepped(const Values& values, std::size_t index, double step,
                           const std::vector<Simulation>& simulations,
                           const std::vector<simulation::RigidTorque>& rigid) const;

@@ -12,9 +12,10 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Times the noise: a fit that comes so near claims to be right, and must not be so many times
-/// worse where it was not fitted.
+/// Times the noise: a fit that comes so near claims to be right. Chosen by judgement, as is the
+/// next.
 constexpr double kAsGoodAsNoise = 2;
+/// Times its error where it was fitted: such a fit must not be so much worse elsewhere.
 constexpr double kFarWorse = 1.5;
 constexpr Eigen::Index kNeighboursApart = 40;  // of all rows: half a stretch that is held out
 
@@ -181,18 +182,18 @@ bool fails_held_out(const Observations& observations, const Eigen::VectorXd& rem
   if (observations.is_static) {
     return false;
   }
-  struct Part {
+  struct Sum {
     double sum = 0, count = 0;
     double ratio() const { return std::sqrt(sum / std::max(count, 1.0)); }
   };
-  std::map<Eigen::Index, std::array<Part, 2>> components;
+  std::map<Eigen::Index, std::array<Sum, 2>> components;
   for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
     if (at.channel != group.first ||
         (at.channel != simulation::tcp_position && at.component != group.second)) {
       continue;
     }
-    Part& part = components[at.component][i < observations.train ? 0 : 1];
+    Sum& part = components[at.component][i < observations.train ? 0 : 1];
     const double value = std::clamp(remainder[i], -kGross, kGross);
     part.sum += value * value;
     part.count += 1;

@@ -11,7 +11,7 @@ namespace flexcomp::diagnosis {
 /// Channel, and joint less one: the TCP's position (0), or the torque or deflection of one joint.
 using Group = std::pair<Channel, Eigen::Index>;
 
-/// Both of the TCP's position, or both of one joint, whose torque winds it up.
+/// Are two groups both of the TCP's position, or both of one joint, whose torque winds it up?
 bool are_of_one_place(const Group& a, const Group& b);
 
 /// The evidence for a hypothesis beside the others of a fit.
@@ -23,7 +23,7 @@ struct Evidence {
   bool lowers_held_out = false;
   double strength = 0;  ///< root mean square of its share in the component that shows it most,
                         ///< over the noise
-  /// Where it moves what is predicted by more than the noise, or most.
+  /// Groups whose prediction it moves by more than the noise, or the one that it moves most.
   std::vector<Group> shows;
   Group group;                   ///< that shows it most; what follows is of that group
   double relative_strength = 0;  ///< to that of the whole fit
@@ -38,8 +38,7 @@ struct Evidence {
 
 constexpr double kStrongEvidence = 10;  ///< of BIC: "very strong" (Kass and Raftery 1995)
 constexpr double kSameEvidence = 6;     ///< of BIC: below "strong" (the same)
-/// Times the noise: what leaves no more is as good as explained, since noise is estimated
-/// to a tenth.
+/// Times the noise: a remainder no larger counts as explained, since noise is estimated to a tenth.
 constexpr double kLikeNoise = 1.15;
 /// Times the noise: single samples beyond are gross errors, which count no more than that where no
 /// fit told their deviation.
@@ -55,24 +54,24 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
 double confirmation_of(const Observations& observations, const Eigen::VectorXd& before,
                        const Eigen::VectorXd& after);
 
-/// Samples to fit to that are independent, by the correlation of neighbours in a remainder.
+/// Number of independent samples to fit to, by the correlation of neighbours in a remainder.
 double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder);
 
 /// Schwarz's criterion: n·ln(before/after) less ln(n) for each parameter; n independent samples.
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters);
 
-/// The same of a fit over a plainer one, which may all the same have more parameters; each counts
-/// as far as the samples tell it, not what holds it.
+/// Gain in BIC of a fit over a plainer one, which may have more parameters. A parameter counts as
+/// far as the samples tell it, and not where a tolerance holds it.
 double bic_gain(const Observations& observations, const Fit& plain, const Fit& rich);
 
-/// Does a remainder that comes near the noise in what was fitted to fail on what was held out,
-/// where a group shows it? Then the fit fits without being so. In a load test samples are too few,
-/// and their noise too little known, to tell.
+/// Does a group's remainder come near the noise where it was fitted, but fail on what was held out?
+/// Then the fit imitates the machine. Always false in a load test, whose samples are too few, and
+/// their noise too little known, to tell.
 bool fails_held_out(const Observations& observations, const Eigen::VectorXd& remainder,
                     const Group& group);
 
-/// Root mean square of the remainder of the samples to fit to, over the noise, in the channel where
-/// it is largest.
+/// Root mean square of the remainder of the samples to fit to, over the measurement's noise, in the
+/// channel where it is largest.
 double largest_ratio(const Observations& observations, const Eigen::VectorXd& remainder);
 
 /// Does the held-out error fall noticeably in a channel from one fit to another, and rise in none?

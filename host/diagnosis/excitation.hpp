@@ -23,7 +23,7 @@ struct Excitation {
   bool tells_nothing() const;
 };
 
-/// For every joint, from how the hypotheses of the dictionary would show over the noise.
+/// The excitation of every joint, by how far the dictionary's hypotheses would show over the noise.
 std::vector<Excitation> excitation(const Observations& observations,
                                    const std::vector<Hypothesis>& hypotheses,
                                    const Dictionary& dictionary);

@@ -87,7 +87,7 @@ double swing_of(const model::ChainJoint& joint) {
 
 /// One joint at a time to and fro about where the recording began, slowly and fast.
 std::vector<Experiment> motions(const model::Robot& robot, const Scene& scene) {
-  constexpr Eigen::Index kRows = 600;
+  constexpr Eigen::Index kRows = 600;  // time: dozens of motions are simulated
   std::vector<Experiment> all;
   for (Eigen::Index joint = 0; joint < scene.joints(); ++joint) {
     const double swing = swing_of(robot.elastic.joint(joint));

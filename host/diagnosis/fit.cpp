@@ -13,7 +13,8 @@ namespace {
 
 /// Deviations: of normally distributed samples 0.3 % weigh less than one.
 constexpr double kHuber = 3;
-/// Of the sum of squares: of 10,000 samples BIC moves by 0.001.
+/// Part of the sum of squares below which a step ends a fit: it moves the BIC of 10,000 samples by
+/// 0.001.
 constexpr double kLeastChange = 1e-7;
 
 /// The weighted remainder of the samples to fit to, simulated anew for every step.

@@ -41,14 +41,14 @@ struct Fit {
 /// Weights by Huber's function of a remainder over the noise: one within three deviations of what
 /// remains, less beyond, so that single samples do not decide.
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder);
-/// The same where the deviation of what remains is known.
+/// Huber's weights by a known deviation of the remainder.
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& remainder, double deviation);
 
 /// Deviations of a remainder, beyond which a sample is an outlier: of normally distributed samples
 /// one in 500 million is, and any other effect shows in many.
 constexpr double kFarOff = 6;
 
-/// A remainder over the noise whose outliers count as if they were just no outliers.
+/// A remainder over the noise, with outliers cut down to the largest value that is none.
 Eigen::VectorXd clipped(const Eigen::VectorXd& remainder);
 
 /// The machine with hypotheses added to the observations' model.
@@ -67,12 +67,11 @@ Machine machine_with(const Observations& observations, const std::vector<Chosen>
 Fit fit(const Observations& observations, std::vector<Chosen> start, int most_steps,
         const Dictionary* dictionary = nullptr);
 
-/// How much findings work against each other: the power of their shares one by one over that of
-/// their sum. Effects that are there add up (about 1); a sum of effects that imitates another one
-/// is large parts that cancel.
+/// Power of the findings' shares one by one over that of their sum. Real effects add up (about 1).
+/// A sum of effects that imitates another one consists of large parts that cancel each other.
 double cancellation(const Observations& observations, const Fit& fit);
 
-/// Above it, effects imitate something else.
+/// Above this cancellation effects imitate something else.
 constexpr double kMostCancellation = 10;
 
 }  // namespace flexcomp::diagnosis

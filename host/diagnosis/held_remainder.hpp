@@ -34,8 +34,9 @@ class HeldRemainder : public ceres::CostFunction {
   Bodies bodies_;
 };
 
-/// Minimises it within the numbers' bounds (Levenberg and Marquardt) from the evaluator's values
-/// on, and sets these. `least_change`: of the sum of squares, over it, at which it ends.
+/// Minimises a held remainder within the numbers' bounds (Levenberg and Marquardt) from the
+/// evaluator's values on, and sets these. Ends where a step changes the sum of squares by less than
+/// its part `least_change`.
 void minimise(HeldRemainder* cost, int most_steps, double least_change, Evaluator* evaluator);
 
 }  // namespace flexcomp::diagnosis

@@ -8,7 +8,7 @@
 
 namespace flexcomp::diagnosis {
 
-/// A quantity that a residual goes with, in the machine's own terms.
+/// A quantity with which a residual correlates.
 struct Correlate {
   std::string cue;     ///< "load on joint 2", "direction of motion of joint 3", "path angle", …
   int joint = 0;       ///< 0 where it belongs to none

@@ -5,8 +5,8 @@
 
 namespace flexcomp::diagnosis {
 
-/// By how many times its noise each sample's component (a joint's torque, a coordinate) misses what
-/// is predicted; at least one. `remainder`: of the samples to fit to at least, over the noise.
+/// Error of the component that each sample is of (a joint's torque, a coordinate), over its noise;
+/// at least one. `remainder`: of the samples to fit to at least, over the noise.
 ///
 /// No model is right to the noise. Weighted by the noise alone, the component that is measured best
 /// decides what its own model error makes of the numbers that all components share. Weighted by
@@ -14,7 +14,7 @@ namespace flexcomp::diagnosis {
 /// joint; Gautier 1997), none does.
 Eigen::VectorXd model_error(const Observations& observations, const Eigen::VectorXd& remainder);
 
-/// The same of what the numbers of a machine can explain together.
+/// Model error that is left where all numbers of a machine are fitted together.
 Eigen::VectorXd least_model_error(const Inquiry& inquiry,
                                   const std::vector<Hypothesis>& hypotheses);
 

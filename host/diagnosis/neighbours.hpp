@@ -4,8 +4,8 @@
 
 namespace flexcomp::diagnosis {
 
-/// By how many standard deviations the remainders (all samples, over the noise) of a load test are
-/// more alike at neighbouring poses than they would be by chance: Moran's I (Moran 1950; Cliff and
+/// Likeness of a load test's remainders (all samples, over the noise) at neighbouring poses, in
+/// standard deviations from that by chance: Moran's I (Moran 1950; Cliff and
 /// Ord 1981) over each pose's nearest neighbours, in angles and wrench over their spread, against
 /// the same values dealt to the poses at random. Noise knows nothing of the pose; what a model has
 /// left out does. Zero where there are too few poses to tell.

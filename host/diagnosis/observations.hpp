@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "simulation/machine.hpp"
@@ -21,10 +22,15 @@ struct Sample {
   Eigen::Index component;
 };
 
-/// Stretches of time that a recording is divided into: what lies within one may hang together.
+/// Samples that follow each other, from the first to before the end.
+struct Part {
+  Eigen::Index first, end;
+};
+
+/// Stretches of time into which a recording is divided: errors within one may hang together.
 constexpr Eigen::Index kHoldoutStretches = 20;
 
-/// Which of them a row of a recording is in, from zero.
+/// The stretch, from zero, that a row of a recording is in.
 Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows);
 
 /// Noise that the motion's differentiation brings into predictions, by channel; empty without any.
@@ -87,8 +93,12 @@ class Observations {
   Eigen::VectorXd stacked(const std::vector<Prediction>& values) const;
   /// Residual of other predictions, over the noise.
   Eigen::VectorXd residual_of(const std::vector<Prediction>& values) const;
-  /// Root mean square over a channel of values that are over the noise, SI.
-  double rms(const Eigen::VectorXd& values, Channel channel, bool held_out) const;
+  /// The samples to fit to, or those that are held out.
+  Part part(bool held_out) const { return held_out ? Part{train, size()} : Part{0, train}; }
+  /// Root mean square of values that are over the noise, SI: of a channel or one component of it,
+  /// in the samples to fit to or in those held out. Zero without samples.
+  double rms(const Eigen::VectorXd& values, Channel channel, bool held_out,
+             std::optional<Eigen::Index> component = std::nullopt) const;
   /// A residual (all samples, over the noise) as an error of a joint's angle, at the TCP and at the
   /// link encoders, by scene.
   std::vector<JointResidual> angle_residual(int joint, const Eigen::VectorXd& unexplained) const;

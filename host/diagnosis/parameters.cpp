@@ -108,19 +108,20 @@ std::string three_digits(double value) {
                                                            : fmt::format("{:.0f}", value);
 }
 
+Scale readable_scale(double size, const std::string& unit) {
+  const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";
+  if (!has_prefixes || !(size > 0) || size >= 0.1) {
+    return {1, unit};
+  }
+  return size < 1e-4 ? Scale{1e6, "µ" + unit} : Scale{1e3, "m" + unit};
+}
+
 std::string readable(double value, const std::string& unit) {
   if (unit == "1" || unit.empty()) {  // a formula may leave a unit open
     return three_digits(value);
   }
-  const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";
-  const double size = std::abs(value);
-  if (has_prefixes && size > 0 && size < 1e-4) {
-    return fmt::format("{:.3g} µ{}", 1e6 * value, unit);
-  }
-  if (has_prefixes && size > 0 && size < 0.1) {
-    return fmt::format("{:.3g} m{}", 1e3 * value, unit);
-  }
-  return three_digits(value) + " " + unit;
+  const Scale scale = readable_scale(std::abs(value), unit);
+  return three_digits(scale.factor * value) + " " + scale.unit;
 }
 
 std::string unit_of(const Observations& observations, Channel channel) {

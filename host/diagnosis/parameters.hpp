@@ -33,6 +33,15 @@ constexpr double kTold = 1.96;
 /// Three digits, but tens and thousands written out: 0.0123, 1214.
 std::string three_digits(double value);
 
+/// A unit with its prefix, and how many of it are one of the SI unit.
+struct Scale {
+  double factor;
+  std::string unit;
+};
+
+/// The prefix with which a value of this size is easy to read; none where people write none.
+Scale readable_scale(double size, const std::string& unit);
+
 /// A value with its unit as people write it: 0.21 mrad, 14 µm.
 std::string readable(double value, const std::string& unit);
 

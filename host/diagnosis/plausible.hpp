@@ -14,8 +14,8 @@ using effects::size_of;
 /// The size of the observations' machine, with the largest loads and force of the recordings.
 MachineSize size_of(const Observations& observations);
 
-/// Narrows a hypothesis' bounds to what can be. Where none of what would be tried can be, it gets
-/// no start.
+/// Narrows a hypothesis' bounds to values that can be. It gets no start where none of its starts
+/// can be.
 void keep_plausible(const model::Robot& robot, const MachineSize& size, Hypothesis* hypothesis);
 
 struct Fit;
@@ -29,9 +29,9 @@ struct Fit;
 /// along the recordings.
 std::string why_impossible(const Observations& observations, const Fit& fit, std::size_t index);
 
-/// Could it be so, though nothing is found by it? Numbers of a regression need not. Unlike above a
-/// number of a body may rest on its bound: torques tell masses in combinations only, and one of
-/// several that fit the same lies there.
+/// Could a hypothesis be so, as fitted, as a number that stands in for others? Numbers of a
+/// regression need not. Unlike above, a number of a body may rest on its bound: torques tell masses
+/// in combinations only, and one of several that fit the same lies there.
 bool could_be(const Observations& observations, const Fit& fit, std::size_t index);
 
 }  // namespace flexcomp::diagnosis

@@ -7,7 +7,7 @@
 
 namespace flexcomp::diagnosis {
 
-/// A term of a form that describes a residual without saying what causes it.
+/// A term that describes a residual without naming its cause.
 struct ProposedTerm {
   std::string text;  ///< "angle of joint 3 in error by |load on joint 2|"
   std::string unit;  ///< of the coefficient

@@ -38,7 +38,7 @@ void take_members(const Inquiry& inquiry, const Fit& whole, std::size_t others,
   diagnosis->nearest.clear();
   diagnosis->indistinguishable.clear();
   diagnosis->reason = more_than_noise(observations, diagnosis->updated().remainder);
-  diagnosis->verdict = diagnosis->reason.empty() ? "explained" : "partly_explained";
+  diagnosis->verdict = diagnosis->reason.empty() ? Verdict::explained : Verdict::partly_explained;
 }
 
 bool is_number_of_family(const Inquiry& inquiry, const Chosen& chosen) {
@@ -46,8 +46,9 @@ bool is_number_of_family(const Inquiry& inquiry, const Chosen& chosen) {
          !is_chosen(inquiry.given.chosen, chosen.hypothesis);
 }
 
-/// What was found, without the numbers of positions: nothing holds single ones of those to the size
-/// of their like. Torques tell their numbers one by one too.
+/// The findings to begin with. Where torques were recorded these are all, since torques tell each
+/// number by itself. Numbers that positions show are left out: nothing would hold a single one to
+/// the size of its like.
 std::vector<Chosen> kept_of(const Inquiry& inquiry, const Fit& found) {
   if (inquiry.observations.has(simulation::joint_torque)) {
     return found.chosen;
@@ -112,7 +113,7 @@ void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   if (is_begun || are_many(inquiry, found)) {
     take_members(inquiry, together(inquiry, found, hypotheses), 0, diagnosis);
   }
-  if (diagnosis->is_weighed_whole || diagnosis->verdict == "explained") {
+  if (diagnosis->is_weighed_whole || diagnosis->verdict == Verdict::explained) {
     return;
   }
   const std::size_t findings = diagnosis->choice.findings.size();
@@ -164,7 +165,7 @@ void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   const Eigen::VectorXd found =
       model_error(observations, first.updated().remainder.head(observations.train));
   // A coupled drive or a delay is no number, so that less is left than was thought.
-  if (first.verdict != "explained" && (found.array() < kMuchLess * expected.array()).any()) {
+  if (first.verdict != Verdict::explained && (found.array() < kMuchLess * expected.array()).any()) {
     Diagnosis second = refit_over(found, inquiry, hypotheses, *diagnosis);
     if (!predicts_better(observations, second.updated(), first.updated())) {
       first = std::move(second);

@@ -6,12 +6,12 @@
 
 namespace flexcomp::diagnosis {
 
-/// Why what a fit leaves (all samples, over the noise) is not nothing but noise, in words; empty
-/// where it is.
+/// Why the remainder of a fit (all samples, over the noise) is more than noise, in words; empty
+/// where it is noise.
 ///
-/// A motion's noise is known from its samples: what is larger is more than noise. In a load test
-/// only a fit can tell the noise, so that what it leaves is as large as that: there it must not be
-/// alike at neighbouring poses either.
+/// The noise of a motion is known from its samples: a larger remainder is more than noise. The
+/// noise of a load test is known from a fit alone, which leaves as much in any case. A remainder
+/// there is more than noise if it is alike at neighbouring poses too.
 std::string more_than_noise(const Observations& observations, const Eigen::VectorXd& remainder);
 
 }  // namespace flexcomp::diagnosis

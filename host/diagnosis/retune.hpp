@@ -7,9 +7,9 @@
 
 namespace flexcomp::diagnosis {
 
-/// The best plain refit of a machine's numbers beside findings, for want of the physics that is
-/// left: of the few numbers that every model has (compliances, friction) and of whole families
-/// (families.hpp) what predicts best what was held out.
+/// The refit of a machine's own numbers beside findings that predicts best what was held out: of
+/// the few numbers that every model has (compliances, friction), or of whole families
+/// (families.hpp). It stands in for physics that was not found.
 ///
 /// Returns the findings, fitted anew, and behind them the numbers. Nothing is chosen unless all of
 /// them can be (plausible.hpp), the evidence for all of them together is strong, and the held-out
@@ -17,7 +17,7 @@ namespace flexcomp::diagnosis {
 Fit retune(const Observations& observations, const Fit& findings,
            const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
 
-/// Whole families alone beside what is `given`; nothing unless they stand as above.
+/// Whole families alone beside the `given` fit; nothing chosen unless they stand as above.
 Fit retune_whole(const Observations& observations, const Fit& given,
                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
 

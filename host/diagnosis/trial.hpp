@@ -17,8 +17,8 @@ struct Trial {
   Evidence evidence;           ///< for it by itself
 };
 
-/// Weighs each written law of the hypotheses by itself, with the evidence that every hypothesis is
-/// asked for, and says of one that is not among the findings why.
+/// Weighs each written law of the hypotheses by itself, by the evidence that every hypothesis
+/// needs, and says why one is not among the findings.
 std::vector<Trial> weigh_trials(const Inquiry& inquiry, const Choice& choice);
 
 }  // namespace flexcomp::diagnosis

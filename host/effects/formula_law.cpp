@@ -14,6 +14,7 @@
 namespace flexcomp::effects {
 namespace {
 
+/// Chosen by judgement: with more a formula fits whatever there is.
 constexpr std::size_t kMostParameters = 12;
 
 [[noreturn]] void refuse(const model::WrittenLaw& written, const std::string& why,
@@ -213,7 +214,7 @@ Term term_of(const std::shared_ptr<const BoundFormula>& bound, const Values& val
 
 /// "joint 5 has a torque that follows the angle of joint 4, by a*sin(q4)"
 std::string clause_of(const BoundFormula& bound) {
-  constexpr std::size_t kFew = 3;
+  constexpr std::size_t kFew = 3;  // that a clause bears
   std::vector<std::string> drivers;
   for (const std::optional<Signal>& signal : bound.signals) {
     if (signal) {

@@ -10,7 +10,7 @@ namespace flexcomp::effects {
 /// posture; the other joints stand.
 double carried_inertia(const model::Robot& robot, const simulation::JointValues& q, int joint);
 
-/// The same at every row of a scene.
+/// The inertia that a joint carries at every row of a scene.
 Eigen::VectorXd carried_inertia(const model::Robot& robot, const simulation::Scene& scene,
                                 int joint);
 

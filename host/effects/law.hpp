@@ -39,9 +39,9 @@ struct Derived {
 /// The property of a joint that a law's first parameter measures.
 enum class Measures { none, stiffness, zero, friction };
 
-/// What a law places of the instrument that measures the TCP: its frame, by a shift (m) and a
-/// rotation vector (rad) in its parameters' order, or the point on the tool that it follows, by a
-/// shift (m).
+/// The part of the instrument that measures the TCP which a law's parameters place: its frame, by a
+/// shift (m) and then a rotation vector (rad), or the point on the tool that it follows, by a shift
+/// (m).
 enum class Registers { nothing, frame, point };
 
 /// Properties of a law, for those who fit, choose and report it.
@@ -87,9 +87,9 @@ struct Law {
   std::function<std::vector<Parameter>(const model::Robot&, int joint)> parameters;
   /// Ranges of its parameters, each with its source; a parameter without one may be anything.
   std::vector<ParameterRange> ranges;
-  /// By how much a robot that a model became by it, at a joint, is beyond what could be, the
-  /// model's size given: over the body's own size, and counted from `margin` before the edge. One
-  /// or more numbers that change smoothly; all are zero where it can be. May be left out.
+  /// Excess of the robot that a model became by the law at a joint, given the model's size: how far
+  /// it is beyond a body that can be, over the body's own size, counted from `margin` before the
+  /// edge. One or more numbers that change smoothly; all are zero where it can be. May be left out.
   std::function<Eigen::VectorXd(const model::Robot& model, const model::Robot& altered,
                                 const MachineSize&, int joint, double margin)>
       excess;
@@ -98,7 +98,7 @@ struct Law {
   std::function<std::string(const model::Robot&, int joint)> impossible;
   /// Gives the machine the effect, beside the effects it has.
   std::function<void(const Values&, int joint, Machine*)> apply;
-  /// A term that does nearly the same, where `apply` alters the model; may be left out.
+  /// A term that acts to first order as `apply` does where that alters the model; may be left out.
   std::function<Term(const Values&, int joint)> sketch;
   /// Numbers that follow from the parameters; may be left out.
   std::function<std::vector<Derived>(const model::Robot&, int joint, const Values&)> derived;

@@ -130,7 +130,8 @@ model::LearnedEffect entry_of(const model::Robot& robot, const Placed& placed) {
   return entry;
 }
 
-/// The same formula at the same place, whose parameters all act in proportion: then two add up.
+/// Is the effect found the same formula at the same place as one listed, with parameters that all
+/// act in proportion? Then their parameters add up.
 bool adds_up(const model::LearnedEffect& listed, const Placed& found) {
   return listed.law && found.law->bound && listed.joint == found.joint &&
          listed.law->place == found.law->written->place &&

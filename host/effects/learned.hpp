@@ -28,8 +28,8 @@ std::vector<Placed> listed_effects(const model::Robot& robot);
 /// key `backlash` where the list has none. Throws InputError as `listed_effects` does.
 Machine machine_of(const model::Robot& robot);
 
-/// The same, for these recordings: throws InputError besides if they lack what an effect follows (a
-/// drift by temperature without temperatures).
+/// The machine for these recordings. Throws InputError too if they lack a signal that an effect
+/// follows: temperatures, for a drift by temperature.
 Machine machine_of(const model::Robot& robot, const std::vector<Scene>& scenes);
 
 /// The robot with effects that were found: by the keys of its file where there are any, else as

@@ -6,7 +6,7 @@
 namespace flexcomp::effects {
 namespace {
 
-constexpr int kSteps = 5;
+constexpr int kSteps = 5;          // of Newton's method, damped
 constexpr double kLargest = 0.02;  // rad, of a step: beyond it nothing is linear
 constexpr double kDamping = 1e-3;  // m, of the Jacobian's singular values
 

@@ -46,11 +46,11 @@ struct ParameterRange {
   const char* source;
 };
 
-/// Either way.
+/// A change of so much, up or down.
 Range within(double size);
-/// Either way, and mostly much less.
+/// The same, mostly by no more than `usual`.
 Range within(double size, double usual);
-/// From nothing, on which a fit may rest.
+/// From nothing, where a fit may rest, up to `most`.
 Range up_to(double most);
 /// Changes of a number that the model knows and that lies between nothing and `most`.
 Range change(double known, double most);

@@ -10,7 +10,7 @@
 namespace flexcomp::effects {
 namespace {
 
-/// One row in which only the TCP is looked at.
+/// A scene of one row that shows the TCP alone.
 Scene one_row(int joints) {
   Scene scene;
   scene.file = "the plant";

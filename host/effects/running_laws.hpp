@@ -19,7 +19,7 @@ class RunningLaws {
 
   bool any() const { return !laws_.empty(); }
 
-  /// By how much they move the TCP (m, base frame) in the next period. Throws InputError where a
+  /// The TCP's shift (m, base frame) by all laws in the next period. Throws InputError where a
   /// formula has no value.
   Vector3<double> next(const model::JointValues& q, const Wrench<double>& wrench);
 

@@ -25,7 +25,7 @@ enum class SignalKind {
   time,          ///< t: since the recording's first row
 };
 
-/// One of them on one robot.
+/// A signal of one robot.
 struct Signal {
   SignalKind kind;
   int index = 0;  ///< of the joint (from 1 on), or of the component (from 0 on)
@@ -39,8 +39,7 @@ std::optional<Signal> find_signal(const model::Robot& robot, const std::string& 
 /// The names of all, for messages.
 std::string signal_names(const model::Robot& robot);
 
-/// Which of two loads a signal is that depends on it: at rest, or with inertia as far as it is
-/// known.
+/// The load that signals of load show: at rest, or with inertia as far as it is known.
 enum class Loads { at_rest, with_inertia };
 
 /// A signal's values, one a row. `prediction` holds the loads so far; `since`: the time (s) that

@@ -8,16 +8,21 @@
 namespace flexcomp::model {
 namespace {
 
-/// The parts of a model that are not joints, with one joint in the place of all.
+template <typename From, typename To>
+void copy_all_but_joints(const From& from, To* to) {
+  to->tool = from.tool;
+  to->base_compliance = from.base_compliance;
+  to->tool_compliance = from.tool_compliance;
+  to->gravity = from.gravity;
+  to->payload_mass = from.payload_mass;
+  to->payload_center = from.payload_center;
+}
+
+/// A model of the core with one joint of a chain in the place of all.
 RobotModel<double, 1> around(const Chain& chain, const ChainJoint& joint) {
   RobotModel<double, 1> model;
   model.joints[0] = joint;
-  model.tool = chain.tool;
-  model.base_compliance = chain.base_compliance;
-  model.tool_compliance = chain.tool_compliance;
-  model.gravity = chain.gravity;
-  model.payload_mass = chain.payload_mass;
-  model.payload_center = chain.payload_center;
+  copy_all_but_joints(chain, &model);
   return model;
 }
 
@@ -59,12 +64,7 @@ std::optional<RobotModel<double, 6>> six_axis_model(const Chain& chain) {
     return std::nullopt;
   }
   std::copy(chain.joints.begin(), chain.joints.end(), model.joints.begin());
-  model.tool = chain.tool;
-  model.base_compliance = chain.base_compliance;
-  model.tool_compliance = chain.tool_compliance;
-  model.gravity = chain.gravity;
-  model.payload_mass = chain.payload_mass;
-  model.payload_center = chain.payload_center;
+  copy_all_but_joints(chain, &model);
   return model;
 }
 
@@ -73,12 +73,7 @@ Chain chain_of(const RobotModel<double, 6>& model) {
   for (const Joint<double>& joint : model.joints) {
     chain.joints.push_back({joint, JointType::revolute});
   }
-  chain.tool = model.tool;
-  chain.base_compliance = model.base_compliance;
-  chain.tool_compliance = model.tool_compliance;
-  chain.gravity = model.gravity;
-  chain.payload_mass = model.payload_mass;
-  chain.payload_center = model.payload_center;
+  copy_all_but_joints(model, &chain);
   return chain;
 }
 

@@ -80,7 +80,7 @@ Chain chain_of(const RobotModel<double, 6>& model);
 /// m/N. Units that have nothing to do with what the joint is stay as they are.
 std::string unit_of(const ChainJoint& joint, const std::string& of_turning);
 
-/// The same for all joints of a chain: "N·m or N" where some turn and some slide.
+/// A unit that holds for all joints of a chain: "N·m or N" where some turn and some slide.
 std::string unit_of(const Chain& chain, const std::string& of_turning);
 
 }  // namespace flexcomp::model

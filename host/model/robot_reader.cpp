@@ -85,15 +85,6 @@ JointMatrix read_transmission(const YamlMap& yaml, Eigen::Index joints) {
   return transmission;
 }
 
-/// From 1 on; 0 where there is none.
-int read_joint_number(const YamlMap& yaml, int joints) {
-  const double joint = yaml.number_or("joint", 0);
-  if (yaml.has("joint") && !(joint >= 1 && joint <= joints && joint == std::floor(joint))) {
-    yaml.refuse("joint", fmt::format("expected a joint, 1 to {}", joints));
-  }
-  return static_cast<int>(joint);
-}
-
 LearnedEffect read_law(const YamlMap& yaml, int joints) {
   LearnedEffect learned;
   learned.effect = kLaw;

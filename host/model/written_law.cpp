@@ -1,7 +1,10 @@
 #include "model/written_law.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "model/yaml_map.hpp"
 
@@ -22,6 +25,14 @@ WrittenLaw read_written_law(const YamlMap& yaml) {
     }
   }
   return law;
+}
+
+int read_joint_number(const YamlMap& yaml, int joints) {
+  const double joint = yaml.number_or("joint", 0);
+  if (yaml.has("joint") && !(joint >= 1 && joint <= joints && joint == std::floor(joint))) {
+    yaml.refuse("joint", fmt::format("expected a joint, 1 to {}", joints));
+  }
+  return static_cast<int>(joint);
 }
 
 bool is_key_of_law(const std::string& key) {

@@ -25,6 +25,10 @@ struct WrittenLaw {
 /// is missing or no text.
 WrittenLaw read_written_law(const YamlMap& yaml);
 
+/// Reads the key `joint`: from 1 on, 0 without the key. Throws InputError for a joint that a robot
+/// of so many joints does not have.
+int read_joint_number(const YamlMap& yaml, int joints);
+
 /// Is a key part of how a law is written, or else one of its parameters?
 bool is_key_of_law(const std::string& key);
 

@@ -144,8 +144,8 @@ std::vector<Angles> search(const RobotModel<double, 6>& model, const Pose<double
   return solutions;
 }
 
-/// Those within the joint limits, each once, each joint turned to the middle of its range as far as
-/// may be, those farthest from the limits first.
+/// Solutions within the joint limits, each once, the farthest from the limits first. Each joint is
+/// turned by whole turns to as near the middle of its range as it may be.
 std::vector<Angles> within_limits(const RobotModel<double, 6>& model, const Pose<double>& target,
                                   const std::vector<Angles>& solutions) {
   std::vector<Angles> within;

@@ -21,7 +21,7 @@ std::optional<Angles> solve_near(const RobotModel<double, 6>& model, const Pose<
 /// it nearly has one; else, or where that gives none, those that a search from many starts finds.
 std::vector<Angles> solve_all(const RobotModel<double, 6>& model, const Pose<double>& target);
 
-/// The same of any robot, by the search alone: slower by far, and it may miss some.
+/// Solutions of any robot, by the search alone: slower by far, and it may miss some.
 std::vector<Angles> search_all(const RobotModel<double, 6>& model, const Pose<double>& target);
 
 }  // namespace flexcomp::planning

@@ -10,8 +10,8 @@ namespace flexcomp::planning {
 /// a tolerance (m; a radian counts as `kTurningLever`), as a controller goes from one to the next:
 /// the place by a straight line or an arc, the orientation by one rotation.
 ///
-/// Where an arc does not fit and there is nothing to halve, it is a straight line. Of a rapid the
-/// end alone counts. There is one motion at least.
+/// A straight line takes the place of an arc that does not fit and cannot be halved. A rapid has
+/// one motion, to its end. There is one motion at least.
 std::vector<programs::Motion> fit_motion(const programs::Motion& motion,
                                          const std::vector<Pose<double>>& poses, std::size_t first,
                                          std::size_t last, double tolerance);

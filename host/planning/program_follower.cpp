@@ -222,7 +222,7 @@ std::vector<Vector3<double>> places_in_front(const RobotModel<double, 6>& model)
   return places;
 }
 
-/// Those that begin nearest to joint angles first, turned to them by whole turns.
+/// Candidates turned to joint angles by whole turns, those that begin nearest to them first.
 std::vector<Candidate> nearest_first(std::vector<Candidate> candidates, const Angles& near) {
   for (Candidate& each : candidates) {
     each.start += 2 * M_PI * ((near - each.start) / (2 * M_PI)).array().round().matrix();

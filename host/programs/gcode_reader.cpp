@@ -372,10 +372,7 @@ class GcodeReader {
 }  // namespace
 
 Program gcode_program(const std::string& file, std::string text) {
-  Program program;
-  program.format = Format::gcode;
-  program.file = file;
-  program.text = std::move(text);
+  Program program = unread(Format::gcode, file, std::move(text));
   program.has_free_spin = true;
   GcodeReader(&program).read();
   return program;

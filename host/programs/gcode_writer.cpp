@@ -168,8 +168,7 @@ class GcodeWriter {
 
 std::string gcode_text(const CorrectedProgram& program) {
   GcodeWriter writer(program);
-  const bool is_own = program.source.format == Format::gcode && !program.source.text.empty();
-  return is_own ? writer.rewritten_text() : writer.new_text();
+  return has_text_in(Format::gcode, program.source) ? writer.rewritten_text() : writer.new_text();
 }
 
 }  // namespace flexcomp::programs

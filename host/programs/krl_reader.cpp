@@ -365,10 +365,7 @@ class KrlReader {
 }  // namespace
 
 Program krl_program(const std::string& file, std::string src, const std::string& dat) {
-  Program program;
-  program.format = Format::krl;
-  program.file = file;
-  program.text = std::move(src);
+  Program program = unread(Format::krl, file, std::move(src));
   KrlReader reader(&program);
   reader.read_data(dat);
   reader.read_source();

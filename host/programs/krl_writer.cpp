@@ -147,14 +147,9 @@ std::string new_program(const CorrectedProgram& program, const std::string& name
       "; The points are of the TCP of the robot's model; $TOOL and load data must be the same.\n"
       "$BASE={}\n",
       name, files::one_line(source.file, 200), krl_pose(program.frame));
-  const auto add_comments = [&](std::size_t motion) {
-    for (const std::string& line : lines_before(source, motion)) {
-      text += "; " + files::one_line(line, 200) + "\n";
-    }
-  };
   double feed = 0;
   for (std::size_t i = 0; i < source.motions.size(); ++i) {
-    add_comments(i);
+    text += comments_before(source, i, "; ");
     const Motion& own = source.motions[i];
     if (own.feed > 0 && own.feed != feed) {
       feed = own.feed;
@@ -167,14 +162,14 @@ std::string new_program(const CorrectedProgram& program, const std::string& name
                           stops ? "" : " ", stops ? "" : passing(each.kind));
     });
   }
-  add_comments(source.motions.size());
+  text += comments_before(source, source.motions.size(), "; ");
   return text + "END\n";
 }
 
 }  // namespace
 
 std::string krl_text(const CorrectedProgram& program, const std::string& name) {
-  if (program.source.format != Format::krl || program.source.text.empty()) {
+  if (!has_text_in(Format::krl, program.source)) {
     return new_program(program, name);
   }
   return rewritten(program.source,

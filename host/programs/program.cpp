@@ -95,6 +95,14 @@ Matrix3<double> orientation_by_axis(const Vector& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), axis).toRotationMatrix() * down;
 }
 
+Program unread(Format format, const std::string& file, std::string text) {
+  Program program;
+  program.format = format;
+  program.file = file;
+  program.text = std::move(text);
+  return program;
+}
+
 void append(const Motion& motion, Program* program) {
   constexpr double kFarthest = 1e5;  // m
   constexpr double kFastest = 1e4;   // m/s

@@ -77,6 +77,9 @@ std::optional<Arc> arc_through(const Vector3<double>& start, const Vector3<doubl
 /// frame's where the axis is z.
 Matrix3<double> orientation_by_axis(const Vector3<double>& axis);
 
+/// A program whose text is known and whose motions are not read yet. `file`: for messages.
+Program unread(Format format, const std::string& file, std::string text);
+
 /// Adds a motion to a program; throws InputError with its line if it goes to a place (100 km) or at
 /// a feed (10 km/s) beyond those of any machine, which no later step needs to compute with.
 void append(const Motion& motion, Program* program);

@@ -266,10 +266,7 @@ class RapidReader {
 }  // namespace
 
 Program rapid_program(const std::string& file, std::string text) {
-  Program program;
-  program.format = Format::rapid;
-  program.file = file;
-  program.text = std::move(text);
+  Program program = unread(Format::rapid, file, std::move(text));
   RapidReader(&program).read();
   return program;
 }

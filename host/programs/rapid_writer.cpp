@@ -164,13 +164,8 @@ std::string new_module(const CorrectedProgram& program, const std::string& name)
       "TCP.\n"
       "PERS wobjdata {0}_work:=[FALSE,TRUE,\"\",[{2}],[[0,0,0],[1,0,0,0]]];\nPROC {0}_run()\n",
       name, files::one_line(source.file, 200), rapid_pose(program.frame));
-  const auto add_comments = [&](std::size_t motion) {
-    for (const std::string& line : lines_before(source, motion)) {
-      text += "  ! " + files::one_line(line, 200) + "\n";
-    }
-  };
   for (std::size_t i = 0; i < source.motions.size(); ++i) {
-    add_comments(i);
+    text += comments_before(source, i, "  ! ");
     const double feed = source.motions[i].feed;
     const std::string speed = feed > 0 ? fmt::format("[{:.6g},500,5000,1000]", feed / kMillimetre)
                               : source.motions[i].kind == MotionKind::rapid ? "v500"
@@ -182,14 +177,14 @@ std::string new_module(const CorrectedProgram& program, const std::string& name)
                           !is_last || goes_on_after ? "z0" : "fine", name);
     });
   }
-  add_comments(source.motions.size());
+  text += comments_before(source, source.motions.size(), "  ! ");
   return text + "ENDPROC\nENDMODULE\n";
 }
 
 }  // namespace
 
 std::string rapid_text(const CorrectedProgram& program, const std::string& name) {
-  if (program.source.format != Format::rapid || program.source.text.empty()) {
+  if (!has_text_in(Format::rapid, program.source)) {
     return new_module(program, name);
   }
   const Rewriter rewriter(program);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/one_line.hpp"
 #include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
@@ -33,6 +34,10 @@ std::string fixed(double value, int decimals) {
   return text;
 }
 
+bool has_text_in(Format format, const Program& source) {
+  return source.format == format && !source.text.empty();
+}
+
 std::string rewritten(const Program& source,
                       const std::function<std::string(std::size_t)>& statement) {
   std::string text;
@@ -52,20 +57,21 @@ std::string_view line_end(const Program& source) {
   return source.text.find("\r\n") == std::string::npos ? "\n" : "\r\n";
 }
 
-std::vector<std::string> lines_before(const Program& source, std::size_t motion) {
+std::string comments_before(const Program& source, std::size_t motion, const std::string& mark) {
+  constexpr std::size_t kLongest = 200;  // characters, chosen by judgement: a line to read
   const std::size_t count = source.motions.size();
   const std::size_t first = motion == 0 ? 0 : source.motions[motion - 1].finish;
   const std::size_t last = motion < count ? source.motions[motion].begin : source.text.size();
-  std::vector<std::string> lines;
+  std::string comments;
   const std::string_view between =
       std::string_view(source.text).substr(std::min(first, last), last - std::min(first, last));
   for (std::size_t begin = 0; begin < between.size();) {
     const std::string_view line = trimmed_line(next_line(between, &begin));
     if (!line.empty()) {
-      lines.emplace_back(line);
+      comments += mark + files::one_line(line, kLongest) + "\n";
     }
   }
-  return lines;
+  return comments;
 }
 
 const Pose<double>& start_of(const CorrectedProgram& program, std::size_t motion) {

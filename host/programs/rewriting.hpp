@@ -3,7 +3,6 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "programs/corrected_program.hpp"
 
@@ -11,6 +10,9 @@ namespace flexcomp::programs {
 
 /// A number with so many decimals, and no minus before a zero.
 std::string fixed(double value, int decimals);
+
+/// Was the program read from a text in this format, which can be rewritten?
+bool has_text_in(Format format, const Program& source);
 
 /// The source's text with each motion's statement replaced, everything else byte for byte.
 /// `statement` is told a motion's number.
@@ -21,8 +23,9 @@ std::string rewritten(const Program& source,
 std::string_view line_end(const Program& source);
 
 /// Lines of the source that stand before a motion and after the one before it, or behind all where
-/// there is no such motion, for comments: without blanks around, and without those that are empty.
-std::vector<std::string> lines_before(const Program& source, std::size_t motion);
+/// there is no such motion, as comments: each without blanks around, behind `mark`. Empty lines are
+/// left out.
+std::string comments_before(const Program& source, std::size_t motion, const std::string& mark);
 
 /// Does the way go on after a motion without a corner (10°) and without a rapid, so that there need
 /// be no stop?

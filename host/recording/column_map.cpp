@@ -166,7 +166,7 @@ void refuse_infinity(const NumberTable& table, const std::string& column, std::s
   }
 }
 
-/// In a recording's columns and units.
+/// The table with a recording's columns and units.
 NumberTable converted(const NumberTable& raw, const std::vector<Source>& sources) {
   NumberTable table;
   table.file = raw.file;

@@ -53,7 +53,7 @@ double robust_deviation(const Eigen::VectorXd& values) {
 }
 
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride) {
-  constexpr Eigen::Index kFewest = 12;
+  constexpr Eigen::Index kFewest = 12;  // samples, chosen by judgement: nine differences
   Eigen::VectorXd known;
   const Eigen::Index step = std::max<Eigen::Index>(1, stride / take_known(signal, &known));
   const Eigen::Index n = known.size() - 3 * step;
@@ -92,7 +92,7 @@ double quantisation_step(const Eigen::VectorXd& signal) {
 }
 
 Eigen::VectorXd neighbour_misses(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) {
-  constexpr Eigen::Index kSide = 3;
+  constexpr Eigen::Index kSide = 3;  // neighbours: six numbers of a polynomial of fifth order
   if (angle.size() <= 2 * kSide) {
     return {};
   }
@@ -125,8 +125,9 @@ double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) 
 }
 
 bool stands_alone(const Eigen::VectorXd& signal, Eigen::Index row, double noise) {
-  constexpr double kFar = 8;
-  constexpr std::size_t kReach = 3;
+  constexpr double kFar = 8;         // deviations, chosen by judgement: no noise gets there
+  constexpr std::size_t kReach = 3;  // neighbours on either side, which a motion is nearly straight
+                                     // over
   std::vector<double> near;
   add_neighbours(signal, row, -1, kReach, &near);
   add_neighbours(signal, row, 1, kReach, &near);

@@ -11,12 +11,12 @@ namespace flexcomp::recording {
 /// (rows) beyond the memory of coloured noise, that noise counts too.
 double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride = 1);
 
-/// By how much each value that has three neighbours on either side differs from the polynomial
-/// through these six at their true times (s), over what that amplifies white noise.
+/// Differences of each value that has three neighbours on either side from the polynomial through
+/// these six at their true times (s), over the factor by which that amplifies white noise.
 Eigen::VectorXd neighbour_misses(const Eigen::VectorXd& time, const Eigen::VectorXd& angle);
 
-/// The same for a signal that is nearly noiseless, an encoder's, by its `neighbour_misses`; of a
-/// quantised one no less than the error of rounding.
+/// Standard deviation of the noise of an encoder, which is nearly noiseless, by its
+/// `neighbour_misses`; of a quantised one no less than the error of rounding.
 double encoder_noise(const Eigen::VectorXd& time, const Eigen::VectorXd& angle);
 
 /// Step in which a quantised signal is given; 0 where it is not, or in steps so fine that hardly a

@@ -165,10 +165,21 @@ void check_readable(const Recording& recording) {
 
 }  // namespace
 
+const Samples* Recording::angles() const { return q_meas ? &*q_meas : q_cmd ? &*q_cmd : nullptr; }
+
 std::string Recording::place(Eigen::Index row) const {
   const auto index = static_cast<std::size_t>(row);
   return index < lines.size() ? fmt::format("{}:{}", file, lines[index])
                               : fmt::format("{}: row {}", file, row + 1);
+}
+
+bool counts_rows(const Eigen::VectorXd& time) {
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    if (time[i] != static_cast<double>(i)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 Recording read_recording(const std::filesystem::path& path, int joints) {

@@ -31,9 +31,15 @@ struct Recording {
 
   Eigen::Index size() const { return time.size(); }
 
+  /// Measured joint angles, else commanded ones; null without either.
+  const Samples* angles() const;
+
   /// "file:line" of a row, for messages.
   std::string place(Eigen::Index row) const;
 };
+
+/// Do the times count 0, 1, 2, …, as those of a static load test do?
+bool counts_rows(const Eigen::VectorXd& time);
 
 /// Reads a recording of a robot of so many joints. Throws InputError with file, line and column if
 /// it is no table of numbers, time is missing or does not increase, a column is unknown, or a group

@@ -126,6 +126,17 @@ bool is_much_smoother(const Samples& angles, const Eigen::VectorXd& before,
   return !ratios.empty() && statistics::median(ratios) < kMuchSmoother;
 }
 
+/// Some of these rows, by their places among them.
+std::vector<Eigen::Index> at_places(const std::vector<Eigen::Index>& rows,
+                                    const std::vector<Eigen::Index>& places) {
+  std::vector<Eigen::Index> some;
+  some.reserve(places.size());
+  for (const Eigen::Index place : places) {
+    some.push_back(rows[static_cast<std::size_t>(place)]);
+  }
+  return some;
+}
+
 template <typename Group>
 void pick(const std::vector<Eigen::Index>& rows, std::optional<Group>* group) {
   if (*group) {
@@ -153,6 +164,38 @@ Sampling sampling_of(const Eigen::VectorXd& time, const Samples& angles) {
     sampling.time = even;
   }
   return sampling;
+}
+
+Sampling sampling_of(const Recording& recording) {
+  const Samples& angles = *recording.angles();
+  std::vector<Eigen::Index> whole;
+  for (Eigen::Index row = 0; row < recording.size(); ++row) {
+    if (angles.row(row).allFinite()) {
+      whole.push_back(row);
+    }
+  }
+  Sampling sampling;
+  if (!recording.q_meas || counts_rows(recording.time)) {
+    sampling.time = recording.time(whole);
+    sampling.rows = std::move(whole);
+    return sampling;
+  }
+  sampling = sampling_of(recording.time(whole), angles(whole, Eigen::all));
+  sampling.rows = at_places(whole, sampling.rows);
+  sampling.repeats = at_places(whole, sampling.repeats);
+  return sampling;
+}
+
+std::optional<Eigen::Index> regular_step(std::vector<Eigen::Index> steps) {
+  if (steps.empty()) {
+    return std::nullopt;
+  }
+  std::sort(steps.begin(), steps.end());
+  const Eigen::Index usual = steps[steps.size() / 2];
+  if (steps[steps.size() * 9 / 10] > usual + 1) {
+    return std::nullopt;
+  }
+  return usual;
 }
 
 Recording picked(const Recording& recording, const std::vector<Eigen::Index>& rows) {

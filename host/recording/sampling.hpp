@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "recording/recording.hpp"
@@ -26,6 +27,16 @@ struct Sampling {
 /// Times become evenly spaced between gaps (a straight line through the stamps) where the angles
 /// are much smoother over them, for the joints in the middle of all; else they stay as they are.
 Sampling sampling_of(const Eigen::VectorXd& time, const Samples& angles);
+
+/// The sampling of a recording's joint angles, which it has: rows that lack any of them are in
+/// neither list. Load tests and commands have no repeats, and keep their times: a command that
+/// stays the same is meant so.
+Sampling sampling_of(const Recording& recording);
+
+/// The usual step, in rows, from one sample of a sensor to its next in a log that is faster than
+/// the sensor: the median, if nine tenths of the steps are at most one row longer. Empty where they
+/// are not, or there are none.
+std::optional<Eigen::Index> regular_step(std::vector<Eigen::Index> steps);
 
 /// Some rows of a recording.
 Recording picked(const Recording& recording, const std::vector<Eigen::Index>& rows);

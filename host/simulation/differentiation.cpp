@@ -8,7 +8,7 @@
 namespace flexcomp::simulation {
 namespace {
 
-constexpr Eigen::Index kFewestNeighbours = 3;
+constexpr Eigen::Index kFewestNeighbours = 3;  // on either side: six numbers of a polynomial
 constexpr int kOrder = kPolynomialOrder;
 constexpr double kStandingStill = 1e-5;  // rad/s, far below any programmed motion
 constexpr double kBeyondNoise = 4;       // deviations
@@ -166,7 +166,7 @@ struct Probes {
 };
 
 Probes probe(const Eigen::VectorXd& time, const recording::Samples& q, double half_window) {
-  constexpr Eigen::Index kMostProbes = 300;
+  constexpr Eigen::Index kMostProbes = 300;  // time; they tell a variance to a tenth
   const Eigen::Index count = std::min(kMostProbes, time.size());
   const Eigen::RowVectorXd exact = Eigen::RowVectorXd::Zero(q.cols());
   Probes probes{Eigen::MatrixXd(count, q.cols()), Eigen::VectorXd(count)};

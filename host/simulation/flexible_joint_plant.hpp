@@ -10,7 +10,7 @@ namespace flexcomp::simulation {
 ///   D q₁'' + C q₁' + G + K (q₁ − q₂) = τ_ext,   J q₂'' + F q₂' + f(q₂') − K (q₁ − q₂) = u,
 /// with Coulomb friction f rounded off below 0.01 rad/s. Rigid-body terms from Orocos KDL, so that
 /// a controller and the arm it is tried on share no dynamics. Classical Runge–Kutta, fixed steps.
-/// For 1, 2 and 6 joints.
+/// Compiled for 1, 2 and 6 joints.
 template <int Joints>
 class FlexibleJointPlant {
  public:

@@ -6,15 +6,6 @@
 namespace flexcomp::simulation {
 namespace {
 
-/// A signal (n×m) with its slopes at a share of the way from one row to the next: cubic (Hermite).
-Eigen::RowVectorXd hermite(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                           const Eigen::MatrixXd& slope, Eigen::Index row, double share) {
-  const double length = time[row + 1] - time[row];
-  const double to_end = share * share * (3 - 2 * share);
-  return (1 - to_end) * values.row(row) + to_end * values.row(row + 1) +
-         length * share * (1 - share) * ((1 - share) * slope.row(row) - share * slope.row(row + 1));
-}
-
 /// Slopes of the parabolas through each row and its neighbours; straight at the ends.
 Eigen::MatrixXd slopes(const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
   const Eigen::Index last = time.size() - 1;
@@ -33,24 +24,40 @@ Eigen::MatrixXd slopes(const Eigen::VectorXd& time, const Eigen::MatrixXd& value
   return slope;
 }
 
-/// A signal between two rows, cubic (Hermite).
+/// A signal between two rows: the cubic with its values and slopes there (Hermite). `Value`: a
+/// number, or one for each column.
+template <typename Value>
 class Cubic {
  public:
-  Cubic(double first, double last, double slope, double last_slope, double length)
-      : linear_(slope),
+  Cubic(const Value& first, const Value& last, const Value& slope, const Value& last_slope,
+        double length)
+      : first_(first),
+        linear_(slope),
         square_(((last - first) / length * 3 - 2 * slope - last_slope) / length),
         cube_((slope + last_slope - 2 * (last - first) / length) / (length * length)) {}
 
-  /// By how much a first-order lag is behind it at `s` after the first row, once it has settled.
-  double lag(double s, double constant) const {
-    const double velocity = linear_ + s * (2 * square_ + s * 3 * cube_);
-    const double acceleration = 2 * square_ + s * 6 * cube_;
+  /// The signal at `s` after the first row.
+  Value at(double s) const { return first_ + s * (linear_ + s * (square_ + s * cube_)); }
+
+  /// Distance of a first-order lag behind the signal at `s` after the first row, once settled.
+  Value lag(double s, double constant) const {
+    const Value velocity = linear_ + s * (2 * square_ + s * 3 * cube_);
+    const Value acceleration = 2 * square_ + s * 6 * cube_;
     return constant * (velocity - constant * (acceleration - constant * 6 * cube_));
   }
 
  private:
-  double linear_, square_, cube_;
+  Value first_, linear_, square_, cube_;
 };
+
+/// A signal (n×m) with its slopes at a share of the way from a row to the next.
+Eigen::RowVectorXd between_rows(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                                const Eigen::MatrixXd& slope, Eigen::Index row, double share) {
+  const double length = time[row + 1] - time[row];
+  const Cubic<Eigen::RowVectorXd> piece(values.row(row), values.row(row + 1), slope.row(row),
+                                        slope.row(row + 1), length);
+  return piece.at(share * length);
+}
 
 /// Goes to the row at or before a time that the recording spans; of its last row to the one before.
 void go_to(double wanted, const Eigen::VectorXd& time, Eigen::Index* row) {
@@ -62,11 +69,11 @@ void go_to(double wanted, const Eigen::VectorXd& time, Eigen::Index* row) {
   }
 }
 
-/// Rows of a signal of so many columns as they were `delay` (s) before. `between` gives it at a
-/// share of the way from a row to the next, `beyond` at a time that is not between any.
+/// A signal of so many columns, `delay` (s) late. `between` gives it at a share of the way from a
+/// row to the next, `beyond` at a time before the first row or after the last.
 template <typename Between, typename Beyond>
-Eigen::MatrixXd before(const Eigen::VectorXd& time, Eigen::Index columns, double delay,
-                       const Between& between, const Beyond& beyond) {
+Eigen::MatrixXd late(const Eigen::VectorXd& time, Eigen::Index columns, double delay,
+                     const Between& between, const Beyond& beyond) {
   Eigen::MatrixXd result(time.size(), columns);
   const Eigen::Index last = time.size() - 1;
   Eigen::Index at = 0;
@@ -82,15 +89,16 @@ Eigen::MatrixXd before(const Eigen::VectorXd& time, Eigen::Index columns, double
   return result;
 }
 
-/// The end of the times that a time lies beyond.
+/// The first row for a time before it, else the last.
 Eigen::Index edge_near(double wanted, const Eigen::VectorXd& time) {
   return wanted < time[0] ? 0 : time.size() - 1;
 }
 
-/// The same of a signal that goes on beyond its ends as it came there, turned about the last row.
+/// A signal (n×m), `delay` (s) late, which goes on beyond each end as it came there: turned by half
+/// a turn about the last row.
 template <typename Between>
-Eigen::MatrixXd turned_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                              double delay, const Between& between) {
+Eigen::MatrixXd late_turned_at_ends(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                                    double delay, const Between& between) {
   const auto beyond = [&](double wanted) -> Eigen::RowVectorXd {
     const Eigen::Index last = time.size() - 1;
     if (last == 0) {
@@ -102,7 +110,7 @@ Eigen::MatrixXd turned_before(const Eigen::VectorXd& time, const Eigen::MatrixXd
     go_to(inside, time, &at);
     return 2 * values.row(edge) - between(at, (inside - time[at]) / (time[at + 1] - time[at]));
   };
-  return before(time, values.cols(), delay, between, beyond);
+  return late(time, values.cols(), delay, between, beyond);
 }
 
 }  // namespace
@@ -142,7 +150,7 @@ Eigen::VectorXd bouc_wen(const Eigen::VectorXd& torque, double yield) {
 }
 
 Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield) {
-  constexpr int kElements = 10;
+  constexpr int kElements = 10;  // chosen by judgement: the loop's corners are a tenth of it
   Eigen::VectorXd loop = Eigen::VectorXd::Zero(torque.size());
   const double first = torque.size() > 0 ? torque[0] : 0;
   const Eigen::VectorXd input = torque.array() - first;
@@ -202,7 +210,7 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
   output[0] -= behind;
   for (Eigen::Index row = 1; row < input.size(); ++row) {
     const double step = time[row] - time[row - 1];
-    const Cubic piece(input[row - 1], input[row], slope[row - 1], slope[row], step);
+    const Cubic<double> piece(input[row - 1], input[row], slope[row - 1], slope[row], step);
     const double start = piece.lag(0, constant);
     const double end = piece.lag(step, constant);
     behind = end + (behind - start) * std::exp(-step / constant);
@@ -212,7 +220,7 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
 }
 
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay) {
-  return turned_before(time, values, delay, [&](Eigen::Index row, double share) {
+  return late_turned_at_ends(time, values, delay, [&](Eigen::Index row, double share) {
     return Eigen::RowVectorXd((1 - share) * values.row(row) + share * values.row(row + 1));
   });
 }
@@ -220,21 +228,21 @@ Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& valu
 Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
                                  double delay) {
   const Eigen::MatrixXd slope = slopes(time, values);
-  return turned_before(time, values, delay, [&](Eigen::Index row, double share) {
-    return hermite(time, values, slope, row, share);
+  return late_turned_at_ends(time, values, delay, [&](Eigen::Index row, double share) {
+    return between_rows(time, values, slope, row, share);
   });
 }
 
-Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
-                             const Eigen::MatrixXd& velocity, double delay) {
+Eigen::MatrixXd delayed_motion(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
+                               const Eigen::MatrixXd& velocity, double delay) {
   const auto between = [&](Eigen::Index row, double share) {
-    return hermite(time, position, velocity, row, share);
+    return between_rows(time, position, velocity, row, share);
   };
   const auto beyond = [&](double wanted) -> Eigen::RowVectorXd {
     const Eigen::Index edge = edge_near(wanted, time);
     return position.row(edge) + (wanted - time[edge]) * velocity.row(edge);
   };
-  return before(time, position.cols(), delay, between, beyond) - position;
+  return late(time, position.cols(), delay, between, beyond);
 }
 
 }  // namespace flexcomp::simulation

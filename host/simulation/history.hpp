@@ -30,7 +30,8 @@ Eigen::VectorXd prandtl_ishlinskii(const Eigen::VectorXd& torque, double yield);
 Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input, double frequency,
                      double damping);
 
-/// The same with a natural frequency (Hz) for each row, which stays between two of them.
+/// Response of a mode whose natural frequency (Hz) differs from row to row; row i's holds from row
+/// i − 1 to it.
 Eigen::VectorXd mode(const Eigen::VectorXd& time, const Eigen::VectorXd& input,
                      const Eigen::VectorXd& frequency, double damping);
 
@@ -43,15 +44,15 @@ Eigen::VectorXd lag(const Eigen::VectorXd& time, const Eigen::VectorXd& input, d
 /// their ends as they came there, turned about the last one.
 Eigen::MatrixXd delayed(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double delay);
 
-/// The same of a smooth signal: cubic between the times, as for `lag`. A straight line cuts the
-/// corners of a motion: by a·dt²/8 at an acceleration a, which of a TCP sampled at 50 Hz is more
-/// than a tracker's noise.
+/// A smooth signal (n×m) as it was `delay` (s) before: cubic between the times, as for `lag`. A
+/// straight line would cut the corners of a motion: by a·dt²/8 at an acceleration a, which at 50 Hz
+/// is more than the noise of a tracker.
 Eigen::MatrixXd delayed_smoothly(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
                                  double delay);
 
-/// By how much a motion (n×m, with its velocity) stood elsewhere `delay` (s) before: cubic between
-/// the times (s) (Hermite), straight on beyond their ends.
-Eigen::MatrixXd moved_before(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
-                             const Eigen::MatrixXd& velocity, double delay);
+/// A motion (n×m) whose velocity is known, as it was `delay` (s) before: cubic between the times
+/// (s) (Hermite), straight on beyond their ends.
+Eigen::MatrixXd delayed_motion(const Eigen::VectorXd& time, const Eigen::MatrixXd& position,
+                               const Eigen::MatrixXd& velocity, double delay);
 
 }  // namespace flexcomp::simulation

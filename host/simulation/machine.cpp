@@ -156,6 +156,19 @@ void drive(const Machine& machine, const Scene& scene, const Wanted& wanted, Sim
   }
 }
 
+/// The parts of a scene's simulation to compute; `rigid` and `near`: of each scene, or none.
+Wanted wanted_of(const Machine& machine, const Scene& scene, const std::vector<RigidTorque>& rigid,
+                 const std::vector<Simulation>& near, std::size_t index, Levers levers) {
+  const bool moves_robot = std::any_of(machine.terms.begin(), machine.terms.end(),
+                                       [](const Term& each) { return each.moves_robot(); });
+  Wanted wanted;
+  wanted.levers = levers == Levers::all || machine.needs_levers ||
+                  (moves_robot && (scene.has(tcp_position) || scene.has_wrench));
+  wanted.rigid = rigid.empty() ? nullptr : &rigid[index];
+  wanted.near = near.empty() ? nullptr : &near[index];
+  return wanted;
+}
+
 }  // namespace
 
 Machine::Machine(model::Robot of)
@@ -187,10 +200,6 @@ std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector
     rigid.emplace_back(machine, scene);
   }
   return rigid;
-}
-
-const RigidTorque* of_scene(const std::vector<RigidTorque>& rigid, std::size_t scene) {
-  return rigid.empty() ? nullptr : &rigid[scene];
 }
 
 bool RigidTorque::holds_for(const Machine& machine) const {
@@ -271,13 +280,26 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
   return prediction;
 }
 
-Wanted wanted_of(const Machine& machine, const Scene& scene) {
-  Wanted wanted;
-  const bool moves_robot = std::any_of(machine.terms.begin(), machine.terms.end(),
-                                       [](const Term& each) { return each.moves_robot(); });
-  wanted.levers =
-      machine.needs_levers || (moves_robot && (scene.has(tcp_position) || scene.has_wrench));
-  return wanted;
+std::vector<Prediction> with_terms(const std::vector<Term>& terms, const std::vector<Scene>& scenes,
+                                   const std::vector<Simulation>& simulations) {
+  std::vector<Prediction> predictions;
+  predictions.reserve(scenes.size());
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    predictions.push_back(with_terms(terms, scenes[s], simulations[s]));
+  }
+  return predictions;
+}
+
+std::vector<Simulation> simulate(const Machine& machine, const std::vector<Scene>& scenes,
+                                 const std::vector<RigidTorque>& rigid, Levers levers,
+                                 const std::vector<Simulation>& near) {
+  std::vector<Simulation> simulations;
+  simulations.reserve(scenes.size());
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    simulations.push_back(
+        simulate(machine, scenes[s], wanted_of(machine, scenes[s], rigid, near, s, levers)));
+  }
+  return simulations;
 }
 
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
@@ -286,9 +308,7 @@ std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>
   std::vector<Prediction> predictions;
   predictions.reserve(scenes.size());
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    Wanted wanted = wanted_of(machine, scenes[s]);
-    wanted.rigid = of_scene(rigid, s);
-    wanted.near = near.empty() ? nullptr : &near[s];
+    const Wanted wanted = wanted_of(machine, scenes[s], rigid, near, s, Levers::of_terms);
     predictions.push_back(
         with_terms(machine.terms, scenes[s], simulate(machine, scenes[s], wanted)));
   }

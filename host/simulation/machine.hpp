@@ -79,11 +79,9 @@ class RigidTorque {
   Eigen::MatrixXd torque_;
 };
 
-/// Of each scene; none where no scene has torques or deflections of joints to compare with.
+/// The rigid-body torques of each scene; none where no scene shows torques or deflections of
+/// joints.
 std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector<Scene>& scenes);
-
-/// Those of one of the scenes; null where there are none.
-const RigidTorque* of_scene(const std::vector<RigidTorque>& rigid, std::size_t scene);
 
 /// Which channels to simulate; levers and springs are kept only with `levers`.
 struct Wanted {
@@ -104,12 +102,22 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
 Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
                       const Simulation& simulation);
 
-/// Parts of the simulation that the terms of a machine need: levers only where they move a TCP or a
-/// wrench.
-Wanted wanted_of(const Machine& machine, const Scene& scene);
+/// Predictions of the simulations of scenes, each with the terms added.
+std::vector<Prediction> with_terms(const std::vector<Term>& terms, const std::vector<Scene>& scenes,
+                                   const std::vector<Simulation>& simulations);
 
-/// Predictions of a machine for scenes, with its terms. `rigid` and `near`: of these scenes, or
-/// none, as in Wanted.
+/// Levers that simulations of scenes keep: all, or only those that the machine's terms need to move
+/// a TCP or a wrench.
+enum class Levers { all, of_terms };
+
+/// Simulates scenes without the machine's terms. `rigid` and `near`: of these scenes, or none, as
+/// in Wanted.
+std::vector<Simulation> simulate(const Machine& machine, const std::vector<Scene>& scenes,
+                                 const std::vector<RigidTorque>& rigid, Levers levers,
+                                 const std::vector<Simulation>& near = {});
+
+/// Predictions of a machine for scenes, with its terms; `rigid` and `near` as above. Keeps no
+/// simulation.
 std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
                                 const std::vector<RigidTorque>& rigid = {},
                                 const std::vector<Simulation>& near = {});

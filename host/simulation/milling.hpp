@@ -7,7 +7,7 @@
 
 namespace flexcomp::simulation {
 
-/// Which side of the path the material is on, where the path is a contour.
+/// The side of a contour on which the material is.
 enum class MaterialSide { outside, inside };
 
 /// How the cutting force answers the depth of the cut.

@@ -1,7 +1,5 @@
 #include "simulation/plant_bus.hpp"
 
-#include <poll.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -19,18 +17,10 @@
 #include "messages/can_encoder.hpp"
 #include "messages/message_authentication.hpp"
 #include "node/can_link.hpp"
+#include "simulation/wait_for_input.hpp"
 
 namespace flexcomp::simulation {
 namespace {
-
-/// Waits until `number` can be read from; false after `patience` ns.
-bool wait_for_input(int number, std::int64_t patience) {
-  pollfd input{number, POLLIN, 0};
-  timespec time{};
-  time.tv_sec = patience / 1'000'000'000;
-  time.tv_nsec = patience % 1'000'000'000;
-  return ppoll(&input, 1, &time, nullptr) > 0;
-}
 
 class CanBus : public PlantBus {
  public:

@@ -49,7 +49,7 @@ struct Load {
     moment += center.cross(mass * gravity);
   }
 
-  /// As a wrench at a frame's origin, in that frame.
+  /// The load as a wrench at a frame's origin, in that frame.
   Wrench<double> at(const Pose<double>& frame) const {
     Wrench<double> wrench;
     wrench << frame.rotation.transpose() * force,

@@ -33,8 +33,8 @@ struct Equilibrium {
 Equilibrium settle(const model::Chain& chain, const JointValues& q_motor,
                    const Wrench<double>& wrench, double tolerance = 1e-13);
 
-/// The same, sought from what the springs have given in a state nearby, like the one before; left
-/// in them is what they give in this one.
+/// The equilibrium, sought from what the springs gave in a state nearby, like the one before.
+/// `springs` holds what they give in this one afterwards.
 Equilibrium settle_from(const model::Chain& chain, const JointValues& q_motor,
                         const Wrench<double>& wrench, double tolerance, Springs* springs);
 
@@ -51,7 +51,8 @@ Model with_scaled_compliance(Model model, double factor) {
   return model;
 }
 
-/// The same with stiff joints: what bends beyond encoders on the links.
+/// A chain, or a model of the core, with stiff joints: only what encoders on the links do not see
+/// bends.
 template <typename Model>
 Model without_joint_springs(Model model) {
   for (auto& joint : model.joints) {

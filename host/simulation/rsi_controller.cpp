@@ -1,7 +1,6 @@
 #include "simulation/rsi_controller.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/socket.h>
 #include <tinyxml.h>
 
@@ -12,6 +11,7 @@
 #include "error.hpp"
 #include "linux/clock.hpp"
 #include "linux/udp_socket.hpp"
+#include "simulation/wait_for_input.hpp"
 
 namespace flexcomp::simulation {
 namespace {
@@ -93,21 +93,13 @@ class RsiController : public PlantBus {
         return true;
       }
       const std::int64_t left = until - monotonic_now();
-      if (size < 0 && (left <= 0 || !wait(left))) {
+      if (size < 0 && (left <= 0 || !wait_for_input(socket_.number(), left))) {
         return false;
       }
     }
   }
 
  private:
-  bool wait(std::int64_t patience) {
-    pollfd input{socket_.number(), POLLIN, 0};
-    timespec time{};
-    time.tv_sec = patience / 1'000'000'000;
-    time.tv_nsec = patience % 1'000'000'000;
-    return ppoll(&input, 1, &time, nullptr) > 0;
-  }
-
   void begin_cycle(const SetpointMessage& setpoint) {
     late_ += has_begun_ && !answered_ ? 1U : 0U;
     if (late_ > options_.tolerated) {

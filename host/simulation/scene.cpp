@@ -20,16 +20,6 @@
 namespace flexcomp::simulation {
 namespace {
 
-/// Contract: t counts 0, 1, 2, … in static load tests.
-bool is_load_test(const Eigen::VectorXd& time) {
-  for (Eigen::Index i = 0; i < time.size(); ++i) {
-    if (time[i] != static_cast<double>(i)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// At creeping speed friction depends on what went before, not on the speed: contacts wind up and
 /// break away (Armstrong-Helouvry, Dupont and Canudas de Wit 1994, presliding).
 void mark_creeping(Scene* scene) {
@@ -42,16 +32,10 @@ void mark_creeping(Scene* scene) {
 }
 
 /// Does a sensor repeat its last sample in a log that is faster than it? Then it does so regularly;
-/// what stays the same in a motion, or at rest, does not.
+/// what stays the same in a motion, or at rest, does not. `runs`: rows that each sample lasts.
 bool is_held(const std::vector<Eigen::Index>& runs) {
-  constexpr std::size_t kFewest = 20;
-  if (runs.size() < kFewest) {
-    return false;
-  }
-  std::vector<Eigen::Index> sorted = runs;
-  std::sort(sorted.begin(), sorted.end());
-  const Eigen::Index typical = sorted[sorted.size() / 2];
-  return typical > 1 && sorted[sorted.size() * 9 / 10] <= typical + 1;
+  constexpr std::size_t kFewest = 20;  // chosen by judgement: fewer are regular by chance
+  return runs.size() >= kFewest && recording::regular_step(runs).value_or(1) > 1;
 }
 
 /// Only the first of repeated samples tells anything: the others are taken for missing.
@@ -186,112 +170,94 @@ void take(const LocalMotion& motion, Eigen::Index joint, Eigen::Index row, Scene
   scene->stands(row, joint) = motion.stands[joint];
 }
 
-/// Some of these rows, by where they stand among them.
-std::vector<Eigen::Index> those_at(const std::vector<Eigen::Index>& rows,
-                                   const std::vector<Eigen::Index>& places) {
-  std::vector<Eigen::Index> some;
-  some.reserve(places.size());
-  for (const Eigen::Index place : places) {
-    some.push_back(rows[static_cast<std::size_t>(place)]);
+void set_at_rest(Scene* scene) {
+  const Eigen::Index n = scene->rows();
+  const Eigen::Index joints = scene->joints();
+  scene->velocity = Eigen::MatrixXd::Zero(n, joints);
+  scene->acceleration = Eigen::MatrixXd::Zero(n, joints);
+  scene->acceleration_doubt = Eigen::MatrixXd::Zero(n, joints);
+  scene->stands = Eigen::MatrixXi::Zero(n, joints);
+  scene->velocity_noise = scene->acceleration_noise = Eigen::RowVectorXd::Zero(joints);
+}
+
+/// Differentiates the angles of a recording, each joint over the window that suits its noise;
+/// `rows` of them become the scene's.
+void differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
+                   const std::vector<Eigen::Index>& rows, Scene* scene) {
+  Eigen::RowVectorXd angle_noise(q.cols());
+  for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
+    angle_noise[joint] = recording::encoder_noise(time, q.col(joint));
   }
-  return some;
-}
-
-const recording::Samples& angles_of(const recording::Recording& recording) {
-  return recording.q_meas ? *recording.q_meas : *recording.q_cmd;
-}
-
-/// The rows that have all joint angles and samples of their own, at the times of these; which rows
-/// they are of the recording.
-recording::Recording sampled(const recording::Recording& recording, std::vector<Eigen::Index>* rows,
-                             Preparation* preparation) {
-  std::vector<Eigen::Index> whole;
-  for (Eigen::Index row = 0; row < recording.size(); ++row) {
-    if (angles_of(recording).row(row).allFinite()) {
-      whole.push_back(row);
+  const std::vector<std::size_t> windows = best_windows(time, q, angle_noise);
+  for (std::size_t window = 0; window < kHalfWindows.size(); ++window) {
+    if (std::find(windows.begin(), windows.end(), window) == windows.end()) {
+      continue;
     }
-  }
-  recording::Recording own = picked(recording, whole);
-  // A command that stays is meant so.
-  if (recording.q_meas && !is_load_test(recording.time)) {
-    const recording::Sampling sampling = recording::sampling_of(own.time, angles_of(own));
-    own = picked(own, sampling.rows);
-    own.time = sampling.time;
-    preparation->period = sampling.period;
-    preparation->repeats = those_at(whole, sampling.repeats);
-    whole = those_at(whole, sampling.rows);
-  }
-  *rows = std::move(whole);
-  return own;
-}
-
-Scene scene_of(const recording::Recording& given, Eigen::Index most_rows,
-               Preparation* preparation) {
-  std::vector<Eigen::Index> recorded;
-  const recording::Recording recording = sampled(given, &recorded, preparation);
-  const recording::Samples& q = angles_of(recording);
-  const std::vector<Eigen::Index> rows = usable_rows(recording, most_rows, preparation);
-  preparation->rows = given.size();
-  preparation->incomplete +=
-      given.size() - recording.size() - static_cast<Eigen::Index>(preparation->repeats.size());
-  describe_times(recording.time, preparation);
-  Scene scene;
-  scene.file = recording.file;
-  scene.recorded = those_at(recorded, rows);
-  scene.time = picked(recording.time, rows);
-  scene.is_static = is_load_test(given.time);
-  scene.follows_command = !recording.q_meas;
-  scene.has_wrench = recording.wrench.has_value();
-  scene.q = picked(q, rows);
-  const Eigen::Index n = scene.rows();
-  scene.velocity = Eigen::MatrixXd::Zero(n, scene.joints());
-  scene.acceleration = Eigen::MatrixXd::Zero(n, scene.joints());
-  scene.stands = Eigen::MatrixXi::Zero(n, scene.joints());
-  Eigen::RowVectorXd angle_noise(scene.joints());
-  for (Eigen::Index joint = 0; joint < scene.joints(); ++joint) {
-    angle_noise[joint] = recording::encoder_noise(recording.time, q.col(joint));
-  }
-  const auto windows_of = static_cast<std::size_t>(scene.joints());
-  const std::vector<std::size_t> windows = scene.is_static
-                                               ? std::vector<std::size_t>(windows_of, 0)
-                                               : best_windows(recording.time, q, angle_noise);
-  for (const std::size_t window : windows) {
-    scene.half_window = std::max(scene.half_window, kHalfWindows[window]);
-  }
-  scene.acceleration_doubt = Eigen::MatrixXd::Zero(n, scene.joints());
-  scene.velocity_noise = scene.acceleration_noise = Eigen::RowVectorXd::Zero(scene.joints());
-  for (Eigen::Index i = 0; i < n && !scene.is_static; ++i) {
-    for (std::size_t k = 0; k < kHalfWindows.size(); ++k) {
-      if (std::find(windows.begin(), windows.end(), k) == windows.end()) {
-        continue;
-      }
-      const LocalMotion motion = local_motion(recording.time, q, angle_noise, kHalfWindows[k],
-                                              rows[static_cast<std::size_t>(i)]);
+    scene->half_window = std::max(scene->half_window, kHalfWindows[window]);
+    for (Eigen::Index row = 0; row < scene->rows(); ++row) {
+      const LocalMotion motion = local_motion(time, q, angle_noise, kHalfWindows[window],
+                                              rows[static_cast<std::size_t>(row)]);
       for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
-        if (windows[static_cast<std::size_t>(joint)] == k) {
-          take(motion, joint, i, &scene);
-          if (i == n / 2) {
-            scene.velocity_noise[joint] = motion.gain[0] * angle_noise[joint];
-            scene.acceleration_noise[joint] = motion.gain[1] * angle_noise[joint];
-          }
+        if (windows[static_cast<std::size_t>(joint)] != window) {
+          continue;
+        }
+        take(motion, joint, row, scene);
+        if (row == scene->rows() / 2) {
+          scene->velocity_noise[joint] = motion.gain[0] * angle_noise[joint];
+          scene->acceleration_noise[joint] = motion.gain[1] * angle_noise[joint];
         }
       }
     }
   }
+}
+
+/// The measurements that the scene is compared with.
+void take_measured(const recording::Recording& recording, const std::vector<Eigen::Index>& rows,
+                   Scene* scene) {
+  if (recording.position) {
+    scene->measured[tcp_position] = picked(*recording.position, rows);
+  }
+  if (recording.tau) {
+    scene->measured[joint_torque] = picked(*recording.tau, rows);
+  }
+  if (recording.q_link && recording.q_meas) {
+    scene->measured[joint_deflection] = picked(*recording.q_link, rows) - scene->q;
+  }
+}
+
+Scene scene_of(const recording::Recording& given, Eigen::Index most_rows,
+               Preparation* preparation) {
+  const recording::Sampling sampling = recording::sampling_of(given);
+  recording::Recording recording = picked(given, sampling.rows);
+  recording.time = sampling.time;
+  const std::vector<Eigen::Index> rows = usable_rows(recording, most_rows, preparation);
+  preparation->period = sampling.period;
+  preparation->repeats = sampling.repeats;
+  preparation->rows = given.size();
+  preparation->incomplete +=
+      given.size() - recording.size() - static_cast<Eigen::Index>(sampling.repeats.size());
+  describe_times(recording.time, preparation);
+  Scene scene;
+  scene.file = recording.file;
+  for (const Eigen::Index row : rows) {
+    scene.recorded.push_back(sampling.rows[static_cast<std::size_t>(row)]);
+  }
+  scene.time = picked(recording.time, rows);
+  scene.is_static = recording::counts_rows(given.time);
+  scene.follows_command = !recording.q_meas;
+  scene.has_wrench = recording.wrench.has_value();
+  scene.q = picked(*recording.angles(), rows);
+  set_at_rest(&scene);
+  if (!scene.is_static) {
+    differentiate(recording.time, *recording.angles(), rows, &scene);
+  }
   mark_creeping(&scene);
-  scene.wrench = scene.has_wrench ? picked(*recording.wrench, rows) : Eigen::MatrixXd::Zero(n, 6);
+  scene.wrench =
+      scene.has_wrench ? picked(*recording.wrench, rows) : Eigen::MatrixXd::Zero(scene.rows(), 6);
   if (recording.temperature) {
     scene.temperature = filled(picked(*recording.temperature, rows));
   }
-  if (recording.position) {
-    scene.measured[tcp_position] = picked(*recording.position, rows);
-  }
-  if (recording.tau) {
-    scene.measured[joint_torque] = picked(*recording.tau, rows);
-  }
-  if (recording.q_link && recording.q_meas) {
-    scene.measured[joint_deflection] = picked(*recording.q_link, rows) - scene.q;
-  }
+  take_measured(recording, rows, &scene);
   return scene;
 }
 

@@ -32,7 +32,8 @@ struct Scene {
   /// 1 where a joint stands, starts, stops or creeps: friction may hold any torque up to
   /// break-away there, so that its torque tells nothing of the speed.
   Eigen::MatrixXi stands;
-  double half_window = 0;  ///< s, half of the longest time that a joint was differentiated over
+  /// s, half of the longest time that a joint was differentiated over; zero in a static test.
+  double half_window = 0;
   /// Standard deviations that the encoders' noise leaves in velocity (rad/s) and acceleration
   /// (rad/s²) of each joint.
   Eigen::RowVectorXd velocity_noise, acceleration_noise;

@@ -75,8 +75,8 @@ struct Tests {
 };
 
 Tests complete_rows(const recording::Recording& recording) {
-  const auto& angles = recording.q_meas ? recording.q_meas : recording.q_cmd;
-  if (!angles || !recording.wrench || !recording.position) {
+  const recording::Samples* angles = recording.angles();
+  if (angles == nullptr || !recording.wrench || !recording.position) {
     throw InputError(fmt::format(
         "{}: a load test needs q_meas or q_cmd, the wrench fx..mz and x, y, z", recording.file));
   }
@@ -160,8 +160,8 @@ struct Solution {
   Eigen::Index rank = 0;
 };
 
-/// By singular values of the columns over their lengths; the smallest solution where not all is
-/// told.
+/// Least squares by singular values of the columns over their lengths; the smallest solution where
+/// not all is told.
 Solution solve(const Problem& problem) {
   const Eigen::VectorXd length = problem.columns.colwise().norm().transpose();
   const Eigen::VectorXd scale =

@@ -14,7 +14,7 @@ struct LoadTest {
   Wrench<double> wrench;     ///< on the tool at the TCP, base frame
 };
 
-/// Which springs are to be found; joints always are.
+/// The springs to be found beside those of the joints.
 struct SoughtSprings {
   bool base = false;
   bool tool = false;

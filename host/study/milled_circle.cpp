@@ -153,7 +153,7 @@ class CircleStudy::Implementation {
     return sum;
   }
 
-  /// By the core, with every spring and weight.
+  /// The deflection by the core, with every spring and weight.
   PlanarPath full_deflection(const CircleStretch& stretch, const PlanarPath& where,
                              const Levers& levers) const {
     const PlanarPath& force = stretch.force;

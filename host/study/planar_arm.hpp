@@ -10,7 +10,7 @@ namespace flexcomp::study {
 /// A point or a vector in the plane of joints 2 and 3: x + iz, m, base frame.
 using Planar = std::complex<double>;
 
-/// Which point of the robot follows the path and takes the force.
+/// The point of the robot that follows the path and takes the force.
 enum class ToolPoint {
   wrist,  ///< where the axis of joint 5 meets the plane
   tcp,    ///< the model's TCP: the flange, where the model has no tool

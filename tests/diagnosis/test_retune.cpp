@@ -164,7 +164,7 @@ void friction_everywhere_and_a_coupled_drive_are_found_together() {
       is_coupled = true;
     }
   }
-  TEST_ASSERT_EQUAL_STRING("explained", found.verdict.c_str());
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
   TEST_ASSERT_TRUE(is_coupled);
   TEST_ASSERT_TRUE(with_friction == (std::set<int>{1, 2, 3, 4, 5}));
   // As near as whoever knows what was put in: all that is left is the noise.

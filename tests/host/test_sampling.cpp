@@ -162,6 +162,45 @@ void rows_that_are_picked_keep_all_they_have() {
   TEST_ASSERT_FALSE(some.tau.has_value());
 }
 
+Recording logged(const VectorXd& time, const VectorXd& taken) {
+  Recording recording;
+  recording.time = time;
+  recording.q_meas = at(taken);
+  return recording;
+}
+
+void a_recording_that_lacks_some_angles_is_sampled_by_the_others() {
+  const VectorXd taken = answered();
+  Recording recording = logged(even(kRows, kLogged), taken);
+  const Sampling whole = sampling_of(recording);
+  TEST_ASSERT_TRUE(whole.repeats == sampling_of(recording.time, *recording.q_meas).repeats);
+  const Index missing = 2;
+  (*recording.q_meas)(missing, 1) = std::nan("");
+  const Sampling sampling = sampling_of(recording);
+  TEST_ASSERT_TRUE(sampling.repeats == whole.repeats);
+  TEST_ASSERT_EQUAL_INT64(missing + 1, sampling.rows[missing]);
+  TEST_ASSERT_EQUAL_UINT64(whole.rows.size() - 1, sampling.rows.size());
+}
+
+void commands_and_load_tests_repeat_nothing() {
+  Recording commanded = logged(even(kRows, kLogged), answered());
+  commanded.q_cmd.swap(commanded.q_meas);
+  TEST_ASSERT_TRUE(sampling_of(commanded).repeats.empty());
+  TEST_ASSERT_TRUE(sampling_of(commanded).time == commanded.time);
+  Recording posed = logged(even(kRows, 1), answered());
+  TEST_ASSERT_TRUE(sampling_of(posed).repeats.empty());
+  posed.time *= 0.5;
+  TEST_ASSERT_FALSE(sampling_of(posed).repeats.empty());
+}
+
+void steps_are_regular_if_few_are_longer() {
+  using flexcomp::recording::regular_step;
+  TEST_ASSERT_FALSE(regular_step({}).has_value());
+  TEST_ASSERT_EQUAL_INT64(3, *regular_step({3, 2, 3, 4, 3, 3, 4, 3, 3, 3}));
+  TEST_ASSERT_EQUAL_INT64(1, *regular_step({1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 50}));
+  TEST_ASSERT_FALSE(regular_step({1, 1, 1, 1, 1, 1, 1, 1, 30, 50}).has_value());
+}
+
 }  // namespace
 
 int main() {
@@ -175,5 +214,8 @@ int main() {
   RUN_TEST(a_dwell_repeats_nothing);
   RUN_TEST(steps_of_an_encoder_repeat_nothing);
   RUN_TEST(rows_that_are_picked_keep_all_they_have);
+  RUN_TEST(a_recording_that_lacks_some_angles_is_sampled_by_the_others);
+  RUN_TEST(commands_and_load_tests_repeat_nothing);
+  RUN_TEST(steps_are_regular_if_few_are_longer);
   return UNITY_END();
 }

@@ -18,7 +18,7 @@ constexpr int kWeightRounds = 3;     // of Huber's weights: they change little a
 constexpr double kEdge = 1e-2;       // of a body's size, for its first fit by simulation
 constexpr Eigen::Index kParts = 10;  // that are predicted from all others
 
-/// Which part of the samples is predicted together with this one: neighbours in time are.
+/// The part of the samples that is predicted as one: neighbours in time are in the same.
 Eigen::Index part_of(const Observations& observations, const Sample& at) {
   return stretch_of(at.row, observations.scenes[at.scene].rows()) % kParts;
 }
@@ -92,8 +92,8 @@ std::vector<Eigen::Index> Elimination::columns_of(const std::vector<std::size_t>
 /// Standard deviations that hold the numbers; none is wider than its plausible range.
 Eigen::VectorXd Elimination::tolerance() const { return (tolerance_ * unit_).cwiseMin(widest_); }
 
-/// By how much they hold them, beside samples over the noise. A remainder that hangs together over
-/// time tells less than its samples are many, so the tolerances weigh more beside it.
+/// Precisions by which the tolerances hold the numbers, beside samples over the noise. They weigh
+/// more where the remainder hangs together over time, since its samples tell less then.
 Eigen::VectorXd Elimination::precision() const {
   return repeats_ * (spread_ / tolerance().array()).square().matrix();
 }
@@ -266,7 +266,7 @@ std::vector<std::size_t> Elimination::all_members() const {
   return all;
 }
 
-/// By how much the variance of each number is larger since the remainder hangs together over time.
+/// Factors by which the numbers' variances are larger since the remainder hangs together over time.
 Eigen::VectorXd Elimination::widenings() const {
   Eigen::VectorXd wide(columns_.cols());
   for (Eigen::Index column = 0; column < columns_.cols(); ++column) {
@@ -288,8 +288,9 @@ Eigen::VectorXd Elimination::variances(const std::vector<Eigen::Index>& columns)
   return all;
 }
 
-/// By how much each number of a set is less certain if the members that were left out are no more
-/// than unlikely. Another form of friction is a matter of words, and left out all the same.
+/// Factors by which a set's numbers are less certain if the members that were left out are not
+/// ruled out. Other forms of friction do not count: which form it is makes no other number
+/// uncertain.
 Eigen::VectorXd Elimination::widenings_by_others(const std::vector<std::size_t>& members) const {
   const std::vector<Eigen::Index> own = columns_of(members);
   std::vector<Eigen::Index> all = own;

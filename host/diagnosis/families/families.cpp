@@ -41,7 +41,7 @@ struct Known {
   std::vector<simulation::RigidTorque> rigid;
 };
 
-/// By how much a machine changes what a fit predicts, samples to fit to.
+/// Change of a fit's prediction by a machine, in the samples to fit to.
 Eigen::VectorXd change_by(const Known& known, const Machine& machine) {
   const Observations& observations = known.observations;
   return known.fit.remainder.head(observations.train) -
@@ -214,7 +214,7 @@ bool is_likelier(const Observations& observations, const Fit& before, const Fit&
          worse * std::max(worse, 0.0);
 }
 
-/// The same as often as it predicts better, or is likelier with smaller numbers.
+/// The fit made anew, as often as it predicts better or is likelier with smaller numbers.
 Fit refined(const Observations& observations, Fit best, std::size_t findings,
             const std::vector<Hypothesis>& hypotheses) {
   for (int round = 0; round < kRoundsAnew; ++round) {

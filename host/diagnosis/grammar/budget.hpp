@@ -4,14 +4,14 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// Processor time that the search for laws may take. What else the machine does changes nothing of
-/// what is found.
+/// Processor time that the search for laws may take. Other programs on the computer do not change
+/// what it finds.
 class Budget {
  public:
   explicit Budget(double seconds)
       : end_(static_cast<double>(std::clock()) + seconds * CLOCKS_PER_SEC) {}
 
-  /// Is it used up? That it was asked in vain is remembered.
+  /// Is it used up? A call that finds it so is remembered.
   bool is_spent() {
     has_stopped_ = has_stopped_ || static_cast<double>(std::clock()) > end_;
     return has_stopped_;

@@ -85,7 +85,7 @@ std::string cause_at_tcp(const Lead& lead) {
 }
 
 std::string cause_of_event(const Shape& shape) {
-  return std::string("step") == shape.name
+  return shape.trait == ShapeTrait::shift
              ? "usually somebody or something that moved a part; no signal that was recorded shows "
                "it"
              : "usually a machine nearby; no signal that was recorded shows it";

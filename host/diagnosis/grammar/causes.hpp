@@ -5,12 +5,12 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// What usually causes such a law, to be put behind its clause: "usually a cable or hose"; empty
-/// where nothing is usual.
+/// The usual cause of such a law, to be put behind its clause: "usually a cable or hose". Empty
+/// where none is usual.
 std::string usual_cause(const Lead& lead, const Shape& shape);
 
-/// What to record next to see what a law in time stands for, in one sentence; empty for laws of
-/// what was recorded.
+/// One sentence on the recording that would show what a law in time stands for. Empty for laws that
+/// follow a recorded signal.
 std::string next_recording(const Chosen& law);
 
 }  // namespace flexcomp::diagnosis::grammar

@@ -102,7 +102,7 @@ class Fitted {
   Form form_;
 };
 
-/// For each term the amplitude by which it does as much as the term that does most.
+/// Each term's amplitude by which it changes the samples as much as the largest term does.
 Eigen::VectorXd reach_of(const Normal& normal, const Eigen::VectorXd& amplitude) {
   constexpr double kTiny = 1e-300;  // against a division by zero
   const Eigen::VectorXd size = normal.gram.diagonal().cwiseMax(kTiny).cwiseSqrt();
@@ -179,7 +179,7 @@ std::vector<Composed> laws_of(const Material& material, const Lead& lead) {
   return laws;
 }
 
-/// What the second driver makes of a law that does most.
+/// The law with each of the second drivers that gain most.
 std::vector<Composed> modulated(const Material& material, const Composed& law) {
   constexpr double kMore = 1.2;  // times the law's own gain: any second driver gains a little
   std::vector<std::pair<double, Modulation>> by_gain;
@@ -226,7 +226,7 @@ std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bo
   return laws;
 }
 
-/// One factor of a product; nothing of one that is 1.
+/// Appends a factor to a product, unless it is 1.
 void multiply(const std::string& factor, std::string* product) {
   if (!factor.empty() && factor != "1") {
     *product += "*" + factor;
@@ -269,8 +269,8 @@ std::string formula_of(const Composed& law, std::vector<std::string>* names) {
   return text;
 }
 
-/// Where an amplitude is sought: through zero, and far beyond its reach. What other numbers of the
-/// law do may turn one term into another.
+/// An amplitude is sought through zero, and far beyond its reach: other numbers of the law may turn
+/// one term into another.
 Bounds bounds_of_amplitude(double reach) {
   constexpr double kFar = 50;     // times the reach: no bound that a fit would rest on
   constexpr double kStep = 0.05;  // of the reach

@@ -10,13 +10,14 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// A second driver, and what it does to each term of a law; null where there is none.
+/// A second driver, and the shape by which it multiplies each term of a law; null where there is
+/// none.
 struct Modulation {
   const Driver* driver = nullptr;
   const Shape* shape = nullptr;
 };
 
-/// What a law says, but for its numbers.
+/// A law without its numbers.
 struct Form {
   const Shape* shape = nullptr;
   bool has_constant = false;  ///< one more term: the factor by itself
@@ -36,17 +37,17 @@ struct Composed {
   std::size_t numbers() const {
     return parameters.size() + static_cast<std::size_t>(amplitude.size());
   }
-  /// What it costs to say: its numbers, its factor, and its second driver.
+  /// Numbers, factor and second driver that the law's formula needs.
   std::size_t complexity() const {
     return numbers() + (lead.factor.text.empty() ? 0 : 1) +
            (form.modulation.driver == nullptr ? 0 : 1);
   }
 };
 
-/// Fits every shape to each lead, but for those that are known by the name of one of these effects
-/// of the catalogue; and what a second driver makes of the best shape of the first leads. The best
-/// first: a law that says more stands before a simpler one only if it predicts better in most of
-/// the halves. Of one lead there is one law, that with the best shape.
+/// Fits every shape to each lead, except shapes that have the name of one of these effects of the
+/// catalogue, and second drivers to the best shape of the first leads. Returns one law a lead, with
+/// its best shape, the best law first. A richer law stands before a simpler one only if it predicts
+/// better in most of the halves.
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at);
 

@@ -8,8 +8,8 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// A signal that may drive a law, along all rows; or a power of a joint, the product of two of its
-/// signals: what a gear does depends on whether it drives or is driven.
+/// A signal that may drive a law, along all rows, or a power: the product of two signals of a
+/// joint. A gear behaves otherwise when it drives than when it is driven.
 struct Driver {
   std::string name;  ///< as formulas have it: q4, tau5, temp_c, (v5*tau5)
   bool is_power = false;
@@ -24,9 +24,9 @@ struct Driver {
   double size() const;
 };
 
-/// The signals that vary along the recordings by more than their noise. Time is none where scenes
-/// are load tests. Of a joint's load that counts which what was measured shows: at rest at the TCP,
-/// with inertia elsewhere. Powers come behind the signals.
+/// The signals that vary along the recordings by more than their noise, and then the powers. Load
+/// tests have no time. A joint's load is the one that the measurement shows: at rest for the TCP,
+/// with inertia for others.
 std::vector<Driver> drivers_of(const Observations& observations, const Rows& rows);
 
 /// The driver of a name; null where there is none.

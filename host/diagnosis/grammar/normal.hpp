@@ -13,19 +13,19 @@ struct Normal {
 
   /// Amplitudes of least squares; terms that others make up have none.
   Eigen::VectorXd amplitude() const;
-  /// By how much amplitudes lower the sum of squares.
+  /// Fall of the sum of squares by amplitudes.
   double gain(const Eigen::VectorXd& amplitude) const;
 };
 
-/// Of all samples to fit to, beside what is fitted already.
+/// Normal equations of all samples to fit to, beside the fit that there is.
 Normal normal_of(const Seat& seat, const Eigen::MatrixXd& courses);
 
-/// Of each stretch by itself, as if nothing were fitted.
+/// Normal equations of each stretch by itself, as if nothing were fitted.
 std::vector<Normal> normals_by_stretch(const Seat& seat, const Rows& rows,
                                        const Eigen::MatrixXd& courses);
 
-/// By how much courses lower the sum of squares where they were not fitted to: for each of several
-/// random halves of the stretches the gain on the other half (Meinshausen and Bühlmann 2010,
+/// Fall of the sum of squares by courses where they were not fitted: for each of several random
+/// halves of the stretches the gain on the other half (Meinshausen and Bühlmann 2010,
 /// "Stability selection", whose subsamples are single samples). The halves are the same for all
 /// courses.
 std::vector<double> unseen_gains(const std::vector<Normal>& by_stretch);

@@ -16,10 +16,11 @@ namespace {
 using effects::PlaceKind;
 using effects::SignalKind;
 
-/// Of a conditional mean: they show a wave, and take up little noise.
+/// Hat functions of a conditional mean: they show a wave, and take up little noise.
 constexpr Eigen::Index kHats = 9;
-constexpr std::size_t kMostLeads = 40;  // that are composed of: time
-/// Of the best lead's gain: time against shapes that gain more than their lead shows.
+constexpr std::size_t kMostLeads = 40;  // from which laws are composed: time
+/// Share of the best lead's gain that another needs: time against shapes that gain more than their
+/// lead shows.
 constexpr double kLeastOfBest = 0.4;
 
 /// Adds factors of a driver that is there: itself, and its sign.
@@ -33,7 +34,7 @@ void add_factor(const std::vector<Driver>& drivers, const std::string& name, boo
   }
 }
 
-/// What laws at a place may be multiplied with: friction and gains of a drive, springs, forces.
+/// Factors of laws at a place: friction and gains of a drive, springs, forces.
 std::vector<Factor> factors_at(const effects::LawPlace& place, const std::vector<Driver>& drivers) {
   std::vector<Factor> factors = {{}};
   const std::string joint = std::to_string(place.joint);
@@ -131,7 +132,7 @@ double gain_of_memory(const Material& material, const Seat& seat, const Driver& 
   return most;
 }
 
-/// What a factor and a driver do at a seat; nothing where a law of them would mean nothing.
+/// The lead of a factor and a driver at a seat; none where a law of them would mean nothing.
 std::optional<Lead> lead_of(const Material& material, const Seat& seat, const Driver& driver,
                             const Hats& hats, const Factor& factor) {
   if (!means_something(seat, driver, factor)) {

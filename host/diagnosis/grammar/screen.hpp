@@ -5,7 +5,7 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// What the search for laws needs of the observations, whatever is fitted.
+/// Rows and drivers of the observations: the material of all laws, whatever is fitted.
 struct Material {
   explicit Material(const Observations& all)
       : observations(all), rows(all), drivers(drivers_of(all, rows)) {}
@@ -15,15 +15,15 @@ struct Material {
   std::vector<Driver> drivers;
 };
 
-/// A quantity that a law is multiplied with: the direction of a joint's motion where friction
-/// changes, the load where a gain does.
+/// A quantity that multiplies a law: the direction of a joint's motion where friction changes, the
+/// load where a gain does.
 struct Factor {
   std::string text;        ///< of a formula, such as sign(v5); empty where it is one
   std::string signal;      ///< that it is of, such as v5
   Eigen::VectorXd course;  ///< rows; empty where it is one
 };
 
-/// Something that a law at a seat may follow, whatever the shape.
+/// A driver and a factor that a law at a seat may follow, whatever its shape.
 struct Lead {
   const Seat* seat;
   const Driver* driver;
@@ -35,10 +35,10 @@ struct Lead {
   bool is_of_itself() const { return factor.signal == driver->name; }
 };
 
-/// The leads for what a fit leaves, the best first: a seat, a driver and a factor of which the
-/// conditional mean (piecewise linear over the driver), a wave over it, a shape with a memory or,
-/// in time, a step lowers the squares most. Those that do much less than the best are left out.
-/// `looked_at` is raised by the leads that were looked at.
+/// The leads for what a fit leaves, the best first. A lead's gain is the largest fall of the
+/// squares by its conditional mean (piecewise linear over the driver), a wave over it, a shape with
+/// a memory or, in time, a step. Leads that gain much less than the best are left out. `looked_at`
+/// is raised by the number of leads that were looked at.
 std::vector<Lead> screen(const Material& material, const std::vector<Seat>& seats,
                          std::size_t* looked_at);
 

@@ -74,7 +74,7 @@ double Seat::left() const {
 }
 
 Rows::Rows(const Observations& observations) {
-  constexpr Eigen::Index kMostRows = 3000;
+  constexpr Eigen::Index kMostRows = 3000;  // time: every shape of every driver is computed on them
   Eigen::Index all = 0;
   for (const Scene& scene : observations.scenes) {
     all += scene.rows();

@@ -15,7 +15,7 @@ struct Rows {
 
   /// Values of all rows of a scene, thinned.
   Eigen::VectorXd of(const Eigen::VectorXd& values) const;
-  /// Where a row of a scene is; −1 where it is left out.
+  /// Place of a scene's row among those that are taken; −1 where it is left out.
   Eigen::Index at(std::size_t scene, Eigen::Index row) const;
   Eigen::Index rows(std::size_t scene) const;
 
@@ -27,11 +27,11 @@ struct Rows {
   int stretches = 0;
 };
 
-/// A place where a law may act, and how what a fit leaves shows there.
+/// A place where a law may act, with the remainder of a fit as it shows there.
 ///
-/// A law whose value is u in a row moves each sample of that row by lever · u. So least squares
-/// over the samples to fit to become sums over rows: those of w·u² and of p·u. Samples that are far
-/// off count as if they were less so.
+/// A law whose value is u in a row moves each sample of that row by lever · u. Least squares over
+/// the samples to fit to therefore become sums over rows, of w·u² and of p·u. Outliers count as if
+/// they were just no outliers.
 struct Seat {
   effects::LawPlace place;
   std::string name;         ///< as robot.yaml has it
@@ -40,18 +40,18 @@ struct Seat {
   Eigen::VectorXd product;  ///< p: levers times remainder
   Eigen::MatrixXd fitted;   ///< levers times an orthonormal base of what is fitted already
 
-  /// Is it a sensor's? What is no function of what was recorded is told there, as an error of the
+  /// Is it a sensor's? An error that follows no recorded signal shows there, as an error of the
   /// measurement in time: nobody knows whether the machine moved.
   bool is_sensor() const;
-  /// Root mean square of what is left there, over the noise.
+  /// Root mean square of the remainder there, over the noise.
   double left() const;
 };
 
-/// By how much (over the noise) each sample moves where a law at a place has the value one.
+/// Change of each sample (over the noise) by a law at a place whose value is one.
 Eigen::VectorXd levers_of(const Observations& observations, const effects::LawPlace& place);
 
-/// The places at which what was recorded could show a law, beside a fit; those where little more
-/// than noise is left are not among them.
+/// The places at which the recordings could show a law beside a fit. Places where the fit leaves
+/// little more than noise are left out.
 std::vector<Seat> seats_of(const Observations& observations, const Rows& rows, const Fit& fit);
 
 }  // namespace flexcomp::diagnosis::grammar

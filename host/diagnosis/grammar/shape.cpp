@@ -26,7 +26,11 @@ std::vector<Shape> wave_shapes() {
   std::vector<Shape> all;
   for (const char* order : {"", "2*", "3*", "4*", "6*"}) {
     const std::string angle = std::string(order) + "$";
-    all.push_back({"wave", {"sin(" + angle + ")", "cos(" + angle + ")"}, {}, kAngles});
+    all.push_back({"wave",
+                   {"sin(" + angle + ")", "cos(" + angle + ")"},
+                   {},
+                   kAngles,
+                   ShapeTrait::whole_waves});
   }
   return all;
 }
@@ -49,21 +53,29 @@ std::vector<Shape> all_shapes() {
       {"dead zone", {"($ - d*sign($))*step(abs($) - d)"}, {{"d", Sought::scale}}, kSigned},
       {"stop above", {"($ - d)*step($ - d)"}, {at}, kStates},
       {"stop below", {"(d - $)*step(d - $)"}, {at}, kStates},
-      {"step", {"step($ - d)"}, {at}, {}},
+      {"step", {"step($ - d)"}, {at}, {}, ShapeTrait::shift},
       {"progressive stop above", {"($ - d)^2*step($ - d)"}, {at}, kStates},
       {"progressive stop below", {"(d - $)^2*step(d - $)"}, {at}, kStates},
       {"odd cubic", {"$", "$^3"}, {}, kSigned},
       {"approach", {"exp(-$/T)"}, {{"T", Sought::constant}}, kSlow},
       {"lag", {"lag($, T)"}, {{"T", Sought::constant}}, kStates},
-      {"heat", {"lag($^2, T)"}, {{"T", Sought::constant}}, {SignalKind::torque}},
+      {"heat",
+       {"lag($^2, T)"},
+       {{"T", Sought::constant}},
+       {SignalKind::torque},
+       ShapeTrait::heating},
       {"cubic", {"$", "$^2", "$^3"}, {}, kStates},
       {"growth", {"exp($/w)"}, {width}, kForces},
       {"soft step", {"tanh(($ - d)/w)"}, {at, width}, kStates},
       {"bump", {"exp(-(($ - d)/w)^2)"}, {at, width}, kStates},
       {"catch", {"($ - d)*exp(-(($ - d)/w)^2)"}, {at, width}, kStates},
       {"wave of any order", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::wave}}, kAngles},
-      {"two waves", {"sin($)", "cos($)", "sin(2*$)", "cos(2*$)"}, {}, kAngles},
-      {"tone", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::wave}}, kSlow}};
+      {"two waves",
+       {"sin($)", "cos($)", "sin(2*$)", "cos(2*$)"},
+       {},
+       kAngles,
+       ShapeTrait::whole_waves},
+      {"tone", {"sin(k*$)", "cos(k*$)"}, {{"k", Sought::wave}}, kSlow, ShapeTrait::tone}};
   const std::vector<Shape> waves = wave_shapes();
   all.insert(all.begin() + 7, waves.begin(), waves.end());
   return all;
@@ -163,16 +175,14 @@ Bounds bounds_of(Sought sought, const Driver& driver, const Observations& observ
 }  // namespace
 
 bool Shape::fits(const Seat& seat, const Driver& driver) const {
-  const bool is_event = std::string(name) == "tone" || std::string(name) == "step";
+  const bool is_event = trait == ShapeTrait::tone || trait == ShapeTrait::shift;
   if (driver.kind == SignalKind::time && is_event != seat.is_sensor()) {
     return false;
   }
-  if (driver.is_power && std::string(name) == "heat") {
+  if (driver.is_power && trait == ShapeTrait::heating) {
     return false;
   }
-  const bool is_whole_wave =  // of a turn
-      std::string(name) == "wave" || std::string(name) == "two waves";
-  if (is_whole_wave && driver.unit != "rad") {
+  if (driver.unit != "rad" && trait == ShapeTrait::whole_waves) {
     return false;
   }
   return suits(driver);

@@ -7,7 +7,7 @@
 
 namespace flexcomp::diagnosis::grammar {
 
-/// How a shape's own parameter is sought, relative to what drives it.
+/// How a parameter of a shape is sought, relative to the driver.
 enum class Sought {
   scale,      ///< a size of the driver, at which a law saturates or falls off
   threshold,  ///< a value of the driver, at which something begins
@@ -21,16 +21,26 @@ struct ShapeParameter {
   Sought sought;
 };
 
-/// What a driver does to a law's value: a sum of terms, each with an amplitude.
+/// Physics of a shape that fits only some drivers of its kinds.
+enum class ShapeTrait {
+  none,
+  shift,        ///< over time: something moves once; only a sensor sees that
+  tone,         ///< over time: something sounds on; only a sensor sees that
+  heating,      ///< squares a torque: not for a driver that is a power already
+  whole_waves,  ///< repeats every turn of a joint: not for a joint that slides
+};
+
+/// A sum of terms of a driver, each with an amplitude: the course of a law's value.
 struct Shape {
   const char* name;
   std::vector<std::string> terms;  ///< formulas of the driver, written $, and of the parameters
   std::vector<ShapeParameter> parameters;
-  /// Of drivers of which kinds; all where it is empty.
-  std::vector<effects::SignalKind> kinds;
+  std::vector<effects::SignalKind> kinds;  ///< of the drivers; empty: any
+  ShapeTrait trait = ShapeTrait::none;
 
+  /// May a law at this seat follow this driver so?
   bool fits(const Seat& seat, const Driver& driver) const;
-  /// Is it one of a driver of this kind?
+  /// Is the driver of one of the shape's kinds?
   bool suits(const Driver& driver) const;
   /// Does its value depend on what was before?
   bool remembers() const;
@@ -39,20 +49,20 @@ struct Shape {
 /// All shapes, the simplest first.
 const std::vector<Shape>& shapes();
 
-/// What a second driver may do to a law: each of its terms is multiplied with each of these.
+/// Shapes of a second driver: each term of a law may be multiplied with each term of one of them.
 const std::vector<Shape>& modulations();
 
 /// A shape's terms, written for a driver.
 std::vector<std::string> terms_of(const Shape& shape, const Driver& driver);
 
-/// Its terms along all rows, a column each, by the values of its parameters.
+/// A shape's terms along all rows, a column each, by the values of its parameters.
 Eigen::MatrixXd courses_of(const Shape& shape, const Driver& driver, const Rows& rows,
                            const Observations& observations, const Values& parameters);
 
-/// Where the parameters are sought along a driver, and values to begin with (every combination);
-/// `wave` is where a wave is begun with.
+/// Bounds of a shape's parameters along a driver.
 std::vector<Bounds> bounds_of(const Shape& shape, const Driver& driver,
                               const Observations& observations);
+/// Values to begin a shape's parameters with, in every combination; `wave`: that of a wave.
 std::vector<Values> starts_of(const Shape& shape, const Driver& driver,
                               const Observations& observations, double wave);
 

@@ -9,7 +9,9 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
-constexpr double kMostOrder = 150;   // periods a turn, above the 100 or so teeth of a gear wheel
+/// Periods a turn, chosen by judgement: time against waves finer than the hundred or so teeth of a
+/// gear wheel. The waves of strain-wave gears are in the catalogue.
+constexpr double kMostOrder = 150;
 constexpr double kLeastPeriods = 1;  // along the driver: less of a wave is a bend
 constexpr double kSpacing = 1.5;  // rad of phase over the driver between orders tried: a quarter of
                                   // the way from a peak to its first zero
@@ -36,8 +38,7 @@ class Periodogram {
       gram += weight_[i] * basis * basis.transpose();
       moment += product_[i] * basis;
     }
-    // Of a square: keeps a wave that is nearly constant solvable.
-    constexpr double kIndependent = 1e-6;
+    constexpr double kIndependent = 1e-6;  // of a square: keeps a nearly constant wave solvable
     gram.diagonal() *= 1 + kIndependent;
     return moment.dot(gram.ldlt().solve(moment)) - moment[2] * moment[2] / gram(2, 2);
   }

@@ -10,8 +10,8 @@ struct Wave {
   double gain = 0;   ///< in squares, by a sine, a cosine and a constant
 };
 
-/// The wave that does most at a seat: of angles up to some hundred periods a turn, of time up to
-/// half the sampling rate (the periodogram of Lomb 1976, with weights).
+/// The wave that gains most at a seat: over an angle up to 150 periods a turn, over time up to half
+/// the sampling rate (the periodogram of Lomb 1976, with weights).
 Wave best_wave(const Seat& seat, const Driver& driver);
 
 /// Gain, in squares, of the best step in time.

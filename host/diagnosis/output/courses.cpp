@@ -119,8 +119,8 @@ std::string course_picture(const Observations& observations, const Eigen::Vector
                            Channel channel) {
   constexpr int kPanelHeight = 140;  // pixels
   constexpr double kGap = 9;         // above and below a panel
-  constexpr int kTop = 30;
-  constexpr int kBottom = 60;
+  constexpr int kTop = 30;           // above all panels, for the title
+  constexpr int kBottom = 60;        // below them, for the scale of time
   const Scene& scene = observations.scenes.front();
   const std::vector<Panel> panels = panels_of(observations, updated, channel);
   if (panels.empty()) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
 
@@ -19,21 +17,6 @@ bool has_holdout(const Observations& observations) {
 }
 
 }  // namespace
-
-double component_rms(const Observations& observations, const Eigen::VectorXd& values,
-                     Channel channel, Eigen::Index component, bool held_out) {
-  double sum = 0;
-  double count = 0;
-  for (Eigen::Index i = held_out ? observations.train : 0;
-       i < (held_out ? observations.size() : observations.train); ++i) {
-    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
-    if (at.channel == channel && at.component == component) {
-      sum += std::pow(values[i] * observations.noise[i], 2);
-      count += 1;
-    }
-  }
-  return std::sqrt(sum / count);
-}
 
 std::string channel_table(const Observations& observations, const Diagnosis& diagnosis) {
   const bool held_out = has_holdout(observations);
@@ -69,10 +52,10 @@ std::string component_table(const Observations& observations, const Diagnosis& d
   for (Eigen::Index component = 0; component < observations.scenes.front().measured[channel].cols();
        ++component) {
     const auto rms = [&](const Eigen::VectorXd& values) {
-      return component_rms(observations, values, channel, component, held_out);
+      return observations.rms(values, channel, held_out, component);
     };
     const double noise = rms(ones(observations));
-    if (!std::isfinite(noise)) {
+    if (noise == 0) {  // without samples
       continue;
     }
     rows += fmt::format(

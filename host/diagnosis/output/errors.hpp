@@ -5,11 +5,6 @@
 /// Errors of a diagnosis in numbers, for its page.
 namespace flexcomp::diagnosis {
 
-/// Root mean square of one component of a channel, of values that are over the noise, SI; not a
-/// number without samples.
-double component_rms(const Observations& observations, const Eigen::VectorXd& values,
-                     Channel channel, Eigen::Index component, bool held_out);
-
 /// Errors held out (or, where nothing is, of what was fitted), with the model, with the findings,
 /// and with what stands in for the rest: a row a channel. HTML.
 std::string channel_table(const Observations& observations, const Diagnosis& diagnosis);

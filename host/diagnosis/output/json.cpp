@@ -187,7 +187,7 @@ Json retuned_json(const Observations& observations, const Diagnosis& diagnosis) 
 
 Json to_json(const Observations& observations, const Diagnosis& diagnosis,
              const check::Checks& checks) {
-  Json json = {{"schema", "flexcomp/diagnosis/1"}, {"verdict", diagnosis.verdict}};
+  Json json = {{"schema", "flexcomp/diagnosis/1"}, {"verdict", name_of(diagnosis.verdict)}};
   json["channels"] = Json::array();
   for (const Channel channel : observations.channels()) {
     json["channels"].push_back(kChannels[channel]);

@@ -92,14 +92,11 @@ class Portrait {
     Machine alone = observations_.machine;
     alone.terms.clear();
     law.hypothesis.apply(law.values, &alone);
-    std::vector<Prediction> with;
-    std::vector<Prediction> without;
-    for (std::size_t s = 0; s < observations_.scenes.size(); ++s) {
-      const Simulation& at = observations_.simulations[s];
-      with.push_back(with_terms(alone.terms, observations_.scenes[s], at));
-      without.push_back(at.prediction);
-    }
-    return observations_.stacked(with) - observations_.stacked(without);
+    const auto predicted = [&](const std::vector<simulation::Term>& terms) {
+      return observations_.stacked(
+          with_terms(terms, observations_.scenes, observations_.simulations));
+    };
+    return predicted(alone.terms) - predicted({});
   }
 
   Eigen::VectorXd along_samples(const effects::Signal& signal) const {
@@ -123,8 +120,8 @@ class Portrait {
     Means means;
     const double middle =
         sides() > 1 ? statistics::median({drivers_[1].begin(), drivers_[1].end()}) : 0;
-    for (Eigen::Index i = held_out ? observations_.train : 0;
-         i < (held_out ? observations_.size() : observations_.train); ++i) {
+    const Part part = observations_.part(held_out);
+    for (Eigen::Index i = part.first; i < part.end; ++i) {
       if (lever_[i] == 0 || (sides() > 1 && (drivers_[1][i] > middle) != (side == 0))) {
         continue;
       }

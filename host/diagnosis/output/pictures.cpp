@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kBefore = "#c0392b";
 constexpr const char* kAfter = "#1f6fb4";
-constexpr Eigen::Index kMostPoints = 2500;
+constexpr Eigen::Index kMostPoints = 2500;  // some times what the picture is wide in pixels
 
 /// Length of the residual's vector in each row of the first recording, SI; NaN where it is missing.
 Eigen::VectorXd length_by_row(const Observations& observations, const Eigen::VectorXd& values,

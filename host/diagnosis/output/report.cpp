@@ -35,17 +35,8 @@ constexpr const char* kStyle =
 /// The 95 % interval of an estimate to either side, in one digit; tens and thousands are written
 /// out.
 std::string margin(double deviation) {
-  const double side = 1.96 * deviation;
+  const double side = kTold * deviation;
   return side < 9.5 || side >= 1e6 ? fmt::format("{:.1g}", side) : fmt::format("{:.0f}", side);
-}
-
-/// A unit with a prefix in which a size is easy to read, and how many of it are in one.
-Scale easy_unit(double size, const std::string& unit) {
-  const bool has_prefixes = unit == "m" || unit == "rad" || unit == "s";
-  if (!has_prefixes || size == 0 || size >= 0.1) {
-    return {1, unit};
-  }
-  return size < 1e-4 ? Scale{1e6, "µ" + unit} : Scale{1e3, "m" + unit};
 }
 
 std::string chance(double p_value) {
@@ -57,8 +48,8 @@ std::string parameters(const Observations& observations, const Chosen& chosen,
   std::string values;
   for (const Estimate& each : estimates(observations, chosen, covariance)) {
     const bool is_told = std::isfinite(each.deviation);
-    const auto [factor, unit] = easy_unit(
-        is_told ? std::max(std::abs(each.value), 1.96 * each.deviation) : std::abs(each.value),
+    const auto [factor, unit] = readable_scale(
+        is_told ? std::max(std::abs(each.value), kTold * each.deviation) : std::abs(each.value),
         each.unit);
     // A number that rests on zero from below is zero.
     values += fmt::format("{} = {:.4g}{}{}{}<br>", each.name, factor * each.value + 0.0,
@@ -303,9 +294,10 @@ std::string to_html(const Observations& observations, const Diagnosis& diagnosis
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of {0}"
       "</title>\n<style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n{2}",
       escaped(observations.machine.robot.name), kStyle, checks_html(origin.checks));
-  html += fmt::format("<p class=\"lead\">{}</p>\n<p>Verdict: <b>{}</b>{}</p>\n",
-                      escaped(headline(observations, diagnosis)), in_words(diagnosis.verdict),
-                      diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
+  html +=
+      fmt::format("<p class=\"lead\">{}</p>\n<p>Verdict: <b>{}</b>{}</p>\n",
+                  escaped(headline(observations, diagnosis)), in_words(name_of(diagnosis.verdict)),
+                  diagnosis.reason.empty() ? "" : " (" + escaped(diagnosis.reason) + ")");
   html += "<h2>Findings</h2>\n" + finding_rows(observations, diagnosis);
   html += law_pictures(observations, diagnosis) +
           (diagnosis.laws_stopped ? fmt::format("<p>{}</p>\n", kLawsStopped) : "");

@@ -148,7 +148,7 @@ std::string headline(const Observations& observations, const Diagnosis& diagnosi
                        has_others ? " and what stands in for the rest" : "",
                        fall(observations, as_given(observations), diagnosis.weighed()));
   }
-  if (diagnosis.verdict == "no_mismatch") {
+  if (diagnosis.verdict == Verdict::no_mismatch) {
     return "Model and recording agree within the noise.";
   }
   const std::string form =

@@ -20,8 +20,8 @@ struct Series {
 std::vector<Series> torques_of(const Observations& observations, const Eigen::VectorXd& values,
                                bool held_out) {
   std::map<std::pair<std::size_t, Eigen::Index>, Series> series;
-  for (Eigen::Index i = held_out ? observations.train : 0;
-       i < (held_out ? observations.size() : observations.train); ++i) {
+  const Part part = observations.part(held_out);
+  for (Eigen::Index i = part.first; i < part.end; ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
     const Scene& scene = observations.scenes[at.scene];
     if (at.channel == simulation::joint_torque && !scene.is_static) {

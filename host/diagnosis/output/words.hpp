@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "diagnosis/observations.hpp"
+#include "diagnosis/parameters.hpp"
 
 /// Names that files use for programs, as people say them.
 namespace flexcomp::diagnosis {
@@ -19,12 +19,8 @@ std::string in_words(Channel channel);
 /// "x" of a position, "joint 3" of a torque.
 std::string component_in_words(Channel channel, Eigen::Index component);
 
-/// The unit in which values are told, by their SI unit and the largest of them: mm or µm, mrad or
-/// µrad; torques and forces as they are.
-struct Scale {
-  double factor;
-  std::string unit;
-};
+/// The unit of a table or picture, by the SI unit of its values and the largest of them: mm or µm,
+/// mrad or µrad; torques and forces as they are.
 Scale scale_of(const std::string& unit, double largest);
 
 }  // namespace flexcomp::diagnosis

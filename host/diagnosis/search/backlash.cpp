@@ -1,16 +1,16 @@
 #include "diagnosis/search/search.hpp"
+#include "effects/terms.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
 /// Needs the TCP or link encoders, and reversals of load or motion.
 bool prepare_backlash(const Observations& observations, Hypothesis* hypothesis) {
-  constexpr double kLeastLoad = 1;  // N·m: less turns no flank over against a gear's drag
   const Bounds gap{0, 0.05, 1e-4};
   const double load = observations.largest_load(hypothesis->joint);
   const bool is_by_motion = hypothesis->law->form == "motion";
   if (!sees_angles(observations) ||
-      (is_by_motion ? observations.is_static : !(load > kLeastLoad))) {
+      (is_by_motion ? observations.is_static : !(load > effects::kLeastFlankLoad))) {
     return false;
   }
   if (is_by_motion) {

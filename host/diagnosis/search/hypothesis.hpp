@@ -75,8 +75,8 @@ bool are_the_same(const Hypothesis& a, const Hypothesis& b);
 /// be (plausible.hpp); some may have no start.
 std::vector<Hypothesis> all_hypotheses(const Observations& observations);
 
-/// Those hypotheses whose starts are sought, begun anew in what is unexplained now; none without a
-/// start.
+/// The hypotheses that seek their starts, with starts from what is unexplained now. Hypotheses for
+/// which none is found are left out.
 std::vector<Hypothesis> sought_anew(const Observations& observations,
                                     const Eigen::VectorXd& unexplained,
                                     const std::vector<Hypothesis>& hypotheses);

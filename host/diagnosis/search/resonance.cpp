@@ -12,7 +12,7 @@ namespace {
 /// Frequency of a mode at every row of every scene, over a typical one.
 using Courses = std::vector<Eigen::VectorXd>;
 
-/// By how much a vibration lowers a residual's squares; below zero where it adds to them.
+/// Fall of a residual's squares by a vibration; below zero where it adds to them.
 double explained(const std::vector<JointResidual>& residual, const Observations& observations,
                  int joint, const std::vector<Eigen::VectorXd>& frequency, double damping,
                  bool torque) {

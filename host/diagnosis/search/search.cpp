@@ -36,8 +36,10 @@ std::vector<Known> known_waves(PlaceKind place) {
 
 std::vector<Values> ripple_orders(const Observations& observations, int joint,
                                   const std::vector<JointResidual>& residual) {
-  constexpr double kMostOrder = 330;  // twice a turn of the motor, through a gear of 160
-  constexpr std::size_t kMost = 3;    // starts: an effect beside may hide the highest peak
+  // Periods a turn, chosen by judgement: a strain-wave gear errs twice a turn of its motor, and
+  // usual ones reduce by 160 at most. tools/score-diagnosis draws orders up to 200.
+  constexpr double kMostOrder = 330;
+  constexpr std::size_t kMost = 3;  // starts: an effect beside may hide the highest peak
   const double range = observations.range(joint);
   if (range < 0.02) {
     return {};

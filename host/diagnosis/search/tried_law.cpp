@@ -38,14 +38,6 @@ std::map<std::string, Sought> read_ranges(const YamlMap& yaml) {
   return ranges;
 }
 
-int read_joint(const YamlMap& yaml, int joints) {
-  const double joint = yaml.number_or("joint", 0);
-  if (yaml.has("joint") && !(joint >= 1 && joint <= joints && joint == std::floor(joint))) {
-    yaml.refuse("joint", fmt::format("expected a joint, 1 to {}", joints));
-  }
-  return static_cast<int>(joint);
-}
-
 /// The sequence of Halton (1960), whose points lie evenly in any number of dimensions: its
 /// `index`th number to a base, in 0…1.
 double halton(int index, int base) {
@@ -120,7 +112,7 @@ Hypothesis read_tried_law(const std::filesystem::path& file, const Observations&
     yaml.refuse("effect", fmt::format("expected {}", model::kLaw));
   }
   const model::Robot& robot = observations.machine.robot;
-  const int joint = read_joint(yaml, robot.joints());
+  const int joint = model::read_joint_number(yaml, robot.joints());
   const std::map<std::string, Sought> ranges = read_ranges(yaml);
   std::vector<std::string> names;
   for (const auto& [name, range] : ranges) {

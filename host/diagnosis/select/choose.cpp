@@ -9,7 +9,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Is so little left, by so little, that two effects could not share it better?
+/// Is so little left that two effects could not share it better?
 bool is_settled(const Observations& observations, const Fit& fit) {
   return fit.parameters() <= 2 && largest_ratio(observations, fit.remainder) < kSettled;
 }
@@ -33,7 +33,7 @@ void strongest_first(std::vector<Finding>* findings) {
   });
 }
 
-/// The findings' own fit, in their order; every finding has its part of the covariance then.
+/// Fits the findings in their order, and gives each its part of the covariance.
 Fit fit_of(const Observations& observations, std::vector<Finding>* findings) {
   std::vector<Chosen> chosen;
   for (const Finding& finding : *findings) {

@@ -9,11 +9,10 @@ struct Choice {
   std::vector<Ranked> ranking;    ///< of all effects at all places before any is chosen, best first
   std::vector<Finding> findings;  ///< the strongest first
   Fit fit;                        ///< of all findings
-  /// Where growth ended since a machine's numbers together account for more than a finding more
-  /// could; else nothing chosen.
+  /// The fit at which growth ended because a machine's numbers together account for more than
+  /// another finding could; nothing chosen where it ended otherwise.
   Fit begun;
-  /// Hypotheses that held beside the others, while all of them left most of the mismatch there
-  /// standing.
+  /// Hypotheses that stood each beside the others, but together left most of the mismatch.
   std::vector<Chosen> withdrawn;
   double explained = 0;      ///< most of the power there that was accounted for
   bool mispredicts = false;  ///< some came near the noise there, but not of what was held out

@@ -38,7 +38,7 @@ double held_out_sum(const Observations& observations, const Fit& fit) {
   return fit.remainder.tail(observations.size() - observations.train).squaredNorm();
 }
 
-/// Puts the best form of a finding in its place; the others are left in `forms`.
+/// Replaces a finding by the best of its forms, and leaves the others in `forms`.
 void take_best(const Inquiry& inquiry, std::size_t index, std::vector<Fit>* forms, Choice* choice) {
   const auto best = std::min_element(forms->begin(), forms->end(), [](const Fit& a, const Fit& b) {
     return a.train_sum < b.train_sum;
@@ -56,8 +56,8 @@ void take_best(const Inquiry& inquiry, std::size_t index, std::vector<Fit>* form
   choice->findings[index].evidence = judge(inquiry, choice->fit, index).evidence;
 }
 
-/// Squares of how far the forms that fit nearly as well, or predict better, lie from the one that
-/// is taken.
+/// Squared distances, from the form that is taken, of the forms that fit nearly as well or predict
+/// better.
 Eigen::VectorXd doubt(const Observations& observations, const Fit& whole, std::size_t index,
                       const std::vector<Fit>& forms) {
   const auto values = [index](const Fit& fit) {

@@ -9,10 +9,11 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// How many findings show in a place.
+/// Numbers of findings by the place where they show.
 using Places = std::map<Group, int>;
 
-/// Those of a shortlist beside a fit that can be, quickly fitted, the best first.
+/// Candidates of a shortlist, each fitted quickly beside a fit, the best first. Fits of machines
+/// that cannot be are left out.
 std::vector<Fit> tried_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
   std::vector<Fit> all;
   std::size_t looked_at = 0;
@@ -58,7 +59,8 @@ bool add_one(const Inquiry& inquiry, Places* found_in, Attempt* current) {
   return false;
 }
 
-/// Replaces the earliest choice that can be bettered, of those that show where the last one does.
+/// Replaces the earliest choice for which there is a better one, among those that show where the
+/// last one does.
 Fit revised(const Inquiry& inquiry, const Attempt& current) {
   const Observations& observations = inquiry.observations;
   const Fit& fit = current.fit;
@@ -82,8 +84,8 @@ Fit revised(const Inquiry& inquiry, const Attempt& current) {
   return fit;
 }
 
-/// Do a machine's numbers together, as far as they act in proportion, account for more of what many
-/// findings leave than one finding more could? Then there is no end to single ones.
+/// Do all of a machine's numbers that act in proportion together account for more, of what many
+/// findings leave, than another finding could? Single findings would come to no end then.
 bool is_of_families(const Inquiry& inquiry, const Fit& fit) {
   if (inquiry.observations.is_static || fit.chosen.size() < kMany) {
     return false;

@@ -33,21 +33,21 @@ Evidence weigh_last(const Inquiry& inquiry, const Fit& before, const Fit& after)
 /// Weighs one choice of a fit, all others being there.
 Finding judge(const Inquiry& inquiry, const Fit& whole, std::size_t index);
 
-/// Is the evidence enough to go on from?
+/// Is the evidence enough to keep a hypothesis while findings are sought?
 bool holds(const Inquiry& inquiry, const Evidence& evidence);
 
-/// Is it enough for a finding in the end? Then it must lower the held-out error itself.
+/// Is the evidence enough for a finding in the end? It must lower the held-out error by itself.
 bool stands(const Inquiry& inquiry, const Evidence& evidence);
 
 /// Can the last hypothesis of a fit be, as fitted?
 bool can_be(const Inquiry& inquiry, const Fit& fit);
 
 /// BIC but for a constant: the smaller the better, for fits of any hypotheses. A parameter that
-/// rests at a bound, like the directions in which a base does not give, is not fitted.
+/// rests at a bound does not count: a base does not give in all directions.
 double criterion(const Observations& observations, const Fit& fit);
 
-/// Does strong evidence, or any with fewer findings, speak for one fit against another, and do all
-/// of its findings hold?
+/// Does a fit hold, and does evidence speak for it against another: strong evidence, or any if it
+/// has fewer findings?
 bool is_better(const Inquiry& inquiry, const Fit& one, const Fit& other);
 
 /// The better of two attempts, with what was sought in what its own fit leaves.

@@ -17,8 +17,8 @@ struct Squares {
   double before = 0, after = 0, count = 0;
 };
 
-/// Least part of a channel's power beyond the noise that a fit accounts for, of what was fitted to
-/// or held out; one where no channel shows a mismatch.
+/// Share of the power beyond the noise that a fit accounts for, in the channel and the part (fitted
+/// to, or held out) where it is least. One where no channel shows a mismatch.
 double explained_everywhere(const Observations& observations, const Fit& whole) {
   constexpr double kMostNoise = 2;  // of the noise's power: below it a channel shows no mismatch
   std::map<std::pair<Channel, bool>, Squares> parts;
@@ -38,8 +38,8 @@ double explained_everywhere(const Observations& observations, const Fit& whole) 
   return least;
 }
 
-/// Weighs one choice of a fit of many, together with others that go with it, all else being there,
-/// to first order. `together`: ascending; holds `index`.
+/// Weighs one choice of a large fit to first order, beside all but those in `together`, which go
+/// with it. `together`: ascending; holds `index`.
 Finding judge_linearly(const Inquiry& inquiry, const Fit& whole, const Without& without,
                        std::size_t index, const std::vector<std::size_t>& together) {
   const auto at = static_cast<std::ptrdiff_t>(index);
@@ -51,22 +51,23 @@ Finding judge_linearly(const Inquiry& inquiry, const Fit& whole, const Without& 
       whole.chosen[index], whole.covariance_of(index), std::move(evidence), std::move(others), {}};
 }
 
-/// On a small path errors of geometry, which are smooth along it, imitate whatever else is: only
-/// what shows elsewhere stands there.
+/// Does an effect show at the TCP alone, on a small path? Errors of geometry are smooth along it,
+/// and imitate any other effect there: nothing stands by it.
 bool shows_on_small_path(const Observations& observations, const Evidence& evidence) {
   return evidence.group.first == simulation::tcp_position && !observations.spans_workspace();
 }
 
-/// The held-out error is asked of each, and no share of the mismatch: many have a small one.
+/// Does a member stand by its evidence? Each must lower the held-out error. None must explain a
+/// share of the mismatch, since each of many has a small one.
 bool stands_as_member(const Inquiry& inquiry, const Evidence& evidence) {
   return evidence.impossible.empty() && evidence.delta_bic > kStrongEvidence &&
          evidence.p_value < inquiry.false_discovery && evidence.confirmation > kConfirmed &&
          evidence.lowers_held_out && !shows_on_small_path(inquiry.observations, evidence);
 }
 
-/// Is a number known to differ from nothing, beside all others and what was left out for them? What
-/// it takes from the error may be another's else, and the number say nothing. What is in no family
-/// was found by itself.
+/// Is a number known to differ from zero, beside all others and those that were left out for them?
+/// Otherwise the error that it takes away may be another's. A number that is in no family was found
+/// by itself, and counts as told apart.
 bool is_told_apart(const Fit& whole, std::size_t index) {
   constexpr double kChance = 0.05;  // as of the interval that is told with it
   const effects::Traits& traits = whole.chosen[index].hypothesis.traits();
@@ -116,7 +117,7 @@ bool has_friction_at(const std::vector<Finding>& findings, int joint) {
   });
 }
 
-/// The one of several choices that is the most deviations from nothing.
+/// The one of several choices that is the most standard deviations from zero.
 std::size_t surest_of(const Fit& whole, const std::vector<std::size_t>& indices) {
   const auto deviations = [&](std::size_t index) {
     const double variance = whole.covariance_of(index)(0, 0);
@@ -127,10 +128,9 @@ std::size_t surest_of(const Fit& whole, const std::vector<std::size_t>& indices)
   });
 }
 
-/// Forms of a joint's friction share what they explain where it moves in a small range of speeds,
-/// so that none may stand beside the others. Its friction stands all the same where they do
-/// together: the surest form is the finding then, as uncertain as it is beside the others, if it is
-/// told from nothing.
+/// Adds the friction of joints whose forms of friction stand together, but none beside the others:
+/// in a small range of speeds they share what they explain. The surest form becomes the finding, as
+/// uncertain as it is beside the others, if it is told from nothing.
 void add_friction_as_whole(const Inquiry& inquiry, const Fit& whole, const Without& without,
                            std::vector<Finding>* standing) {
   for (const auto& [joint, forms] : friction_by_joint(whole)) {

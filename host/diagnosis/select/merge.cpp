@@ -11,7 +11,8 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// One hypothesis in the place of two that are not far better than it; nothing where there is none.
+/// The selection with one hypothesis in the place of two that are not far better than it; nothing
+/// where no two are.
 std::optional<Selection> merged(const Inquiry& inquiry, const Sought& sought,
                                 const Selection& selection) {
   const std::size_t count = selection.findings.size();
@@ -29,7 +30,7 @@ std::optional<Selection> merged(const Inquiry& inquiry, const Sought& sought,
   return std::nullopt;
 }
 
-/// The largest of its parameters, in sizes that matter.
+/// The largest of a hypothesis' parameters, in sizes that matter.
 double change(const Chosen& chosen) {
   double most = 0;
   for (std::size_t i = 0; i < chosen.values.size(); ++i) {
@@ -79,7 +80,7 @@ bool is_the_law(const Alternative& one, const Finding& finding) {
          one.delta_bic - more * std::log(finding.evidence.effective_samples) < kIndifferent;
 }
 
-/// Others that would do nearly as well in the place of a finding, the best first.
+/// Alternatives that would do nearly as well in the place of a finding, the best first.
 std::vector<Alternative> alternatives_of(const Inquiry& inquiry, const Sought& sought,
                                          const Fit& whole, std::size_t index,
                                          const Finding& finding) {
@@ -115,8 +116,8 @@ std::vector<Alternative> alternatives_of(const Inquiry& inquiry, const Sought& s
   return all;
 }
 
-/// A plainer hypothesis or the law itself in the place of a finding, which was taken for what
-/// others account for by now; nothing where there is none.
+/// The selection with a plainer hypothesis, or the law itself, in the place of a finding; nothing
+/// where there is none. A finding may have been taken for an error that others account for by now.
 std::optional<Selection> plainer(const Inquiry& inquiry, const Selection& selection) {
   for (std::size_t i = 0; i < selection.findings.size(); ++i) {
     const Finding& finding = selection.findings[i];

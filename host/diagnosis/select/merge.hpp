@@ -4,9 +4,9 @@
 
 namespace flexcomp::diagnosis {
 
-/// Puts plainer findings in the place of what the evidence does not prefer to them: one for two,
-/// one with fewer parameters, a law for its mere curve. Every finding has its alternatives then.
-/// Each step takes away a finding, a parameter or a joint.
+/// Replaces findings that the evidence does not prefer to a plainer one: two by one, one by another
+/// with fewer parameters, a curve by its law. Each step takes away a finding, a parameter or a
+/// joint. Every finding has its alternatives then.
 Selection simplify(const Inquiry& inquiry, const Sought& sought, Selection selection);
 
 }  // namespace flexcomp::diagnosis

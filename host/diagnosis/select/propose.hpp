@@ -25,7 +25,7 @@ struct Attempt {
   bool is_of_families = false;  ///< grown no further: a machine's numbers together account for more
 };
 
-/// A hypothesis with values to begin with, and what it promises.
+/// A hypothesis with values to begin with, and the gain that it promises.
 struct Candidate {
   double gain;  ///< in BIC, by its linear part
   Chosen chosen;
@@ -33,7 +33,7 @@ struct Candidate {
   std::size_t entry;  ///< of that dictionary
 };
 
-/// How much an effect at a place would explain alone, by its linear part.
+/// The gain of an effect at a place alone, by its linear part.
 struct Ranked {
   std::string effect;
   int joint = 0;
@@ -43,22 +43,23 @@ struct Ranked {
 /// Seeks new starts in what a fit leaves, for the hypotheses that need it.
 Sought seek(const Inquiry& inquiry, const Fit& fit);
 
-/// Every hypothesis beside a fit with the best of its starts, the most promising first.
+/// All hypotheses beside a fit, each with the best of its starts, the most promising first.
 std::vector<Candidate> propose(const Inquiry& inquiry, const Attempt& before);
 
-/// Effects at places by what they explain alone, the best form of each.
+/// Effects at places, each in its best form, by their gain alone.
 std::vector<Ranked> rank(const std::vector<Candidate>& candidates);
 
 /// The fits of the best pairs whose parts do not cancel each other.
 std::vector<Fit> propose_pairs(const Inquiry& inquiry);
 
-/// How a candidate, or one choice of a fit, changes the samples to fit to: for each of its
-/// parameters a column of length one.
+/// Directions in which a candidate, or one choice of a fit, changes the samples to fit to: a column
+/// of length one for each parameter.
 Eigen::MatrixXd directions(const Inquiry& inquiry, const Attempt& before,
                            const Candidate& candidate);
 Eigen::MatrixXd directions(const Observations& observations, const Fit& fit, std::size_t index);
 
-/// Do two, by their directions, show in the same samples? Else neither can stand in for the other.
+/// Do two sets of directions show in the same samples? Otherwise neither effect can stand in for
+/// the other.
 bool meet(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other);
 
 }  // namespace flexcomp::diagnosis

@@ -8,9 +8,9 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// One law that accounts for so much is not so by accident; a sum of several may be: does this
-/// finding fall because all that show in its place fail together on what was held out there? Of
-/// two, one may be right, and only the weaker falls.
+/// Does a finding fall because all findings that show in its place together fail on what was held
+/// out there? A sum of several may fit by accident, a single law hardly: one alone never falls so,
+/// and of two only the weaker.
 bool falls_with_others(const Inquiry& inquiry, const Selection& selection, std::size_t index) {
   const Evidence& own = selection.findings[index].evidence;
   int others = 0;
@@ -38,8 +38,8 @@ bool is_remnant(const Evidence& evidence, const std::vector<Group>& fallen) {
                      [&](const Group& other) { return are_of_one_place(other, evidence.group); });
 }
 
-/// Withdraws what proves nothing; `fallen` are the places where it showed. What is kept may have
-/// stood by what is not: true where it is to be looked at anew.
+/// Withdraws the findings that prove nothing, and adds the places where they showed to `fallen`.
+/// Returns true where the others must be judged anew, since they may have stood by those.
 bool withdraw_unproved(const Inquiry& inquiry, Proved* proved, std::vector<Group>* fallen) {
   const Selection& selection = proved->selection;
   std::vector<Chosen> kept;

@@ -27,11 +27,11 @@ constexpr double kLeastShare = 0.1;
 /// Least share of a mismatch's power that all findings explain together: physics outside the
 /// catalogue against effects whose laws are only nearly ours (024da06).
 constexpr double kLeastExplained = 0.9;
-/// The same where no more than `kFarFromNoise` is left: of engines whose laws are their own, more
-/// cannot be had (4675fca).
+/// Least share of the power explained where no more than `kFarFromNoise` is left: the laws of other
+/// engines are not quite ours, so that no more can be had (4675fca).
 constexpr double kExplainedNearNoise = 0.8;
-/// The same for numbers of families together, which stand each by its own evidence: a real machine
-/// always has something left that no one models.
+/// Least share that the numbers of families explain together, each of which stands by its own
+/// evidence: a real machine always has errors that nobody models.
 constexpr double kLeastByFamilies = 0.6;
 /// Numbers of a family that must stand together: fewer causes are found one by one, and physics
 /// outside the catalogue is imitated by one or two (tests/diagnosis/test_retune.cpp).
@@ -41,12 +41,13 @@ constexpr double kFarFromNoise = 2;
 /// Times the noise, or model error, that was taken for what nothing explains: where less is left,
 /// all is weighed anew by what is left. Time against an estimate that is told to a tenth.
 constexpr double kMuchLess = 0.8;
-/// A recording of a real robot needs a dozen (842a13d).
+/// Findings at most: a recording of a real robot needs a dozen (842a13d).
 constexpr std::size_t kMostFindings = 20;
-/// At one place: more would be a sum that fits anything, and takes minutes (a51463b).
+/// Findings at one place at most: more would be a sum that fits anything, and takes minutes
+/// (a51463b).
 constexpr int kMostInGroup = 5;
-/// The same in a load test, whose poses lie all over: many small errors of geometry tell themselves
-/// apart there (31c28d3).
+/// Findings at one place at most in a load test: its poses lie all over, which tells many small
+/// errors of geometry apart (31c28d3).
 constexpr int kMostInLoadTest = 16;
 /// Hypotheses fitted beside a fit before the best is taken: time against a screening that is only
 /// linear (024da06).

@@ -27,15 +27,14 @@ Term motion_play(int joint, double gap) {
 /// Play whose gap alone is known, from the key `backlash`: driven by the load, with a drag of a
 /// hundredth of it, where the joint carries any; else by the motion.
 Term keyed_play(int joint, double gap) {
-  constexpr double kLeastLoad = 1;  // N·m
-  constexpr double kDrag = 0.01;    // of the load
+  constexpr double kDrag = 0.01;  // of the load
   return {Term::load, [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
             const auto largest = [&](const Eigen::MatrixXd& load) {
               return load.cols() > 0 ? load.col(joint - 1).cwiseAbs().maxCoeff() : 0.0;
             };
             const double load =
                 std::max(largest(prediction->load), largest(prediction->dynamic_load));
-            if (load > kLeastLoad) {
+            if (load > kLeastFlankLoad) {
               load_play(joint, gap, kDrag * load).add(scene, at, prediction);
             } else if (!scene.is_static) {
               motion_play(joint, gap).add(scene, at, prediction);

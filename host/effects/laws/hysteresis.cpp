@@ -4,10 +4,10 @@
 namespace flexcomp::effects {
 namespace {
 
-/// In −1…1, of torques and a yield torque, both in N·m.
+/// A loop, in −1…1, along torques (N·m) and with a yield torque (N·m).
 using Loop = Eigen::VectorXd (*)(const Eigen::VectorXd&, double);
 
-/// The joint came to the first torque from none.
+/// The loop of a joint that came to the first torque from none.
 template <Loop loop>
 Eigen::VectorXd from_zero(const Eigen::VectorXd& torque, double yield) {
   Eigen::VectorXd since(torque.size() + 1);

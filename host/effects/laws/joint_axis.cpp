@@ -4,14 +4,6 @@
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
-namespace {
-
-std::array<int, 2> tilts(const model::Robot& robot, int joint) {
-  return axes_across(robot.elastic.joints[index_of(joint)].axis);
-}
-
-}  // namespace
-
 // A joint's axis is tilted in the link before it: two small rotations of the joint's frame across
 // the axis. It is the parameter that Denavit and Hartenberg's lack for axes that are nearly
 // parallel (Hayati and Mirmirani 1985), and their twist elsewhere.
@@ -23,7 +15,7 @@ Forms laws::joint_axis() {
   law.parameters = [](const model::Robot& robot, int joint) {
     constexpr std::array<const char*, 3> kNames = {"tilt_x", "tilt_y", "tilt_z"};
     std::vector<Parameter> parameters;
-    for (const int axis : tilts(robot, joint)) {
+    for (const int axis : axes_across_joint(robot, joint)) {
       parameters.push_back({kNames[static_cast<std::size_t>(axis)], "rad"});
     }
     return parameters;
@@ -32,7 +24,7 @@ Forms laws::joint_axis() {
   law.statement = says("the axis of joint {} is tilted");
   alter_robot(
       [](const Values& values, int joint, model::Robot* robot) {
-        const std::array<int, 2> axes = tilts(*robot, joint);
+        const std::array<int, 2> axes = axes_across_joint(*robot, joint);
         Matrix3<double>& rotation = robot->elastic.joints[index_of(joint)].origin.rotation;
         for (std::size_t i = 0; i < axes.size(); ++i) {
           rotation *=

@@ -118,4 +118,8 @@ std::array<int, 2> axes_across(const Vector3<double>& direction) {
   return {along == 0 ? 1 : 0, along == 2 ? 1 : 2};
 }
 
+std::array<int, 2> axes_across_joint(const model::Robot& robot, int joint) {
+  return axes_across(robot.elastic.joints[index_of(joint)].axis);
+}
+
 }  // namespace flexcomp::effects

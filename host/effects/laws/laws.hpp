@@ -74,6 +74,9 @@ std::vector<int> machine_or_joint(int joints);
 /// The two axes of a frame that lie most across a direction in it, in their order: 0 is x.
 std::array<int, 2> axes_across(const Vector3<double>& direction);
 
+/// The two axes of a link's frame across the axis of the joint that moves it.
+std::array<int, 2> axes_across_joint(const model::Robot& robot, int joint);
+
 /// Index of a joint (from 1 on) in a robot's arrays.
 inline std::size_t index_of(int joint) { return static_cast<std::size_t>(joint - 1); }
 

@@ -55,13 +55,6 @@ Term bending_beam(const model::Chain& robot, int joint, double compliance) {
   return {Term::output, add};
 }
 
-/// The two axes of the link's frame across its joint's axis.
-std::array<Eigen::Index, 2> bending_axes(const model::Robot& robot, int joint) {
-  Eigen::Index along = 0;
-  robot.elastic.joints[index_of(joint)].axis.cwiseAbs().maxCoeff(&along);
-  return {(along + 1) % 3, (along + 2) % 3};
-}
-
 Law springs() {
   Law law;
   law.form = "springs";
@@ -69,14 +62,14 @@ Law springs() {
   law.traits.linear_in = 2;
   law.parameters = [](const model::Robot& robot, int joint) {
     std::vector<Parameter> parameters;
-    for (const Eigen::Index axis : bending_axes(robot, joint)) {
+    for (const int axis : axes_across_joint(robot, joint)) {
       parameters.push_back({fmt::format("bending_{}", "xyz"[axis]), "rad/(N·m)"});
     }
     return parameters;
   };
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {
-        const std::array<Eigen::Index, 2> axes = bending_axes(*robot, joint);
+        const std::array<int, 2> axes = axes_across_joint(*robot, joint);
         DiagonalCompliance<double>& link = robot->elastic.joints[index_of(joint)].link_compliance;
         link[3 + axes[0]] += values[0];
         link[3 + axes[1]] += values[1];
@@ -112,8 +105,7 @@ Forms laws::link_flexibility() {
       {{"", " bending_x bending_y bending_z beam ",
         [](const Subject& of) { return up_to(softest(kMostTurn, kLinkTurn, of.largest_load())); },
         "a slender aluminium link that bends by 0.02 rad is strained to half of what it yields at "
-        "(yield "
-        "strain 0.4 %, five times as long as high): no arm is built so"}}};
+        "(yield strain 0.4 %, five times as long as high): no arm is built so"}}};
   for (Law& law : forms.laws) {
     law.words = "flexibility of the link";
     law.statement = says("the link that joint {} moves gives");

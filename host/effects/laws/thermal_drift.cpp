@@ -32,7 +32,7 @@ Eigen::VectorXd by_time(const Scene& scene, const Values& values) {
   return approach(scene.time, values.back());
 }
 
-/// What the structure does where it has grown so far, at every row.
+/// Adds the change of a structure that has grown so far at every row.
 using Drift = std::function<void(const Eigen::VectorXd& grown, const Values&, int joint,
                                  const Simulation&, Prediction*)>;
 

@@ -13,7 +13,8 @@ Term late_channel(Channel channel, double delay) {
               values = simulation::delayed_smoothly(scene.time, values, delay);
               if (channel == simulation::joint_deflection) {
                 // Late link encoders show the whole angle late, not the wind-up alone.
-                values += simulation::moved_before(scene.time, scene.q, scene.velocity, delay);
+                values += simulation::delayed_motion(scene.time, scene.q, scene.velocity, delay) -
+                          scene.q;
               }
             }
           }};
