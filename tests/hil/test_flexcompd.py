@@ -286,28 +286,22 @@ class Tables(Process):
 
 
 class NodeCommand(Process):
-    BUS_OPTION = ("--bus", f"can:{BUS}")
-
-    def node(self, *words, code=0):
-        """As a person types: a command of another process within 50 ms of the last counts as its repetition."""
-        time.sleep(0.1)
-        return flexcomp("node", *words, *self.BUS_OPTION, code=code)
-
     def test_it_arms_sends_a_table_and_disarms(self):
         with Flexcompd(self.job) as node, subprocess.Popen(
                 [str(BIN / "flexcomp"), "plant", "--model", self.job.model, "--path", self.job.path,
                  "--period", "0.01", "--bus", f"can:{BUS}", "--without-compensation"],
                 stdout=subprocess.DEVNULL) as plant:
+            bus = ("--bus", f"can:{BUS}")
             self.peer.wait_for("SetpointA")
             time.sleep(0.5)
-            self.assertEqual("ok\n", self.node("arm"))
-            self.assertIn("not ready", self.node("arm", code=1))
-            self.assertEqual("ok\n", self.node("send-table", self.job.table))
-            self.assertEqual("ok\n", self.node("disarm"))
-            self.assertEqual("ok\n", self.node("reset"))
+            self.assertEqual("ok\n", flexcomp("node", "arm", *bus))
+            self.assertIn("not ready", flexcomp("node", "arm", *bus, code=1))
+            self.assertEqual("ok\n", flexcomp("node", "send-table", self.job.table, *bus))
+            self.assertEqual("ok\n", flexcomp("node", "disarm", *bus))
+            self.assertEqual("ok\n", flexcomp("node", "reset", *bus))
             plant.terminate()
             node.stop()
-        done = subprocess.run([str(BIN / "flexcomp"), "node", "arm", *self.BUS_OPTION], capture_output=True, text=True)
+        done = subprocess.run([str(BIN / "flexcomp"), "node", "arm", *bus], capture_output=True, text=True)
         self.assertEqual(2, done.returncode)
         self.assertIn("nobody answers", done.stderr)
 
