@@ -19,12 +19,22 @@ namespace flexcomp::cli {
 namespace {
 
 constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer
+/// The node forgets a sender's count of frames 50 ms after the last (messages/sequence.cpp).
+constexpr auto kForgets = std::chrono::milliseconds(60);
 
 struct NodeOptions {
   NodeAddress address;
   std::string table;
   double pause = 100e-6;
 };
+
+/// The bus, when the node has forgotten the last command's process: it counted its frames from zero
+/// as this one does, so that ours would pass for repetitions.
+std::unique_ptr<simulation::PlantBus> open_as_new_sender(const NodeAddress& address) {
+  auto bus = address.open();
+  std::this_thread::sleep_for(kForgets);
+  return bus;
+}
 
 /// The next message of a kind; throws if none comes in time, however many others do.
 template <typename Kind>
@@ -41,7 +51,7 @@ Kind wait_for(simulation::PlantBus* bus, const std::string& address) {
 }
 
 int command(const NodeOptions& options, Command wanted) {
-  const auto bus = options.address.open();
+  const auto bus = open_as_new_sender(options.address);
   bus->send(CommandMessage{wanted});
   CommandReplyMessage reply = wait_for<CommandReplyMessage>(bus.get(), options.address.bus);
   while (reply.command != wanted) {
@@ -75,7 +85,7 @@ std::vector<std::uint32_t> read_words(const std::string& file) {
 int send_table(const NodeOptions& options) {
   const std::vector<std::uint32_t> words = read_words(options.table);
   const auto size = static_cast<std::uint32_t>(words.size() * sizeof(std::uint32_t));
-  const auto bus = options.address.open();
+  const auto bus = open_as_new_sender(options.address);
   const std::uint32_t crc = crc32(words.data(), size);
   bus->send(TransferBeginMessage{size, crc});
   TransferReplyMessage reply = wait_for<TransferReplyMessage>(bus.get(), options.address.bus);
