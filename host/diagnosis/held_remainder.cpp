@@ -83,9 +83,9 @@ void minimise(HeldRemainder* cost, int most_steps, double least_change, Evaluato
   options.max_num_iterations = most_steps;
   options.function_tolerance = least_change;
   options.logging_type = ceres::SILENT;
-  // A step that bounds cut is tried as it is, and shortened like any other where it fails. To search
-  // along it costs a quarter of the time, and ends at the same figures.
-  options.max_num_line_search_step_size_iterations = 0;
+  // The search along a step that bounds cut, or that runs into the edge of what a body can be, asks
+  // for values alone then, not for derivatives too.
+  options.line_search_interpolation_type = ceres::QUADRATIC;
   options.initial_trust_region_radius = 1e6;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
