@@ -83,9 +83,11 @@ void minimise(HeldRemainder* cost, int most_steps, double least_change, Evaluato
   options.max_num_iterations = most_steps;
   options.function_tolerance = least_change;
   options.logging_type = ceres::SILENT;
-  // The search along a step that bounds cut, or that runs into the edge of what a body can be, asks
-  // for values alone then, not for derivatives too.
-  options.line_search_interpolation_type = ceres::QUADRATIC;
+  // Along a step that bounds cut, values alone are enough. The edge of what a body can be is steep:
+  // there the search asks for slopes too, or it stops before it.
+  if (!cost->holds_bodies()) {
+    options.line_search_interpolation_type = ceres::QUADRATIC;
+  }
   options.initial_trust_region_radius = 1e6;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

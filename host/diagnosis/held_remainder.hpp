@@ -18,6 +18,8 @@ class HeldRemainder : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
+  bool holds_bodies() const { return bodies_.size() > 0; }
+
  protected:
   /// The remainder of values, and its slope by them (rows × numbers) where it is wanted; false
   /// where they cannot be simulated.
