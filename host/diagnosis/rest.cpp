@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "diagnosis/evidence.hpp"
@@ -26,21 +27,21 @@ struct Component {
   double ratio = 0;  ///< of what is left to its noise
 };
 
-/// The component of which the most is left.
+/// The component of which the most is left, in what was fitted to or in what was held out.
 Component largest_component(const Observations& observations, const Eigen::VectorXd& remainder) {
-  std::map<std::pair<Channel, Eigen::Index>, std::pair<double, double>> sums;
-  for (Eigen::Index i = 0; i < observations.train; ++i) {
+  std::map<std::tuple<Channel, Eigen::Index, bool>, std::pair<double, double>> sums;
+  for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
     const double value = std::clamp(observations.over_floor(i, remainder[i]), -kGross, kGross);
-    auto& [squares, count] = sums[{at.channel, at.component}];
+    auto& [squares, count] = sums[{at.channel, at.component, i >= observations.train}];
     squares += value * value;
     count += 1;
   }
   Component most{};
-  for (const auto& [component, sum] : sums) {
+  for (const auto& [part, sum] : sums) {
     const double ratio = std::sqrt(sum.first / sum.second);
     if (ratio > most.ratio) {
-      most = {component.first, component.second, ratio};
+      most = {std::get<Channel>(part), std::get<Eigen::Index>(part), ratio};
     }
   }
   return most;

@@ -1,9 +1,11 @@
-// Whether what is left of a load test is alike at poses near each other, and what is said of it.
+// Whether what is left is noise: of a load test, if it is not alike at poses near each other; of a
+// motion, if no component keeps more.
 #include <random>
 
 #include "diagnosis/neighbours.hpp"
 #include "diagnosis/observations.hpp"
 #include "diagnosis/rest.hpp"
+#include "diagnosis/swinging_robot.hpp"
 #include "effects/learned.hpp"
 #include "unity_main.hpp"
 
@@ -89,6 +91,20 @@ void a_rest_within_the_noise_is_noise_unless_it_is_alike_at_neighbours() {
       more_than_noise(observations, Eigen::VectorXd::Constant(observations.size(), 3)).c_str());
 }
 
+void what_one_axis_keeps_in_what_was_held_out_is_not_hidden_by_the_others() {
+  const Observations observations = flexcomp::test::SwingingRobot(1).observed();
+  const auto with_along_z = [&](double held_out) {
+    Eigen::VectorXd remainder = Eigen::VectorXd::Ones(observations.size());
+    for (Eigen::Index i = observations.train; i < observations.size(); ++i) {
+      const bool is_z = observations.samples[static_cast<std::size_t>(i)].component == 2;
+      remainder[i] = is_z ? held_out : 1;
+    }
+    return more_than_noise(observations, remainder);
+  };
+  TEST_ASSERT_EQUAL_STRING("", with_along_z(1.5).c_str());
+  TEST_ASSERT_EQUAL_STRING("2.0 times the noise is left along z", with_along_z(2).c_str());
+}
+
 }  // namespace
 
 int main() {
@@ -98,5 +114,6 @@ int main() {
   RUN_TEST(a_constant_is_no_likeness);
   RUN_TEST(a_few_poses_tell_nothing);
   RUN_TEST(a_rest_within_the_noise_is_noise_unless_it_is_alike_at_neighbours);
+  RUN_TEST(what_one_axis_keeps_in_what_was_held_out_is_not_hidden_by_the_others);
   return UNITY_END();
 }
