@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnosis/clusters.hpp"
@@ -34,11 +35,10 @@ Eigen::MatrixXd delay_columns(const Observations& observations,
 
 /// Variance of a number that is the sum of influence times error, with errors that hang together
 /// within a cluster (Liang and Zeger 1986), over time or at a posture.
-double clustered_variance(const Observations& observations, const Eigen::VectorXd& influence,
+double clustered_variance(const std::array<Clusters, 2>& both, const Eigen::VectorXd& influence,
                           const Eigen::VectorXd& error) {
   double most = 0;
-  for (const Clusters& clusters :
-       {clusters_in_time(observations), clusters_in_state(observations)}) {
+  for (const Clusters& clusters : both) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(clusters.count);
     for (Eigen::Index i = 0; i < influence.size(); ++i) {
       sums[clusters.of[static_cast<std::size_t>(i)]] += influence[i] * error[i];
@@ -91,10 +91,10 @@ std::vector<ClockCheck> check_clocks(const Observations& observations,
   const Eigen::VectorXd solved = inverse * (columns.transpose() * target);
   const Eigen::VectorXd left = target - columns * solved;
   const double variance = left.squaredNorm() / static_cast<double>(n);
+  const std::array<Clusters, 2> clusters = clusters_of_errors(observations);
   for (Eigen::Index i = count; i < all; ++i) {
-    const double deviation =
-        std::sqrt(std::max(variance * inverse(i, i),
-                           clustered_variance(observations, columns * inverse.col(i), left)));
+    const double deviation = std::sqrt(std::max(
+        variance * inverse(i, i), clustered_variance(clusters, columns * inverse.col(i), left)));
     checks.push_back({groups[static_cast<std::size_t>(i - count)], solved[i] / length[i],
                       deviation / length[i]});
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "diagnosis/observations.hpp"
@@ -20,5 +21,10 @@ Clusters clusters_in_time(const Observations& observations);
 /// angles and speeds lie near each other. An error of the model at a posture stays within one: it
 /// is the same in each round of a motion that repeats, so that rounds are not independent.
 Clusters clusters_in_state(const Observations& observations);
+
+/// Both: errors hang together in one way or the other.
+inline std::array<Clusters, 2> clusters_of_errors(const Observations& observations) {
+  return {clusters_in_time(observations), clusters_in_state(observations)};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -98,8 +98,7 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const NormalInve
                               const Eigen::VectorXd& remainder, double variance) {
   const Eigen::VectorXd size = derivative.colwise().norm();
   Eigen::VectorXd together = Eigen::VectorXd::Zero(derivative.cols());
-  for (const Clusters& clusters :
-       {clusters_in_time(observations), clusters_in_state(observations)}) {
+  for (const Clusters& clusters : clusters_of_errors(observations)) {
     together =
         together.cwiseMax(scatter_without_each(clusters, inverse, derivative, weight, remainder));
   }

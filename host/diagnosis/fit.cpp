@@ -57,19 +57,19 @@ void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int m
   minimise(&cost, most_steps, kLeastChange, evaluator);
 }
 
-/// Starts where the machine comes to rest. An amplitude that was taken in proportion may ask for
-/// springs too soft for that: all of them are halved then, as often as needed. With none of them
-/// the machine is the model, which has a rest.
-void start_at_rest(Evaluator* evaluator) {
+/// The prediction at the start, which is moved to where the machine comes to rest. An amplitude
+/// that was taken in proportion may ask for springs too soft for that: all of them are halved then,
+/// as often as needed. With none of them the machine is the model, which has a rest.
+Eigen::VectorXd predicted_at_rest(Evaluator* evaluator) {
   constexpr int kHalvings = 20;  // to a millionth
   for (int i = 0; i < kHalvings; ++i) {
     try {
-      evaluator->evaluate(evaluator->values(), nullptr);
-      return;
+      return evaluator->evaluate(evaluator->values(), nullptr);
     } catch (const InputError&) {
       evaluator->halve_amplitudes();
     }
   }
+  return evaluator->evaluate(evaluator->values(), nullptr);
 }
 
 /// Parameters that act in steps, like the drag that holds a flank, have no derivative: values
@@ -186,8 +186,7 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
   result.derivative.resize(base.size(), 0);
   if (evaluator.size() > 0) {
     const Eigen::VectorXd to_fit = measured.head(n);
-    start_at_rest(&evaluator);
-    const Eigen::VectorXd first = evaluator.evaluate(evaluator.values(), nullptr);
+    const Eigen::VectorXd first = predicted_at_rest(&evaluator);
     const Eigen::VectorXd weight = huber_weights(to_fit - first.head(n));
     solve(to_fit, weight, most_steps, &evaluator);
     if (dictionary == nullptr && most_steps > 0 && scan_steps(to_fit, &evaluator)) {

@@ -57,16 +57,19 @@ std::string more_than_noise(const Observations& observations, const Eigen::Vecto
   if (ratio >= kLikeNoise + 3 * observations.noise_uncertainty) {
     return fmt::format("{:.1f} times the noise is left", ratio);
   }
-  const Component most = largest_component(observations, remainder);
-  if (!observations.is_static && most.ratio >= kMostInOne) {
-    const std::string place = most.channel == simulation::tcp_position
-                                  ? fmt::format("along {}", "xyz"[most.index])
-                                  : fmt::format("at joint {}", most.index + 1);
-    return fmt::format("{:.1f} times the noise is left {}", most.ratio, place);
+  if (observations.is_static) {
+    return likeness_of_neighbours(observations, remainder) > kAlike
+               ? "what is left is alike at neighbouring poses, as noise is not"
+               : "";
   }
-  return observations.is_static && likeness_of_neighbours(observations, remainder) > kAlike
-             ? "what is left is alike at neighbouring poses, as noise is not"
-             : "";
+  const Component most = largest_component(observations, remainder);
+  if (most.ratio < kMostInOne) {
+    return "";
+  }
+  return fmt::format("{:.1f} times the noise is left {}", most.ratio,
+                     most.channel == simulation::tcp_position
+                         ? fmt::format("along {}", "xyz"[most.index])
+                         : fmt::format("at joint {}", most.index + 1));
 }
 
 }  // namespace flexcomp::diagnosis
