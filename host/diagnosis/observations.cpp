@@ -137,6 +137,9 @@ double Observations::range(int joint) const {
 bool Observations::spans_workspace() const {
   constexpr double kApart = 0.15;      // m, standard deviation in two directions
   constexpr double kAllApart = 0.045;  // of the reach, in all three: no circle does that
+  // Of the reach, in one direction and across it: a circle that did so would fill the workspace.
+  constexpr double kFar = 0.3;
+  constexpr double kAcross = 0.1;
   Eigen::Index count = 0;
   Vector3<double> sum = Vector3<double>::Zero();
   Matrix3<double> square = Matrix3<double>::Zero();
@@ -154,9 +157,10 @@ bool Observations::spans_workspace() const {
   const Vector3<double> mean = sum / static_cast<double>(count);
   const Matrix3<double> spread = square / static_cast<double>(count) - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(spread, Eigen::EigenvaluesOnly);
-  const double least = kAllApart * effects::size_of(machine.robot).outreach;
-  return axes.eigenvalues()[1] > kApart * kApart ||  // in rising order
-         axes.eigenvalues()[0] > least * least;
+  const Eigen::Array3d apart = axes.eigenvalues().cwiseMax(0).cwiseSqrt();  // in rising order
+  const double reach = effects::size_of(machine.robot).outreach;
+  return apart[1] > kApart || apart[0] > kAllApart * reach ||
+         (apart[2] > kFar * reach && apart[1] > kAcross * reach);
 }
 
 Eigen::VectorXd Observations::stacked(const std::vector<Prediction>& values) const {

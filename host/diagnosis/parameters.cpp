@@ -48,9 +48,9 @@ void add_wave(const Values& values, const std::string& unit, const Eigen::Matrix
                                values[0] / (amplitude * amplitude));
   const Eigen::Matrix2d inner = covariance.topLeftCorner<2, 2>();
   all->push_back({"amplitude", unit, amplitude,
-                  std::hypot(std::sqrt(along.dot(inner * along)), kExactness * amplitude)});
+                  std::hypot(std::sqrt(along.dot(inner * along)), kExactness * amplitude), 0});
   all->push_back(
-      {"phase", "rad", std::atan2(values[1], values[0]), std::sqrt(across.dot(inner * across))});
+      {"phase", "rad", std::atan2(values[1], values[0]), std::sqrt(across.dot(inner * across)), 1});
 }
 
 }  // namespace
@@ -71,13 +71,14 @@ std::vector<Estimate> estimates(const Observations& observations, const Chosen& 
     const Parameter& parameter = hypothesis.parameters[at];
     const bool is_told = at < hypothesis.linear || is_shape_told;
     all.push_back({parameter.name, parameter.unit, values[at],
-                   is_told ? deviation_at(values, covariance, i) : kUnknown});
+                   is_told ? deviation_at(values, covariance, i) : kUnknown, at});
   }
   if (hypothesis.law->derived) {
     const model::Robot& robot = observations.machine.robot;
     for (const effects::Derived& each : hypothesis.law->derived(robot, hypothesis.joint, values)) {
       all.push_back({each.name, each.unit, each.value,
-                     deviation_at(values, covariance, static_cast<Eigen::Index>(each.parameter))});
+                     deviation_at(values, covariance, static_cast<Eigen::Index>(each.parameter)),
+                     each.parameter});
     }
   }
   return all;

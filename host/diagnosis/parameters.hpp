@@ -12,7 +12,8 @@ struct Estimate {
   std::string name;
   std::string unit;
   double value = 0;
-  double deviation = 0;  ///< standard; NaN where the fit does not tell
+  double deviation = 0;       ///< standard; NaN where the fit does not tell
+  std::size_t parameter = 0;  ///< index of the one that it is, or follows from
 };
 
 /// Parameters of a hypothesis with their covariance, and those that follow from them: amplitude and

@@ -91,6 +91,19 @@ def replace_columns(recording, names, change):
     recording.write_text("\n".join(changed) + "\n")
 
 
+def scara(tilt):
+    """A SCARA's URDF, and its robot.yaml; the second axis is tilted by so much (rad)."""
+    places = (("0 0 0.3", "0 0 0"), ("0.35 0 0", f"{tilt} 0 0"), ("0.3 0 0", "0 0 0"), ("0 0 0", "0 0 0"))
+    links = "".join(f'<link name="l{k}"/>' for k in range(5))
+    joints = "".join(
+        f'<joint name="j{k}" type="{"prismatic" if k == 3 else "revolute"}"><parent link="l{k - 1}"/><child link="l{k}"/>'
+        f'<origin xyz="{place}" rpy="{turn}"/><axis xyz="0 0 1"/><limit lower="-{0.1 if k == 3 else 3}" upper="{0.1 if k == 3 else 3}" effort="200" velocity="3"/></joint>'
+        for k, (place, turn) in enumerate(places, start=1))
+    yaml = ("schema: flexcomp/robot/1\nname: scara\nurdf: scara.urdf\nbase_link: l0\ntool_link: l4\ngravity: [0, 0, 0]\n"
+            "joints:\n" + "".join(f"  j{k}: {{compliance: 1.0e-6}}\n" for k in range(1, 5)))
+    return f'<robot name="scara">{links}{joints}</robot>', yaml
+
+
 class Diagnose(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -131,12 +144,12 @@ class Diagnose(unittest.TestCase):
         recording.write_text("\n".join([",".join(["t", *columns]), *lines]) + "\n")
         return recording
 
-    def torques(self, joint, friction):
+    def torques(self, joint, friction, model=ROBOT):
         """A recording of the joints swinging, with torques by the model, friction, and noise."""
         columns = [f"q_meas_{k}" for k in JOINTS] + [f"tau_{k}" for k in JOINTS]
         swings = [swing(i * PERIOD) for i in range(2500)]
         recording = self.recorded(columns, [[*angles, *[0.0] * 6] for angles in swings])
-        simulated = self.simulated(recording)
+        simulated = self.simulated(recording, model)
         extra = iter(friction([angles[joint - 1] for angles in swings]))
         draw = random.Random(7)
         shown = [[float(row[f"tau_{k}"]) + draw.gauss(0, 2) + (next(extra) if k == joint else 0)
@@ -160,6 +173,27 @@ class Diagnose(unittest.TestCase):
                     self.folder / "recording.csv", "--out", self.folder / "again")
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(json.loads((self.folder / "again/diagnosis.json").read_text())["verdict"], "no_mismatch")
+
+    def test_a_spring_that_pulls_the_tool_toward_a_place_is_named_and_found_there(self):
+        place, rest, stiffness = (1.4, -0.6, 3.2), 0.7, 900.0  # m, m, N/m
+        axes, forces = list("xyz"), ["fx", "fy", "fz"]
+        recording = measured(self.folder, ROBOT, seed=3)
+
+        def with_pull(*force_and_tcp):
+            spring = [p - at for p, at in zip(place, force_and_tcp[3:])]
+            pull = stiffness * (1 - rest / math.hypot(*spring))
+            return [force + pull * along for force, along in zip(force_and_tcp, spring)]
+
+        draw, told = random.Random(5), iter(rows(recording))
+        replace_columns(recording, forces + axes, lambda *old: [*with_pull(*old), *old[3:]])
+        bent = iter(self.simulated(recording))
+        replace_columns(recording, axes, lambda *_: [float(row_at) + draw.gauss(0, NOISE)
+                                                     for row_at in map(next(bent).get, axes)])
+        replace_columns(recording, forces, lambda *_: map(float, map(next(told).get, forces)))
+        found = self.only_finding(recording, "tool_pull", None)["parameters"]
+        for axis, expected in zip("xyz", place):
+            self.assertAlmostEqual(found[axis]["value"], expected, delta=0.15)
+        self.assertAlmostEqual(found["stiffness"]["value"], stiffness, delta=0.1 * stiffness)
 
     def test_the_simulated_recording_leaves_the_residual_that_the_diagnosis_states(self):
         true = self.changed_model("joint_a2: {compliance: 0.29e-6}", "joint_a2: {compliance: 0.40e-6}")
@@ -214,6 +248,21 @@ class Diagnose(unittest.TestCase):
         self.assertAlmostEqual(tilt["value"], 1e-3, delta=4 * tilt["std"])
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_a_tilted_axis_is_named_of_an_arm_whose_tool_moves_in_a_plane(self):
+        angles = [[math.sin(0.61 * t), 0.9 + 0.5 * math.sin(0.47 * t + 1), 0.02 * math.sin(0.9 * t), math.sin(t)]
+                  for t in (i * PERIOD * 4 for i in range(1000))]
+        recording = self.recorded([f"q_meas_{k}" for k in range(1, 5)] + list("xyz"), [[*q, 0, 0, 0] for q in angles])
+        for name, tilt in (("true", 5e-4), ("nominal", 0)):
+            urdf, yaml = scara(tilt)
+            (self.folder / f"{name}.urdf").write_text(urdf)
+            (self.folder / f"{name}.yaml").write_text(yaml.replace("scara.urdf", f"{name}.urdf"))
+        draw, shown = random.Random(3), iter(self.simulated(recording, self.folder / "true.yaml"))
+        replace_columns(recording, "xyz", lambda *_: [float(at) + draw.gauss(0, 2 * NOISE)
+                                                      for at in map(next(shown).get, "xyz")])
+        found = self.only_finding(recording, "joint_axis", 2, self.folder / "nominal.yaml")["parameters"]
+        self.assertAlmostEqual(found["tilt_x"]["value"], 5e-4, delta=1e-5)
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_friction_that_builds_up_after_reversals_is_named(self):
         level, slip, gap, joint = 250.0, 0.02, 0.03, 2  # N·m, rad
 
@@ -228,6 +277,16 @@ class Diagnose(unittest.TestCase):
         finding = self.only_finding(self.torques(joint, friction), "friction_hysteresis", joint)
         for name, value in (("torque", level), ("slip", slip), ("gap", gap)):
             self.assertAlmostEqual(finding["parameters"][name]["value"], value, delta=0.03 * value)
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_friction_that_grows_with_the_load_is_named_where_it_is_the_only_cause(self):
+        def friction(angles):
+            carried = (abs(float(row["tau_2"])) for row in rows(self.folder / "simulated.csv"))
+            return [0.1 * load * math.copysign(1, step) for load, step in zip(carried, steps(angles))]
+
+        heavy = self.changed_model("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]")
+        found = self.only_finding(self.torques(2, friction, heavy), "load_friction", 2, heavy)
+        self.assertAlmostEqual(found["parameters"]["coefficient"]["value"], 0.1, delta=0.005)
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_viscous_friction_unlike_in_its_two_directions_is_named(self):

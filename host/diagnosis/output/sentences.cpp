@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "diagnosis/output/torque_band.hpp"
 #include "diagnosis/output/words.hpp"
@@ -14,14 +16,43 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// The estimate with the most deviations from zero: in which direction a base gives, for one.
-Estimate surest_of(const std::vector<Estimate>& all) {
-  const auto deviations = [](const Estimate& each) {
-    return each.deviation > 0 ? std::abs(each.value) / each.deviation : 0;
-  };
-  return *std::max_element(all.begin(), all.end(), [&](const Estimate& a, const Estimate& b) {
-    return deviations(a) < deviations(b);
+/// Deviations from zero.
+double sureness(const Estimate& each) {
+  return each.deviation > 0 ? std::abs(each.value) / each.deviation : 0;
+}
+
+/// The numbers that a sentence bears, in their order: the surest of those that are told from zero,
+/// and of a change and the whole that follows from it the surer.
+std::vector<Estimate> told_of(const std::vector<Estimate>& all) {
+  constexpr std::size_t kFew = 6;  // a frame has as many
+  std::vector<std::size_t> surest(all.size());
+  std::iota(surest.begin(), surest.end(), 0);
+  std::stable_sort(surest.begin(), surest.end(), [&](std::size_t a, std::size_t b) {
+    return sureness(all[a]) > sureness(all[b]);
   });
+  std::set<std::size_t> told;
+  std::set<std::size_t> parameters;
+  for (const std::size_t i : surest) {
+    if (sureness(all[i]) >= kTold && told.size() < kFew &&
+        parameters.insert(all[i].parameter).second) {
+      told.insert(i);
+    }
+  }
+  std::vector<Estimate> numbers;
+  for (const std::size_t i : told) {
+    numbers.push_back(all[i]);
+  }
+  return numbers;
+}
+
+/// " (x 0.4 m, y 2 N)"; empty without any. Parameters that only fit together, as a balancer's, say
+/// nothing one by one.
+std::string in_brackets(const std::vector<Estimate>& numbers) {
+  std::vector<std::string> words;
+  for (const Estimate& each : numbers) {
+    words.push_back(fmt::format("{} {}", each.name, readable(each.value, each.unit)));
+  }
+  return words.empty() ? "" : fmt::format(" ({})", fmt::join(words, ", "));
 }
 
 /// "held-out error of … falls from … to …, noise …", in the channel where it falls most.
@@ -57,13 +88,10 @@ Fit as_given(const Observations& observations) {
 std::string statement(const Observations& observations, const Diagnosis& diagnosis,
                       std::size_t finding) {
   const Finding& found = diagnosis.choice.findings[finding];
-  const Estimate surest = surest_of(estimates(observations, found.chosen, found.covariance));
   std::string clause = found.chosen.hypothesis.statement();
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
-  // Parameters that only fit together, as a balancer's, say nothing one by one.
-  const bool is_told = surest.deviation > 0 && std::abs(surest.value) >= kTold * surest.deviation;
   const std::string number =
-      is_told ? fmt::format(" ({} {})", surest.name, readable(surest.value, surest.unit)) : "";
+      in_brackets(told_of(estimates(observations, found.chosen, found.covariance)));
   return fmt::format("{}{}, which the model lacks: {}.", clause, number,
                      fall(observations, found.without, diagnosis.weighed()));
 }

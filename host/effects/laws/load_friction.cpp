@@ -27,7 +27,6 @@ Forms laws::load_friction() {
   law.traits.linear_in = 1;
   law.traits.is_friction = true;
   law.traits.is_in_family = true;
-  law.traits.is_family_only = true;
   law.parameters = constant({{"coefficient", "1"}});
   law.statement = says("the dry friction of joint {} grows with the load");
   add_term([](const Values& values, int joint) { return friction_under_load(joint, values[0]); },

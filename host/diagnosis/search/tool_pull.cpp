@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search/search.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr double kFarthest = 2.2;  // reaches from the base: from farther off it is a constant force
+constexpr int kSteps = 6;          // of the grid of places, either way
+
+/// Samples as forces on the tool show in them.
+struct Forces {
+  Eigen::MatrixXd lever;     ///< n×3, sample over noise by a force (N) on the tool, base frame
+  Eigen::MatrixXd place;     ///< n×3, of the TCP, m
+  Eigen::VectorXd residual;  ///< n, over the noise
+};
+
+/// How a force on the tool shows in a sample, SI.
+Eigen::RowVector3d lever_of(const Simulation& simulation, const Sample& sample) {
+  const auto row = static_cast<std::size_t>(sample.row);
+  const Eigen::Index component = sample.component;
+  if (sample.channel == simulation::tcp_position) {
+    return simulation.compliance[row].block<1, 3>(component, 0);
+  }
+  const Eigen::RowVector3d load = simulation.jacobian[row].col(component).head<3>().transpose();
+  return sample.channel == simulation::joint_torque
+             ? Eigen::RowVector3d(-load)
+             : Eigen::RowVector3d(simulation.joint_compliance[component] * load);
+}
+
+/// Of the samples to fit to, evenly taken: a pull is smooth.
+Forces forces_of(const Observations& observations, const Eigen::VectorXd& unexplained) {
+  constexpr Eigen::Index kMost = 6000;  // more take longer and show no more
+  const Eigen::Index step = 1 + observations.train / kMost;
+  const Eigen::Index count = (observations.train + step - 1) / step;
+  Forces forces{Eigen::MatrixXd(count, 3), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index index = i * step;
+    const Sample& sample = observations.samples[static_cast<std::size_t>(index)];
+    const Simulation& simulation = observations.simulations[sample.scene];
+    forces.lever.row(i) = lever_of(simulation, sample) / observations.noise[index];
+    forces.place.row(i) =
+        simulation.bent[static_cast<std::size_t>(sample.row)].tcp.position.transpose();
+    forces.residual[i] = unexplained[index];
+  }
+  return forces;
+}
+
+/// The squares that a pull toward a place takes off the residual, by least squares of its constant
+/// part and of the part that grows with the distance.
+double gain_toward(const Forces& forces, const Vector3<double>& place) {
+  const Eigen::MatrixXd toward = (-forces.place).rowwise() + place.transpose();
+  const Eigen::ArrayXd growing = forces.lever.cwiseProduct(toward).rowwise().sum().array();
+  const Eigen::ArrayXd distance = toward.rowwise().norm().array().max(1e-6);
+  Eigen::MatrixXd columns(growing.size(), 2);
+  columns << (growing / distance).matrix(), growing.matrix();
+  const Eigen::Vector2d moment = columns.transpose() * forces.residual;
+  const Eigen::Matrix2d gram = columns.transpose() * columns;
+  return moment.dot(gram.ldlt().solve(moment));
+}
+
+/// Places on a grid about the base, the best first, that lie apart.
+std::vector<Values> seek_tool_pull(const Observations& observations,
+                                   const Eigen::VectorXd& unexplained,
+                                   const Hypothesis& /*hypothesis*/) {
+  constexpr double kLeastShare = 0.1;  // of the squares, for a place to be worth a fit
+  constexpr std::size_t kMost = 3;     // starts
+  const double spacing = kFarthest * effects::size_of(observations.machine.robot).reach / kSteps;
+  const Forces forces = forces_of(observations, unexplained);
+  std::vector<std::pair<double, Vector3<double>>> found;
+  for (int x = -kSteps; x <= kSteps; ++x) {
+    for (int y = -kSteps; y <= kSteps; ++y) {
+      for (int z = -kSteps; z <= kSteps; ++z) {
+        const Vector3<double> place = spacing * Vector3<double>(x, y, z);
+        found.emplace_back(-gain_toward(forces, place), place);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Values> starts;
+  const double least = kLeastShare * forces.residual.squaredNorm();
+  for (const auto& [loss, place] : found) {
+    const Vector3<double>& at = place;
+    const bool is_new = std::all_of(starts.begin(), starts.end(), [&](const Values& other) {
+      return (Eigen::Map<const Vector3<double>>(other.data()) - at).norm() > 1.5 * spacing;
+    });
+    if (is_new && starts.size() < kMost && -loss > least) {
+      starts.push_back({at.x(), at.y(), at.z()});
+    }
+  }
+  return starts;
+}
+
+/// Needs a TCP that moves about: along a small path any place far off does as well.
+bool prepare_tool_pull(const Observations& observations, Hypothesis* hypothesis) {
+  constexpr double kLeastTravel = 0.2;  // of the reach, in two directions; chosen by judgement
+  const double reach = effects::size_of(observations.machine.robot).reach;
+  Eigen::AlignedBox3d box;
+  for (const Simulation& simulation : observations.simulations) {
+    for (const model::ChainKinematics& at : simulation.bent) {
+      box.extend(at.tcp.position);
+    }
+  }
+  if (box.isEmpty()) {
+    return false;
+  }
+  Vector3<double> travel = box.sizes();
+  std::sort(travel.begin(), travel.end());
+  const Bounds place{-3 * reach, 3 * reach, 0.02 * reach};
+  hypothesis->set_bounds({{-1e5, 1e5, 1}, {-1e5, 1e5, 1}, place, place, place});
+  return travel[1] > kLeastTravel * reach;
+}
+
+}  // namespace
+
+Search search::tool_pull() { return {prepare_tool_pull, seek_tool_pull}; }
+
+}  // namespace flexcomp::diagnosis
