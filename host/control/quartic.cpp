@@ -32,7 +32,7 @@ std::vector<double> positive_roots_by_companion(double p, double r) {
   companion.diagonal<-1>().setOnes();
   companion(0, 3) = r / std::pow(unit, 4);
   companion(1, 3) = -p / std::pow(unit, 3);
-  // It is of Hessenberg's form already. What solves any matrix takes a compiler ten seconds longer.
+  // It is of Hessenberg's form already. What solves any matrix takes a compiler six seconds longer.
   const double largest = companion.cwiseAbs().maxCoeff();
   Eigen::RealSchur<Eigen::Matrix4d> schur;
   schur.computeFromHessenberg(companion / largest, Eigen::Matrix4d::Identity(), false);
