@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "check/arm.hpp"
 #include "check/motion.hpp"
 #include "check/times.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace flexcomp::check {
 namespace {

@@ -1,9 +1,9 @@
 #include "check/regression.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "linear_algebra/decompositions.hpp"
 #include "recording/noise.hpp"
 
 namespace flexcomp::check {

@@ -1,11 +1,11 @@
 #include "control/arm_uncertainty.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <limits>
 #include <random>
 #include <stdexcept>
+
+#include "linear_algebra/decompositions.hpp"
 
 namespace flexcomp::control {
 namespace {

@@ -32,11 +32,17 @@ std::vector<double> positive_roots_by_companion(double p, double r) {
   companion.diagonal<-1>().setOnes();
   companion(0, 3) = r / std::pow(unit, 4);
   companion(1, 3) = -p / std::pow(unit, 3);
+  // It is of Hessenberg's form already. What solves any matrix takes a compiler six seconds longer.
+  const double largest = companion.cwiseAbs().maxCoeff();
+  Eigen::RealSchur<Eigen::Matrix4d> schur;
+  schur.computeFromHessenberg(companion / largest, Eigen::Matrix4d::Identity(), false);
+  const Eigen::Matrix4d& triangle = schur.matrixT();
   std::vector<double> roots;
-  const Eigen::EigenSolver<Eigen::Matrix4d> solver(companion, false);
-  for (const std::complex<double>& value : solver.eigenvalues()) {
-    if (value.imag() == 0 && value.real() > 0) {
-      roots.push_back(unit * value.real());
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    // A pair of complex roots stays coupled.
+    const bool is_real = (i == 3 || triangle(i + 1, i) == 0) && (i == 0 || triangle(i, i - 1) == 0);
+    if (is_real && triangle(i, i) > 0) {
+      roots.push_back(unit * (largest * triangle(i, i)));
     }
   }
   return roots;

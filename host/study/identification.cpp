@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "error.hpp"
 #include "flexcomp/compliance.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "statistics/distributions.hpp"
 
 namespace flexcomp::study {

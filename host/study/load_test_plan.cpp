@@ -1,13 +1,12 @@
 #include "study/load_test_plan.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "error.hpp"
 #include "flexcomp/chain.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "statistics/median.hpp"
 
 namespace flexcomp::study {
