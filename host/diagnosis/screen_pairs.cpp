@@ -75,13 +75,10 @@ std::vector<ScreenedPair> screen_pairs(const Observations& observations,
   std::vector<std::pair<double, ScreenedPair>> found;
   for (const Screened& single : singles) {
     const std::size_t own = dictionary.entries[single.entry].hypothesis;
-    if (hypotheses[own].traits().is_family_only) {
-      continue;
-    }
     std::pair<double, ScreenedPair> best{std::numeric_limits<double>::infinity(), {}};
     for (std::size_t other = 0; other < dictionary.entries.size(); ++other) {
       const Hypothesis& second = hypotheses[dictionary.entries[other].hypothesis];
-      if (second.traits().is_family_only || are_the_same(hypotheses[own], second)) {
+      if (are_the_same(hypotheses[own], second)) {
         continue;
       }
       ScreenedPair pair;

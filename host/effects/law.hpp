@@ -65,7 +65,6 @@ struct Traits {
   bool is_gain = false;         ///< it multiplies what all other laws do at its joint
   bool couples_drives = false;  ///< a motor turns with another joint, so that the friction and the
                                 ///< rotor that a fit has at its joint act otherwise
-  bool is_family_only = false;  ///< told beside its like only: no single cause is sought in it
   bool can_be_undone =
       true;  ///< it moves the robot, so that a command can undo it; false for what
              ///< only the measurement shows, and for a vibration, which commands feed

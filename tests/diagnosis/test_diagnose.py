@@ -289,6 +289,15 @@ class Diagnose(unittest.TestCase):
         self.assertAlmostEqual(found["parameters"]["coefficient"]["value"], 0.1, delta=0.005)
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_a_torque_that_is_measured_with_another_gain_is_named(self):
+        def share(_):
+            return [-0.12 * float(row["tau_3"]) for row in rows(self.folder / "simulated.csv")]
+
+        heavy = self.changed_model("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]")
+        found = self.only_finding(self.torques(3, share, heavy), "torque_gain", 3, heavy)
+        self.assertAlmostEqual(found["parameters"]["gain"]["value"], -0.12, delta=0.005)
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_viscous_friction_unlike_in_its_two_directions_is_named(self):
         joint, forwards, backwards = 3, 900.0, 500.0  # N·m·s/rad
 

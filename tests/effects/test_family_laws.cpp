@@ -1,4 +1,4 @@
-// Laws that are told beside their like only, each against a computation of its own.
+// Laws of the families that have no file of their own, each against a computation of its own.
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>

@@ -51,7 +51,6 @@ Forms laws::link_inertia() {
   law.joints = every_joint;
   law.traits.linear_in = 6;
   law.traits.is_in_family = true;
-  law.traits.is_family_only = true;
   law.traits.is_body = true;
   law.traits.tells_inertia = true;
   law.excess = negative_moments;

@@ -25,7 +25,6 @@ Forms laws::link_offset() {
   law.joints = all_but_the_last;
   law.traits.linear_in = 2;
   law.traits.is_in_family = true;
-  law.traits.is_family_only = true;
   law.parameters = [](const model::Robot& robot, int joint) {
     constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
     std::vector<Parameter> parameters;

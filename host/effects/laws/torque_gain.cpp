@@ -9,7 +9,6 @@ Forms laws::torque_gain() {
   law.joints = every_joint;
   law.traits.linear_in = 1;
   law.traits.is_in_family = true;
-  law.traits.is_family_only = true;
   law.traits.is_gain = true;
   law.traits.can_be_undone = false;
   law.parameters = constant({{"gain", "1"}});
