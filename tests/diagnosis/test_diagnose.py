@@ -298,6 +298,15 @@ class Diagnose(unittest.TestCase):
         self.assertAlmostEqual(found["parameters"]["gain"]["value"], -0.12, delta=0.005)
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_a_robot_that_does_not_stand_level_is_named_by_the_torques_of_its_weight(self):
+        leaning = self.changed_model("gravity: [0, 0, 0]", "gravity: [0.2, -0.1, -9.8074]")
+        recording = self.torques(1, lambda angles: [0.0] * len(angles), leaning)
+        level = self.changed_model("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]")
+        found = self.only_finding(recording, "gravity_tilt", None, level)["parameters"]
+        self.assertAlmostEqual(found["rx"]["value"], -0.1 / 9.81, delta=5e-4)
+        self.assertAlmostEqual(found["ry"]["value"], -0.2 / 9.81, delta=5e-4)
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_viscous_friction_unlike_in_its_two_directions_is_named(self):
         joint, forwards, backwards = 3, 900.0, 500.0  # N·m·s/rad
 

@@ -192,6 +192,26 @@ void friction_under_load_is_a_share_of_the_torque_against_the_motion() {
   }
 }
 
+/// The whole robot turned about its base, under the gravity that it had.
+void a_robot_that_leans_carries_its_weight_as_if_gravity_leant_the_other_way() {
+  FreeRobot moving;
+  moving.robot.elastic.gravity = {0, 0, -9.81};
+  const simulation::Scene scene = moving.scene();
+  model::Robot leaning = moving.robot;
+  const Matrix turn = Eigen::AngleAxisd(0.02, Vector(0.6, -0.8, 0)).toRotationMatrix();
+  auto& first = leaning.elastic.joints.front().origin;
+  first.position = turn * first.position;
+  first.rotation = turn * first.rotation;
+  const auto torque = [&](const model::Robot& robot) {
+    return shown(effects::machine_of(robot), scene, simulation::joint_torque);
+  };
+  const Eigen::MatrixXd expected = torque(leaning) - torque(moving.robot);
+  const Eigen::MatrixXd change = change_by("gravity_tilt", 0, {-0.02 * 0.6, 0.02 * 0.8},
+                                           moving.robot, scene, simulation::joint_torque);
+  TEST_ASSERT_TRUE(expected.col(0).cwiseAbs().maxCoeff() > 10);  // N·m of a joint that bore none
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0, (change - expected).cwiseAbs().maxCoeff());
+}
+
 void each_is_read_as_it_was_written() {
   const test::MovingRobot moving;
   const simulation::Scene scene = moving.scene();
@@ -231,6 +251,7 @@ int main() {
   RUN_TEST(inertia_that_no_body_has_is_refused);
   RUN_TEST(a_gain_scales_what_is_measured_of_one_joint);
   RUN_TEST(friction_under_load_is_a_share_of_the_torque_against_the_motion);
+  RUN_TEST(a_robot_that_leans_carries_its_weight_as_if_gravity_leant_the_other_way);
   RUN_TEST(each_is_read_as_it_was_written);
   return UNITY_END();
 }
