@@ -86,8 +86,8 @@ class Observations {
   double largest_speed(int joint) const;   ///< rad/s
   double range(int joint) const;           ///< rad
   /// Do the TCP's places lie apart: by far in two directions, in all three, or over most of the
-  /// reach of an arm that works in a plane? On a small path a shift and a turn of everything imitate
-  /// whatever is smooth.
+  /// reach of an arm that works in a plane? On a small path a shift and a turn of everything
+  /// imitate whatever is smooth.
   bool spans_workspace() const;
 
   /// Predictions as one column over the noise.
