@@ -7,7 +7,7 @@ namespace flexcomp::diagnosis {
 namespace {
 
 constexpr double kFarthest = 2.2;  // reaches from the base: from farther off it is a constant force
-constexpr int kSteps = 6;          // of the grid of places, either way
+constexpr int kGridSteps = 6;      // of the grid of places, either way
 
 /// Samples as forces on the tool show in them.
 struct Forces {
@@ -17,17 +17,18 @@ struct Forces {
   Eigen::VectorXi joint;     ///< n, that shows the sample, from 1 on; 0 where it is the TCP
 };
 
-/// How a force on the tool shows in a sample, SI.
-Eigen::RowVector3d lever_of(const Simulation& simulation, const Sample& sample) {
-  const auto row = static_cast<std::size_t>(sample.row);
-  const Eigen::Index component = sample.component;
-  if (sample.channel == simulation::tcp_position) {
-    return simulation.compliance[row].block<1, 3>(component, 0);
+/// How a force of 1 N on the tool along an axis of the base frame shows in all samples.
+Eigen::VectorXd shown_along(const Observations& observations, Eigen::Index axis) {
+  std::vector<Prediction> changes = observations.predictions;
+  for (std::size_t s = 0; s < changes.size(); ++s) {
+    for (Eigen::MatrixXd& channel : changes[s].channel) {
+      channel.setZero();
+    }
+    Eigen::MatrixXd wrench = Eigen::MatrixXd::Zero(observations.scenes[s].rows(), 6);
+    wrench.col(axis).setOnes();
+    add_wrench(observations.simulations[s], wrench, &changes[s]);
   }
-  const Eigen::RowVector3d load = simulation.jacobian[row].col(component).head<3>().transpose();
-  return sample.channel == simulation::joint_torque
-             ? Eigen::RowVector3d(-load)
-             : Eigen::RowVector3d(simulation.joint_compliance[component] * load);
+  return observations.stacked(changes);
 }
 
 /// Of the samples to fit to, evenly taken: a pull is smooth.
@@ -37,11 +38,13 @@ Forces forces_of(const Observations& observations, const Eigen::VectorXd& unexpl
   const Eigen::Index count = (observations.train + step - 1) / step;
   Forces forces{Eigen::MatrixXd(count, 3), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count),
                 Eigen::VectorXi(count)};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    forces.lever.col(axis) = shown_along(observations, axis)(Eigen::seqN(0, count, step));
+  }
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index index = i * step;
     const Sample& sample = observations.samples[static_cast<std::size_t>(index)];
     const Simulation& simulation = observations.simulations[sample.scene];
-    forces.lever.row(i) = lever_of(simulation, sample) / observations.noise[index];
     forces.place.row(i) =
         simulation.bent[static_cast<std::size_t>(sample.row)].tcp.position.transpose();
     forces.residual[i] = unexplained[index];
@@ -102,12 +105,13 @@ std::vector<Values> seek_tool_pull(const Observations& observations,
   // was one. Beside others it is found once they are.
   constexpr double kLeastShare = 0.5;
   constexpr std::size_t kMost = 3;  // starts
-  const double spacing = kFarthest * effects::size_of(observations.machine.robot).reach / kSteps;
+  const double spacing =
+      kFarthest * effects::size_of(observations.machine.robot).reach / kGridSteps;
   const Forces forces = forces_of(observations, unexplained);
   std::vector<std::pair<double, Vector3<double>>> found;
-  for (int x = -kSteps; x <= kSteps; ++x) {
-    for (int y = -kSteps; y <= kSteps; ++y) {
-      for (int z = -kSteps; z <= kSteps; ++z) {
+  for (int x = -kGridSteps; x <= kGridSteps; ++x) {
+    for (int y = -kGridSteps; y <= kGridSteps; ++y) {
+      for (int z = -kGridSteps; z <= kGridSteps; ++z) {
         const Vector3<double> place = spacing * Vector3<double>(x, y, z);
         found.emplace_back(-gain_toward(forces, place), place);
       }

@@ -13,12 +13,7 @@ Forms laws::gravity_tilt() {
   law.traits.linear_in = 2;
   law.traits.is_in_family = true;
   law.parameters = [](const model::Robot& robot, int /*joint*/) {
-    constexpr std::array<const char*, 3> kNames = {"rx", "ry", "rz"};
-    std::vector<Parameter> parameters;
-    for (const int axis : axes_across(robot.elastic.gravity)) {
-      parameters.push_back({kNames[static_cast<std::size_t>(axis)], "rad"});
-    }
-    return parameters;
+    return of_axes(axes_across(robot.elastic.gravity), "r", "rad");
   };
   law.words = "level";
   law.statement = says("the robot does not stand level");

@@ -13,12 +13,7 @@ Forms laws::joint_axis() {
   law.traits.linear_in = 2;
   law.traits.is_in_family = true;
   law.parameters = [](const model::Robot& robot, int joint) {
-    constexpr std::array<const char*, 3> kNames = {"tilt_x", "tilt_y", "tilt_z"};
-    std::vector<Parameter> parameters;
-    for (const int axis : axes_across_joint(robot, joint)) {
-      parameters.push_back({kNames[static_cast<std::size_t>(axis)], "rad"});
-    }
-    return parameters;
+    return of_axes(axes_across_joint(robot, joint), "tilt_", "rad");
   };
   law.words = "direction of the axis";
   law.statement = says("the axis of joint {} is tilted");

@@ -122,4 +122,13 @@ std::array<int, 2> axes_across_joint(const model::Robot& robot, int joint) {
   return axes_across(robot.elastic.joints[index_of(joint)].axis);
 }
 
+std::vector<Parameter> of_axes(const std::array<int, 2>& axes, const std::string& prefix,
+                               const std::string& unit) {
+  std::vector<Parameter> parameters;
+  for (const int axis : axes) {
+    parameters.push_back({prefix + "xyz"[axis], unit});
+  }
+  return parameters;
+}
+
 }  // namespace flexcomp::effects

@@ -77,6 +77,10 @@ std::array<int, 2> axes_across(const Vector3<double>& direction);
 /// The two axes of a link's frame across the axis of the joint that moves it.
 std::array<int, 2> axes_across_joint(const model::Robot& robot, int joint);
 
+/// A parameter for each of two axes, named by it behind a prefix: tilt_x, tilt_z.
+std::vector<Parameter> of_axes(const std::array<int, 2>& axes, const std::string& prefix,
+                               const std::string& unit);
+
 /// Index of a joint (from 1 on) in a robot's arrays.
 inline std::size_t index_of(int joint) { return static_cast<std::size_t>(joint - 1); }
 

@@ -61,11 +61,7 @@ Law springs() {
   law.joints = every_joint;
   law.traits.linear_in = 2;
   law.parameters = [](const model::Robot& robot, int joint) {
-    std::vector<Parameter> parameters;
-    for (const int axis : axes_across_joint(robot, joint)) {
-      parameters.push_back({fmt::format("bending_{}", "xyz"[axis]), "rad/(N·m)"});
-    }
-    return parameters;
+    return of_axes(axes_across_joint(robot, joint), "bending_", "rad/(N·m)");
   };
   alter_keys(
       [](const Values& values, int joint, model::Robot* robot) {

@@ -26,12 +26,7 @@ Forms laws::link_offset() {
   law.traits.linear_in = 2;
   law.traits.is_in_family = true;
   law.parameters = [](const model::Robot& robot, int joint) {
-    constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
-    std::vector<Parameter> parameters;
-    for (const int axis : offset_axes(robot, joint)) {
-      parameters.push_back({kNames[static_cast<std::size_t>(axis)], "m"});
-    }
-    return parameters;
+    return of_axes(offset_axes(robot, joint), "", "m");
   };
   law.statement = says("the joint after joint {} stands beside its place on the link");
   alter_robot(
