@@ -328,15 +328,23 @@ def table_frames(client, data, words=None):
     return frames + (client.frames("TransferEnd", table_crc=crc) if words is None else [])
 
 
+def of_names(received, *names):
+    """Those messages alone. Decoding all of them would take so long that setpoints became stale."""
+    identifiers = {DATABASE.get_message_by_name(name).frame_id for name in names}
+    return decoded(frame for frame in received if frame.arbitration_id in identifiers)
+
+
 def transfer(feeder, frames):
-    """Sends them between setpoints; what was received, and the replies to begin and end in it. A slow
-    line may still be busy with the frames when the last one was handed to it."""
+    """Sends them between setpoints; what was received, and the replies to begin and end in it. Goes on until
+    the node has said after them which table it uses: a slow line is still busy with the frames when the
+    last one was handed to it."""
     received = feeder.run(1.0, frames)
     replies = []
     for _ in range(10):
         received += feeder.run(0.5)
-        replies = [signals for name, signals in decoded(received) if name == "TransferReply"]
-        if len(replies) >= 2:
+        told = of_names(received, "TransferReply", "Heartbeat")
+        replies = [signals for name, signals in told if name == "TransferReply"]
+        if len(replies) >= 2 and told[-1][0] == "Heartbeat":
             break
     return received, replies
 
@@ -365,10 +373,9 @@ def corrections(received):
 
 
 def state_of(received):
-    """The last that was told. Decoding all of them would take so long that setpoints became stale."""
-    identifier = DATABASE.get_message_by_name("Status").frame_id
-    told = [frame for frame in received if frame.arbitration_id == identifier]
-    return decode(told[-1])[1]["state"] if told else None
+    """The last that was told."""
+    told = of_names(received, "Status")
+    return told[-1][1]["state"] if told else None
 
 
 def states(received):
