@@ -214,6 +214,16 @@ class Client:
                 return
         raise AssertionError(f"no {name} within {seconds} s")
 
+    def receive(self, seconds):
+        """All frames of a time."""
+        received = []
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0:
+            frame = self.bus.recv(left)
+            if frame is not None:
+                received.append(frame)
+        return received
+
     def encode(self, name, counter, **signals):
         message = DATABASE.get_message_by_name(name)
         values = {signal.name: 0 for signal in message.signals} | signals | {"counter": counter, "crc": 0}
@@ -293,12 +303,18 @@ class Feeder:
             self.client.send_setpoint(q)
             # Whoever fell behind on a busy machine goes on from there: a burst would fill a slow line.
             next_tick = max(next_tick + self.job.period, time.monotonic())
-            while (left := next_tick - time.monotonic()) > 0:
-                frame = self.client.bus.recv(left)
-                if frame is not None:
-                    received.append(frame)
+            received += self.client.receive(next_tick - time.monotonic())
         while (frame := self.client.bus.recv(0)) is not None:
             received.append(frame)
+        return received
+
+    def run_until(self, done, before=(), longest=5):
+        """Feeds until `done` holds of the frames received `before` and since, for the longest time at most; those
+        since."""
+        received = []
+        end = time.monotonic() + longest
+        while not received or not done([*before, *received]) and time.monotonic() < end:
+            received += self.run(0.5)
         return received
 
     def forget(self):
@@ -338,15 +354,17 @@ def transfer(feeder, frames):
     """Sends them between setpoints; what was received, and the replies to begin and end in it. Goes on until
     the node has said after them which table it uses: a slow line is still busy with the frames when the
     last one was handed to it."""
-    received = feeder.run(1.0, frames)
-    replies = []
-    for _ in range(10):
-        received += feeder.run(0.5)
+    def has_told(received):
         told = of_names(received, "TransferReply", "Heartbeat")
-        replies = [signals for name, signals in told if name == "TransferReply"]
-        if len(replies) >= 2 and told[-1][0] == "Heartbeat":
-            break
-    return received, replies
+        return len(replies_in(told)) >= 2 and told[-1][0] == "Heartbeat"
+
+    received = feeder.run(1.0, frames)
+    received += feeder.run_until(has_told, received)
+    return received, replies_in(of_names(received, "TransferReply"))
+
+
+def replies_in(messages):
+    return [signals for name, signals in messages if name == "TransferReply"]
 
 
 def other_table(job, tolerance=2e-6):

@@ -12,7 +12,7 @@ import time
 import unittest
 
 from bench_on_a_bus import (BIN, BUS, STATES, Feeder, HilTest, Job, corrections, decoded, flexcomp,
-                            other_table, states, table_frames, transfer)
+                            other_table, state_of, states, table_frames, transfer)
 from circle_on_a_bus import LARGEST_SHARE, mill
 
 HERE = pathlib.Path(__file__).parent
@@ -99,7 +99,8 @@ class Fed(AtThePaceOfTheClock):
         self.feeder.forget()
         self.feeder.run(1.2)  # the robot is named every second
         self.peer.command("arm")
-        received = self.feeder.run(1.5)
+        received = self.feeder.run(1.0)
+        received += self.feeder.run_until(lambda since: state_of(since) == STATES["active"])
         replies = [signals["reply"] for name, signals in decoded(received) if name == "CommandReply"]
         self.assertEqual([0], replies)
         self.assertEqual(STATES["active"], states(received)[-1])
@@ -211,6 +212,11 @@ class WithAKey(Fed):
 class ThePlant(AtThePaceOfTheClock):
     """The robot moves by corrections that cease in the midst of the contour."""
 
+    MOVED = 1e-5  # rad
+
+    def largest_of(self, received):
+        return max((abs(value) for row in corrections(received) for value in row), default=0.0)
+
     def mill_while(self, order):
         """Motion of the robot's second joint, in rad, while `order` happens to the board."""
         self.start(self.job)
@@ -218,7 +224,9 @@ class ThePlant(AtThePaceOfTheClock):
         plant = subprocess.Popen([BIN / "flexcomp", "plant", "--model", self.job.model, "--path", self.job.path,
                                   "--period", str(self.PERIOD), "--bus", f"can:{BUS}", "--out", run],
                                  stdout=subprocess.DEVNULL)
-        time.sleep(6)  # it stands, arms and enters the cut for less than three; the contour takes six
+        peer = self.client()
+        wait_until(lambda: self.largest_of(peer.receive(0.5)) > self.MOVED, "it never corrects")
+        time.sleep(2)  # the contour takes six
         ask(order)
         self.assertEqual(0, plant.wait(timeout=60))
         with open(run, newline="") as file:
@@ -226,7 +234,7 @@ class ThePlant(AtThePaceOfTheClock):
 
     def assert_held_faded_and_zero(self, moved):
         largest = max(map(abs, moved))
-        self.assertGreater(largest, 1e-5)
+        self.assertGreater(largest, self.MOVED)
         self.assertEqual(0, moved[-1])
         steps = [abs(b - a) for a, b in zip(moved, moved[1:])]
         self.assertLess(max(steps), 0.15 * largest, "no jump")
