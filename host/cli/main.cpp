@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <csignal>
 #include <cstdio>
@@ -29,6 +30,16 @@ void end_cleanly(int signal) {
 /// here.
 void complain(const std::string& message) {
   fmt::print(stderr, "flexcomp: {}\n", flexcomp::printable_line(message));
+}
+
+/// Memory that is given back to the system comes again page by page, cleared: for the large
+/// matrices of a diagnosis a tenth of its time (glibc only; elsewhere the defaults stay).
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kLargest = 32 << 20;  // bytes; glibc takes no larger threshold for what it maps
+  mallopt(M_MMAP_THRESHOLD, kLargest);
+  mallopt(M_TRIM_THRESHOLD, 16 * kLargest);
+#endif
 }
 
 int run(const Action& action) {
@@ -146,6 +157,7 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, end_cleanly);
   std::signal(SIGTERM, end_cleanly);
+  keep_freed_memory();
   try {
     return parse_and_run(argc, argv);
   } catch (...) {

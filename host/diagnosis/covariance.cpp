@@ -49,6 +49,19 @@ bool is_same_series(const Observations& observations, Eigen::Index a, Eigen::Ind
          one.component == other.component;
 }
 
+/// Sum of the squares of the sums over all windows of a length that touch the series: Bartlett's
+/// weights of its products, times the length, without a loop over the lags.
+double squares_of_windows(const Eigen::Ref<const Eigen::VectorXd>& series, Eigen::Index length) {
+  double squares = 0;
+  double window = 0;
+  for (Eigen::Index last = 0; last < series.size() + length - 1; ++last) {
+    window += last < series.size() ? series[last] : 0;
+    window -= last >= length ? series[last - length] : 0;
+    squares += window * window;
+  }
+  return squares;
+}
+
 }  // namespace
 
 NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
@@ -82,12 +95,7 @@ double correlated_widening(const Observations& observations, const Eigen::Vector
     const Eigen::Index lags =
         observations.is_static ? 0 : std::max<Eigen::Index>(1, series.size() / kLagPart);
     alone += series.squaredNorm();
-    together += series.squaredNorm();
-    for (Eigen::Index lag = 1; lag <= lags && lag < series.size(); ++lag) {
-      const double share = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
-      const Eigen::Index pairs = series.size() - lag;
-      together += 2 * share * series.head(pairs).dot(series.tail(pairs));
-    }
+    together += squares_of_windows(series, lags + 1) / static_cast<double>(lags + 1);
     begin = end;
   }
   return alone > 0 ? std::max(1.0, together / alone) : 1.0;

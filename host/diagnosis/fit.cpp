@@ -13,9 +13,11 @@ namespace {
 
 /// Deviations: of normally distributed samples 0.3 % weigh less than one.
 constexpr double kHuber = 3;
-/// Part of the sum of squares below which a step ends a fit: it moves the BIC of 10,000 samples by
-/// 0.001.
+/// It moves the BIC of 10,000 samples by 0.001.
 constexpr double kLeastChange = 1e-7;
+/// Each simulates a step of every number. A step that needs more is taken anew from a smaller
+/// region, for less.
+constexpr int kMostShortenings = 2;
 
 /// The weighted remainder of the samples to fit to, simulated anew for every step.
 class WeightedRemainder : public HeldRemainder {
@@ -29,10 +31,9 @@ class WeightedRemainder : public HeldRemainder {
   bool leave(const Values& values, Eigen::Ref<Eigen::VectorXd> left,
              Eigen::MatrixXd* slope) const override {
     const Eigen::Index n = measured_.size();
-    Eigen::MatrixXd derivative;
     Eigen::VectorXd predicted;
     try {
-      predicted = evaluator_->evaluate(values, slope != nullptr ? &derivative : nullptr);
+      predicted = evaluator_->evaluate(values, slope);
     } catch (const InputError&) {
       return false;  // springs so soft that there is no rest
     }
@@ -41,7 +42,7 @@ class WeightedRemainder : public HeldRemainder {
     }
     left = root_.cwiseProduct(measured_ - predicted.head(n));
     if (slope != nullptr) {
-      *slope = -(root_.asDiagonal() * derivative.topRows(n));
+      slope->topRows(n).array().colwise() *= -root_.array();
     }
     return true;
   }
@@ -54,7 +55,7 @@ class WeightedRemainder : public HeldRemainder {
 void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int most_steps,
            Evaluator* evaluator) {
   WeightedRemainder cost(measured, weight, evaluator);
-  minimise(&cost, most_steps, kLeastChange, evaluator);
+  minimise(&cost, {most_steps, kLeastChange, kMostShortenings}, evaluator);
 }
 
 /// The prediction at the start, which is moved to where the machine comes to rest. An amplitude

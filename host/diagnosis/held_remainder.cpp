@@ -51,23 +51,31 @@ bool HeldRemainder::Evaluate(double const* const* parameters, double* residuals,
 void HeldRemainder::differentiate(const Values& values, const Eigen::MatrixXd& slope,
                                   const Eigen::VectorXd& outside, double* target) const {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  constexpr Eigen::Index kBlock = 64;  // rows that stay in the cache while they are turned
   const auto columns = static_cast<Eigen::Index>(values.size());
   Eigen::Map<RowMajor> jacobian(target, num_residuals(), columns);
+  Eigen::VectorXd step(columns);
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    step[i] = evaluator_->parameter(static_cast<std::size_t>(i)).step;
+  }
+  for (Eigen::Index row = 0; row < rows_; row += kBlock) {
+    const Eigen::Index count = std::min(kBlock, rows_ - row);
+    jacobian.middleRows(row, count) = slope.middleRows(row, count) * step.asDiagonal();
+  }
   jacobian.bottomRows(columns + bodies_.size()).setZero();
   for (Eigen::Index i = 0; i < columns; ++i) {
     const Parameter& parameter = evaluator_->parameter(static_cast<std::size_t>(i));
-    jacobian.col(i).head(rows_) = parameter.step * slope.col(i);
-    jacobian(rows_ + i, i) = -parameter.step / parameter.tolerance;
+    jacobian(rows_ + i, i) = -step[i] / parameter.tolerance;
     if (bodies_.size() > 0) {
       Values other = values;
-      other[static_cast<std::size_t>(i)] += kRelativeStep * parameter.step;
+      other[static_cast<std::size_t>(i)] += kRelativeStep * step[i];
       jacobian.col(i).tail(bodies_.size()) =
           (bodies_.outside(evaluator_->robot_with(other)) - outside) / kRelativeStep;
     }
   }
 }
 
-void minimise(HeldRemainder* cost, int most_steps, double least_change, Evaluator* evaluator) {
+void minimise(HeldRemainder* cost, const Steps& steps, Evaluator* evaluator) {
   Values scaled = over_steps(*evaluator);
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -80,8 +88,9 @@ void minimise(HeldRemainder* cost, int most_steps, double least_change, Evaluato
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = most_steps;
-  options.function_tolerance = least_change;
+  options.max_num_iterations = steps.most;
+  options.function_tolerance = steps.least_change;
+  options.max_num_line_search_step_size_iterations = steps.most_shortenings;
   options.logging_type = ceres::SILENT;
   // Along a step that bounds cut, values alone are enough. The edge of what a body can be is steep:
   // there the search asks for slopes too, or it stops before it.

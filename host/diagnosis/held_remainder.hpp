@@ -21,8 +21,8 @@ class HeldRemainder : public ceres::CostFunction {
   bool holds_bodies() const { return bodies_.size() > 0; }
 
  protected:
-  /// The remainder of values, and its slope by them (rows × numbers) where it is wanted; false
-  /// where they cannot be simulated.
+  /// The remainder of values, and its slope by them where it is wanted: a column a number, whose
+  /// first rows are the remainder's. False where they cannot be simulated.
   virtual bool leave(const Values& values, Eigen::Ref<Eigen::VectorXd> left,
                      Eigen::MatrixXd* slope) const = 0;
 
@@ -36,9 +36,14 @@ class HeldRemainder : public ceres::CostFunction {
   Bodies bodies_;
 };
 
+struct Steps {
+  int most = 0;
+  double least_change = 0;   ///< part of the sum of squares, below which a step ends the search
+  int most_shortenings = 0;  ///< of a step that bounds or bodies cut, before it is given up
+};
+
 /// Minimises a held remainder within the numbers' bounds (Levenberg and Marquardt) from the
-/// evaluator's values on, and sets these. Ends where a step changes the sum of squares by less than
-/// its part `least_change`.
-void minimise(HeldRemainder* cost, int most_steps, double least_change, Evaluator* evaluator);
+/// evaluator's values on, and sets these.
+void minimise(HeldRemainder* cost, const Steps& steps, Evaluator* evaluator);
 
 }  // namespace flexcomp::diagnosis

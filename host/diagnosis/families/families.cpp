@@ -182,7 +182,7 @@ Fit fit_anew(const Observations& observations, const Fit& fitted, std::size_t fi
                [](const Hypothesis& each) { return each.traits().is_in_family; });
   const Dictionary dictionary(observations, members, fitted.machine,
                               [](std::size_t, std::size_t) {});
-  const Fit about = fit(observations, fitted.chosen, 0);
+  const Fit about = fit(observations, fitted.chosen, 0, &dictionary);
   Elimination families(observations, about, findings, members, dictionary);
   return settle(observations, families.best(), findings, dictionary);
 }

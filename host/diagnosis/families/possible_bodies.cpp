@@ -13,6 +13,7 @@ constexpr int kRounds = 20;              // of a tighter edge
 constexpr double kTighter = 0.3;         // times the edge before
 constexpr int kBodySteps = 50;           // of each round; one takes milliseconds
 constexpr double kTangentChange = 1e-9;  // of the sum of squares
+constexpr int kTangentShortenings = 20;  // they cost little beside a simulation
 
 /// The weighted squares of a fit about where it is, rotated into as many rows as there are numbers.
 struct Tangent {
@@ -98,7 +99,7 @@ std::vector<Chosen> with_possible_bodies(const Observations& observations, const
     }
     Evaluator evaluator(observations, chosen, nullptr);
     TangentRemainder cost(tangent, &evaluator);
-    minimise(&cost, kBodySteps, kTangentChange, &evaluator);
+    minimise(&cost, {kBodySteps, kTangentChange, kTangentShortenings}, &evaluator);
     chosen = evaluator.chosen();
     if (evaluator.bodies().can_be(evaluator.robot_with(evaluator.values()))) {
       break;
