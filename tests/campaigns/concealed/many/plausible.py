@@ -16,6 +16,7 @@ LIMITS = {
     "link_length": {"length": 0.02},
     "link_offset": {"x": 0.02, "y": 0.02, "z": 0.02},
     "tcp_offset": {"x": 0.1, "y": 0.1, "z": 0.1},
+    "gravity_tilt": {"rx": 0.05, "ry": 0.05},
     "base_frame": {"x": 3.0, "y": 3.0, "z": 3.0, "rx": 0.8, "ry": 0.8, "rz": 0.8},
     "backlash": {"gap": 0.01},
     "time_offset": {"delay": 0.1, "offset": 0.1},
@@ -40,6 +41,8 @@ def present(truth):
     """Names of what is concealed in a case."""
     names = ALWAYS | PRESENT[truth["class"]]
     if truth["class"] == "frames":
+        # The first frame is off against the vertical too, so that weight bends the arm otherwise.
+        names |= {"gravity_tilt"}
         names |= {"time_offset"} if truth["late"] else set()
         names |= {"base_compliance"} if truth["has_base_compliance"] else set()
         return names
