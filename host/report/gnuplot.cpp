@@ -55,12 +55,28 @@ std::string plotted(const std::string& script, const std::string& terminal) {
   return files::read_file(picture, kLargest);
 }
 
+/// Without what stands between two marks, these included; as it was where they do not.
+std::string without(std::string text, const std::string& open, const std::string& close) {
+  const std::size_t begin = text.find(open);
+  const std::size_t end = text.find(close, begin);
+  if (begin != std::string::npos && end != std::string::npos) {
+    text.erase(begin, end + close.size() - begin);
+  }
+  return text;
+}
+
+/// Without the name and the version of gnuplot, which browsers show at every place of the picture.
+std::string without_its_maker(std::string svg) {
+  return without(without(std::move(svg), "<title>Gnuplot", "</title>"), "<desc>Produced",
+                 "</desc>");
+}
+
 }  // namespace
 
 std::string plot_svg(const std::string& script, int width, int height) {
-  const std::string svg = plotted(
+  const std::string svg = without_its_maker(plotted(
       script,
-      fmt::format("svg size {},{} font 'sans-serif,13' background '#ffffff'", width, height));
+      fmt::format("svg size {},{} font 'sans-serif,13' background '#ffffff'", width, height)));
   const std::size_t begin = svg.find("<svg");
   return begin == std::string::npos ? svg : svg.substr(begin);
 }

@@ -159,6 +159,7 @@ class MainJob(PathCommand):
                       "--columns", "x,z", "--table", self.table(path), "--out", page)
         html = page.read_text()
         self.assertEqual(2, html.count("<svg"))
+        self.assertNotIn("gnuplot", html.lower().replace("gnuplot_", ""), "a browser shows it over the picture")
         self.assertIn("a &lt;name&gt;", html)
         self.assertIn("certificate", html)
         self.assertNotIn("src=", html)
