@@ -51,6 +51,8 @@ class Programs(Command):
                               "--corrected", corrected, "--out", out)
                 frame = () if name in ("out.src", "out.mod") else ("--frame", "1.6,0.1,0.9")
                 self.run_well("plan", "program", out, "--model", KR270, "--along", corrected, "--out", back, *frame)
+                if out.suffix == ".src":  # by the controller's default, nothing, every point would be a stop
+                    self.assertIn("\n$APO.CDIS=0.3 ;", out.read_text())
                 # G-code of three axes has no orientation; and a turned tool bends a little otherwise.
                 self.assertLess(self.contour(path, back), 0.03 * before)
 
