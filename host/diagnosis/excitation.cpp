@@ -46,7 +46,12 @@ double resolution(const std::vector<Hypothesis>& hypotheses, const Dictionary& d
 }  // namespace
 
 bool Excitation::tells_nothing() const {
-  return !(stiffness < kUseless) && !(zero < kBlurred) && !(friction < largest_load);
+  return !(stiffness < kUseless) && !(zero < kBlurred) && !shows_friction();
+}
+
+/// A joint that bears nothing by its model shows friction by the torque that was measured.
+bool Excitation::shows_friction() const {
+  return friction < std::max(largest_load, largest_torque);
 }
 
 std::vector<Excitation> excitation(const Observations& observations,
@@ -61,7 +66,8 @@ std::vector<Excitation> excitation(const Observations& observations,
     const double compliance =
         observations.machine.robot.elastic.joints[static_cast<std::size_t>(joint - 1)].compliance;
     all.push_back({joint, observations.range(joint), observations.largest_speed(joint),
-                   observations.largest_load(joint), reversals_of(observations, joint),
+                   observations.largest_load(joint), observations.largest_torque(joint),
+                   reversals_of(observations, joint),
                    compliance > 0 ? of(effects::Measures::stiffness) / compliance : kUnknownSize,
                    of(effects::Measures::zero), of(effects::Measures::friction),
                    observations.machine.robot.elastic.joint(joint - 1).slides()});
@@ -84,7 +90,7 @@ std::string verdict(const Excitation& excitation) {
   if (excitation.zero < kBlurred) {
     add("zero to " + readable(excitation.zero, excitation.slides ? "m" : "rad"));
   }
-  if (excitation.friction < excitation.largest_load) {
+  if (excitation.shows_friction()) {
     add("friction to " + readable(excitation.friction, excitation.slides ? "N" : "N·m"));
   }
   if (excitation.largest_speed > 0) {

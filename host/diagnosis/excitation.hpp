@@ -11,16 +11,18 @@ namespace flexcomp::diagnosis {
 /// with which a change would be known if it were the only one; not finite where it would not show.
 struct Excitation {
   int joint = 0;
-  double range = 0;          ///< rad
-  double largest_speed = 0;  ///< rad/s
-  double largest_load = 0;   ///< N·m
-  int reversals = 0;         ///< of its motion
-  double stiffness;          ///< resolution of its compliance, relative
-  double zero;               ///< resolution of its encoder's zero, rad
-  double friction;           ///< resolution of its friction, N·m
-  bool slides = false;       ///< then m and N in place of rad and N·m
+  double range = 0;           ///< rad
+  double largest_speed = 0;   ///< rad/s
+  double largest_load = 0;    ///< N·m, by the model
+  double largest_torque = 0;  ///< N·m, as measured where torques were; else by the model
+  int reversals = 0;          ///< of its motion
+  double stiffness;           ///< resolution of its compliance, relative
+  double zero;                ///< resolution of its encoder's zero, rad
+  double friction;            ///< resolution of its friction, N·m
+  bool slides = false;        ///< then m and N in place of rad and N·m
 
   bool tells_nothing() const;
+  bool shows_friction() const;
 };
 
 /// The excitation of every joint, by how far the dictionary's hypotheses would show over the noise.

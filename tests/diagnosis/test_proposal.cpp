@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/driven_robot.hpp"
 #include "diagnosis/excitation.hpp"
 #include "diagnosis/proposal.hpp"
 #include "diagnosis/swinging_robot.hpp"
@@ -84,6 +85,19 @@ void of_a_joint_that_stands_under_the_tcp_nothing_can_be_told() {
   TEST_ASSERT_EQUAL_STRING_LEN("zero to ", verdict(all[1]).c_str(), 8);
 }
 
+void of_a_joint_that_bears_nothing_its_friction_can_be_told() {
+  flexcomp::test::DrivenRobot driven;
+  for (const std::size_t link : {4U, 5U}) {
+    driven.robot.elastic.joints[link].mass = 0;
+    driven.robot.link_inertia[link].setZero();
+  }
+  flexcomp::simulation::Machine truth = driven.machine();
+  truth.robot.dynamics[4].coulomb = 30;
+  const Excitation fifth = excitation_of(driven.observed(truth))[4];
+  TEST_ASSERT_TRUE(fifth.largest_load < fifth.friction);
+  TEST_ASSERT_EQUAL_STRING_LEN("friction to ", verdict(fifth).c_str(), 12);
+}
+
 }  // namespace
 
 int main() {
@@ -93,5 +107,6 @@ int main() {
   RUN_TEST(two_terms_are_proposed_where_there_are_two);
   RUN_TEST(a_zero_is_known_as_well_as_its_lever_and_the_noise_allow);
   RUN_TEST(of_a_joint_that_stands_under_the_tcp_nothing_can_be_told);
+  RUN_TEST(of_a_joint_that_bears_nothing_its_friction_can_be_told);
   return UNITY_END();
 }
