@@ -95,6 +95,24 @@ int order_near_end(const Eigen::VectorXd& time, const Window& window) {
   return whole > kNearlyWhole ? kOrder : whole > kHalf ? kOrder - 1 : 2;
 }
 
+/// Products of the powers of time, one order beyond the polynomials'.
+using Powers = Eigen::Matrix<double, kOrder + 2, kOrder + 2>;
+
+/// Normal equations, or their right sides, whose powers beyond an order neither act nor vary.
+Powers up_to(int order, Powers gram) {
+  for (int k = order + 1; k < gram.rows(); ++k) {
+    gram.row(k).setZero();
+    gram.col(k).setZero();
+    gram(k, k) = 1;
+  }
+  return gram;
+}
+
+Columns<double, kOrder + 2> up_to(int order, Columns<double, kOrder + 2> moment) {
+  moment.bottomRows(moment.rows() - order - 1).setZero();
+  return moment;
+}
+
 /// Polynomials about a row; what one order more would change of the acceleration, beyond noise, is
 /// how far it may be wrong where the motion is too abrupt for the samples.
 LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
@@ -124,35 +142,26 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
   if (used < kCount) {
     return motion;
   }
-  Eigen::Matrix<double, kCount + 1, kCount + 1> gram;
+  Powers gram;
   for (int i = 0; i <= kCount; ++i) {
     for (int j = 0; j <= kCount; ++j) {
       gram(i, j) = sums[i + j];
     }
   }
   using Square = Eigen::Matrix<double, kCount, kCount>;
-  // Powers beyond the order neither act nor vary.
-  Square used_gram = gram.topLeftCorner<kCount, kCount>();
-  for (int k = order + 1; k < kCount; ++k) {
-    used_gram.row(k).setZero();
-    used_gram.col(k).setZero();
-    used_gram(k, k) = 1;
-    moment.row(k).setZero();
-  }
+  const Square used_gram = up_to(order, gram).topLeftCorner<kCount, kCount>();
   const auto factors = used_gram.ldlt();
-  const Columns<double, kCount> fit = factors.solve(moment.topRows<kCount>());
+  const Columns<double, kCount> fit = factors.solve(up_to(order, moment).topRows<kCount>());
   motion.values.row(0) = fit.row(1) / span;
   motion.values.row(1) = 2 * fit.row(2) / (span * span);
   const Square covariance = factors.solve(Square::Identity());
   motion.gain << std::sqrt(covariance(1, 1)) / span,
       2 * std::sqrt(covariance(2, 2)) / (span * span);
-  if (used > kCount && order == kOrder) {
-    const auto higher = gram.ldlt();
-    const Columns<double, 1> change = higher.solve(moment).row(2) - fit.row(2);
+  if (used > order + 1) {
+    const auto higher = up_to(order + 1, gram).ldlt();
+    const Columns<double, 1> change = higher.solve(up_to(order + 1, moment)).row(2) - fit.row(2);
     // Nested least squares: the variance of the change is the difference of the variances.
-    const double gained =
-        higher.solve(Eigen::Matrix<double, kCount + 1, kCount + 1>::Identity())(2, 2) -
-        covariance(2, 2);
+    const double gained = higher.solve(Powers::Identity())(2, 2) - covariance(2, 2);
     const Eigen::RowVectorXd limit = kBeyondNoise * std::sqrt(std::max(gained, 0.0)) * angle_noise;
     motion.doubt = (change.array().abs() > limit.array()).select(2 * change / (span * span), 0.0);
   }

@@ -91,6 +91,21 @@ void a_coarse_encoder_tells_the_acceleration_at_the_ends_nearly_as_well() {
   TEST_ASSERT_TRUE(error_near_ends(coarse, coarse.window()) < 0.3 * kSwing * kOmega * kOmega);
 }
 
+void what_the_ends_cut_of_a_motion_is_doubted() {
+  const Encoder forward(swing());
+  const Encoder backward(swing().reverse());
+  const std::size_t longest = kHalfWindows.size() - 1;
+  for (const Index row : {0, 2, 4}) {
+    const double exact = -kSwing * kOmega * kOmega * std::sin(kOmega * forward.time[row]);
+    for (const LocalMotion& motion :
+         {forward.motion(longest, row), backward.motion(longest, kRows - 1 - row)}) {
+      const double error = exact - motion.values(1, 0);
+      TEST_ASSERT_TRUE(std::abs(error) > 0.2 * kSwing * kOmega * kOmega);
+      TEST_ASSERT_DOUBLE_WITHIN(0.1 * std::abs(error), error, motion.doubt[0]);
+    }
+  }
+}
+
 void a_window_is_no_longer_than_the_motion_bears_though_noise_hides_what_it_cuts() {
   // A ripple of 6 Hz: beside the noise of the shortest window, 13 rad/s², nothing shows of what a
   // longer one cuts of it.
@@ -166,6 +181,7 @@ int main() {
   RUN_TEST(a_swing_by_an_exact_encoder_keeps_the_shortest_window);
   RUN_TEST(a_swing_by_a_coarse_encoder_takes_a_longer_window_and_errs_by_much_less);
   RUN_TEST(a_coarse_encoder_tells_the_acceleration_at_the_ends_nearly_as_well);
+  RUN_TEST(what_the_ends_cut_of_a_motion_is_doubted);
   RUN_TEST(a_window_is_no_longer_than_the_motion_bears_though_noise_hides_what_it_cuts);
   RUN_TEST(a_joint_that_stands_is_said_to_stand_whatever_its_encoder);
   RUN_TEST(a_joint_that_moves_by_a_count_a_row_and_less_does_not_stand);
