@@ -13,10 +13,10 @@ namespace {
 
 /// Deviations: of normally distributed samples 0.3 % weigh less than one.
 constexpr double kHuber = 3;
-/// It moves the BIC of 10,000 samples by 0.001.
+/// Such a change moves the BIC of 10,000 samples by 0.001.
 constexpr double kLeastChange = 1e-7;
-/// Each simulates a step of every number. A step that needs more is taken anew from a smaller
-/// region, for less.
+/// Each shortening of a step takes a simulation of every number. A step that needs more of them is
+/// taken anew within a smaller trust region, which costs one simulation.
 constexpr int kMostShortenings = 2;
 
 /// The weighted remainder of the samples to fit to, simulated anew for every step.

@@ -85,11 +85,7 @@ class Attacker:
         self.heard = []
 
     def listen(self, seconds):
-        until = time.monotonic() + seconds
-        while (left := until - time.monotonic()) > 0:
-            frame = self.client.bus.recv(left)
-            if frame is None:
-                continue
+        for frame in self.client.receive(seconds):
             self.heard.append(frame)
             self.recorded = self.setpoints.take(frame) or self.recorded
             self.command = self.commands.take(frame) or self.command
