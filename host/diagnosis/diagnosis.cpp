@@ -7,6 +7,7 @@
 
 #include "diagnosis/grammar/causes.hpp"
 #include "diagnosis/grammar/laws.hpp"
+#include "diagnosis/jump.hpp"
 #include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
 #include "diagnosis/rest.hpp"
@@ -105,6 +106,15 @@ bool is_outdone(const Observations& observations, const Fit& findings, const Pro
   return bic_gain(samples, findings.train_sum, rival.fit.train_sum, 0) > kFarMoreEvidence;
 }
 
+/// The same of a jump of the measured place.
+bool is_outdone(const Observations& observations, const Fit& findings, const Jump& rival) {
+  if (rival.numbers > findings.parameters()) {
+    return false;
+  }
+  const double samples = independent_samples(observations, findings.remainder);
+  return bic_gain(samples, findings.train_sum, rival.left, 0) > kFarMoreEvidence;
+}
+
 bool has_law(const Diagnosis& diagnosis) {
   const std::vector<Finding>& findings = diagnosis.choice.findings;
   return std::any_of(findings.begin(), findings.end(),
@@ -140,8 +150,15 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
     diagnosis->reason = more;
     // A law is such a form itself, with proof.
     if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
-      Proposal rival = propose(observations, fit(observations, {}, 0));
-      if (is_outdone(observations, found, rival)) {
+      const Fit nothing = fit(observations, {}, 0);
+      const Jump jump = jump_of_place(observations, nothing);
+      Proposal rival = propose(observations, nothing);
+      if (is_outdone(observations, found, jump)) {
+        withdraw(observations,
+                 fmt::format("a jump of the measured place at {:.4g} s accounts for more of it",
+                             jump.time),
+                 diagnosis);
+      } else if (is_outdone(observations, found, rival)) {
         withdraw(observations, "a form that no known effect has accounts for more of it",
                  diagnosis);
         diagnosis->proposal = std::move(rival.terms);

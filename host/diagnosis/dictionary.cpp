@@ -1,11 +1,11 @@
 #include "diagnosis/dictionary.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "error.hpp"
+#include "linear_algebra/span.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
@@ -207,12 +207,8 @@ std::vector<Screened> screen(const Observations& observations,
   const Eigen::Index n = observations.train;
   Eigen::VectorXd left = remainder.head(n);
   const auto columns = dictionary.columns.topRows(n);
-  Eigen::MatrixXd orthonormal(n, 0);
-  if (fitted.cols() > 0) {
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(fitted.topRows(n));
-    orthonormal = qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank());
-    left -= orthonormal * (orthonormal.transpose() * left);
-  }
+  const Eigen::MatrixXd orthonormal = linear_algebra::orthonormal_basis(fitted.topRows(n));
+  left -= orthonormal * (orthonormal.transpose() * left);
   const Eigen::MatrixXd shared = orthonormal.transpose() * columns;
   const Eigen::VectorXd product = columns.transpose() * left;
   const double sum = left.squaredNorm();

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "diagnosis/jump.hpp"
 #include "diagnosis/plausible.hpp"
 #include "recording/noise.hpp"
 #include "statistics/distributions.hpp"
@@ -135,6 +136,9 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
                double places) {
   Evidence evidence;
   evidence.impossible = why_impossible(observations, with, with.chosen.size() - 1);
+  if (evidence.impossible.empty() && jumps_instead(observations, without, with)) {
+    evidence.impossible = "a jump at one moment accounts for more";
+  }
   evidence.effective_samples = independent_samples(observations, with.remainder);
   const std::size_t parameters = with.parameters() - without.parameters();
   const double ratio = bic_gain(evidence.effective_samples, without.train_sum, with.train_sum, 0);

@@ -9,6 +9,7 @@
 #include "diagnosis/search/search.hpp"
 #include "diagnosis/select/standards.hpp"
 #include "effects/terms.hpp"
+#include "linear_algebra/span.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
@@ -194,22 +195,13 @@ std::vector<Hypothesis> library_of(const Observations& observations) {
   return all;
 }
 
-/// Orthonormal columns that span those of a matrix.
-Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
-  if (columns.cols() == 0) {
-    return columns;
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(columns);
-  return factors.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), factors.rank());
-}
-
 /// The term that lowers the squares of what is left most, beside what is fitted.
 const Hypothesis* best_beside(const Observations& observations, const Fit& fit,
                               const Changes& changes, const std::vector<Hypothesis>& library) {
   constexpr double kIndependent = 1e-3;  // of a column's length
   const Eigen::Index n = observations.train;
   const Eigen::VectorXd left = clipped(fit.remainder.head(n));
-  const Eigen::MatrixXd base = basis_of(fit.derivative.topRows(n));
+  const Eigen::MatrixXd base = linear_algebra::orthonormal_basis(fit.derivative.topRows(n));
   std::vector<double> gains(library.size(), 0);
   in_parallel(
       library.size(), [](std::size_t, std::size_t) {},

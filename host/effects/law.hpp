@@ -51,6 +51,8 @@ struct Traits {
   bool alters_model = false;   ///< the scene must be simulated anew; else the law adds a term
   bool is_curved = false;      ///< far from proportion: derivatives must be taken where it stands
   bool is_curve_only = false;  ///< a curve for want of the law: a law that fits as well is meant
+  bool is_gradual = false;     ///< it grows with time, as fast as its last parameter tells: where a
+                               ///< jump at one moment does better, it is not meant
   bool is_wave = false;  ///< its first two parameters are the amplitudes of a sine and a cosine
   bool is_body = false;  ///< mass that a link or the flange carries, simplified in its own way
   bool tells_inertia = false;    ///< it says how a mass is spread: with it the joint-space inertia

@@ -1,9 +1,9 @@
 #include "diagnosis/families/latecomers.hpp"
 
-#include <Eigen/QR>
 #include <map>
 
 #include "diagnosis/evidence.hpp"
+#include "linear_algebra/span.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -24,10 +24,8 @@ std::vector<Chosen> latecomers(const Observations& observations, const Fit& fit,
   const Eigen::Index n = observations.train;
   const Eigen::VectorXd root = huber_weights(fit.remainder.head(n)).cwiseSqrt();
   const Eigen::VectorXd left = root.cwiseProduct(fit.remainder.head(n));
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(root.asDiagonal() *
-                                                            fit.derivative.topRows(n));
   const Eigen::MatrixXd fitted =
-      factors.householderQ() * Eigen::MatrixXd::Identity(n, factors.rank());
+      linear_algebra::orthonormal_basis(root.asDiagonal() * fit.derivative.topRows(n));
   std::map<std::size_t, Latecomer> best;  // by hypothesis
   for (const Entry& entry : dictionary.entries) {
     const Hypothesis& hypothesis = dictionary.hypotheses[entry.hypothesis];

@@ -42,9 +42,7 @@ std::vector<std::string> names_of(const Observations& observations) {
   if (observations.scenes.front().temperature.size() > 0) {
     names.emplace_back("temp_c");
   }
-  if (!observations.is_static) {
-    names.emplace_back("t");
-  }
+  names.emplace_back("t");
   return names;
 }
 

@@ -24,9 +24,9 @@ struct Driver {
   double size() const;
 };
 
-/// The signals that vary along the recordings by more than their noise, and then the powers. Load
-/// tests have no time. A joint's load is the one that the measurement shows: at rest for the TCP,
-/// with inertia for others.
+/// The signals that vary along the recordings by more than their noise, and then the powers. A
+/// load test's time counts its poses in the order in which they were taken. A joint's load is the
+/// one that the measurement shows: at rest for the TCP, with inertia for others.
 std::vector<Driver> drivers_of(const Observations& observations, const Rows& rows);
 
 /// The driver of a name; null where there is none.

@@ -141,10 +141,15 @@ std::optional<Lead> lead_of(const Material& material, const Seat& seat, const Dr
   const bool is_time = driver.kind == SignalKind::time;
   const Normal normal = hats.normal(seat, factor);
   Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()), 1};
-  if (factor.text.empty() && (is_time ? seat.is_sensor() : driver.kind == SignalKind::angle)) {
+  if (factor.text.empty() && is_time && seat.is_sensor()) {
+    lead.gain = std::max(lead.gain, best_step(seat));
+  }
+  const bool may_wave = is_time ? seat.is_sensor() && !material.observations.is_static
+                                : driver.kind == SignalKind::angle;
+  if (factor.text.empty() && may_wave) {
     const Wave wave = best_wave(seat, driver);
     lead.wave = wave.order;
-    lead.gain = std::max({lead.gain, wave.gain, is_time ? best_step(seat) : 0});
+    lead.gain = std::max(lead.gain, wave.gain);
   }
   lead.gain = std::max(lead.gain, gain_of_memory(material, seat, driver, factor));
   return lead;

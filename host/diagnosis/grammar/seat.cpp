@@ -1,10 +1,10 @@
 #include "diagnosis/grammar/seat.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/search/search.hpp"
+#include "linear_algebra/span.hpp"
 
 namespace flexcomp::diagnosis::grammar {
 namespace {
@@ -38,10 +38,8 @@ std::vector<Words> places_of(const Observations& observations) {
     for (const char* turn : {"rx", "ry", "rz"}) {
       all.push_back({"base", turn, 0});
     }
-    if (!observations.is_static) {
-      for (const char* each : {"sensor x", "sensor y", "sensor z"}) {
-        all.push_back({each, "", 0});
-      }
+    for (const char* each : {"sensor x", "sensor y", "sensor z"}) {
+      all.push_back({each, "", 0});
     }
   }
   if (observations.has_wrench()) {
@@ -51,15 +49,6 @@ std::vector<Words> places_of(const Observations& observations) {
     }
   }
   return all;
-}
-
-/// An orthonormal base of the changes that a fit's parameters make.
-Eigen::MatrixXd base_of(const Fit& fit, Eigen::Index train) {
-  if (fit.derivative.cols() == 0) {
-    return Eigen::MatrixXd(train, 0);
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(fit.derivative.topRows(train));
-  return factors.householderQ() * Eigen::MatrixXd::Identity(train, factors.rank());
 }
 
 }  // namespace
@@ -125,7 +114,7 @@ Eigen::VectorXd levers_of(const Observations& observations, const effects::LawPl
 std::vector<Seat> seats_of(const Observations& observations, const Rows& rows, const Fit& fit) {
   const Eigen::Index train = observations.train;
   const Eigen::VectorXd left = clipped(fit.remainder.head(train));
-  const Eigen::MatrixXd base = base_of(fit, train);
+  const Eigen::MatrixXd base = linear_algebra::orthonormal_basis(fit.derivative.topRows(train));
   std::vector<Seat> seats;
   for (const Words& words : places_of(observations)) {
     Seat seat{effects::read_place(words.name, words.axis, words.joint),

@@ -42,6 +42,7 @@ Law drift_law(const char* form, std::size_t amplitudes, Growth growth, Drift dri
   law.joints = whole_machine;
   law.traits.linear_in = amplitudes;
   law.traits.needs_temperature = growth == by_temperature;
+  law.traits.is_gradual = growth == by_time;
   law.statement = says("the structure grows as it warms");
   add_term(
       [growth, drift](const Values& values, int joint) {

@@ -3,6 +3,13 @@
 #include "effects/laws/laws.hpp"
 
 namespace flexcomp::effects {
+namespace {
+
+/// Range of torque over range of force of six-axis sensors, m: 0.09 to 0.19 of ATI's Delta, Theta
+/// and Omega (data sheets).
+constexpr double kLever = 0.2;
+
+}  // namespace
 
 // Zero of the force sensor, in the tool frame: it reads the wrench plus the bias.
 Forms laws::wrench_bias() {
@@ -28,9 +35,10 @@ Forms laws::wrench_bias() {
           const auto& effort = of.size.effort;
           const auto last_three = effort.size() < 3 ? effort.begin() : effort.end() - 3;
           const double wrist = *std::max_element(last_three, effort.end());
-          return within(std::min(wrist, 0.5 * of.size.payload * kGravity * of.size.reach));
+          return within(std::min(wrist, kLever * 2 * of.size.payload * kGravity));
         },
-        "force sensors' data sheets: ranges of about the torques that their robots' wrists bear"}}};
+        "force sensors' data sheets: ranges of at most the torques that their robots' wrists bear, "
+        "and of at most their own forces at 0.2 m"}}};
 }
 
 }  // namespace flexcomp::effects
