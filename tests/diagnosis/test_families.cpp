@@ -66,9 +66,11 @@ void friction_of_all_joints_is_told_and_nothing_else_beside_it() {
 }
 
 /// Torques of a machine whose masses, friction and torque constants are all off: these multiply
-/// each other, so that the model's own derivatives do not lead to them.
+/// each other, so that the model's own derivatives do not lead to them. With all gains larger and
+/// all else smaller, torques are the same: what is told of a gain must be as uncertain as that.
 void gains_are_told_beside_what_they_multiply() {
-  constexpr double kGains[] = {0.2, -0.15, 0.25};
+  constexpr double kGains[] = {0.2, -0.15, 0.25, 0, 0};
+  constexpr double kSure = 3;  // standard deviations
   simulation::Machine truth = robot().machine();
   for (std::size_t i = 0; i < kMoving; ++i) {
     truth.robot.dynamics[i].coulomb += 3 * dry(i);
@@ -88,6 +90,17 @@ void gains_are_told_beside_what_they_multiply() {
       observations.rms(Eigen::VectorXd::Ones(observations.size()), simulation::joint_torque, true);
   const double left = observations.rms(fit.remainder, simulation::joint_torque, true);
   TEST_ASSERT_TRUE(left < 1.2 * noise);
+  int told = 0;
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    const Hypothesis& each = fit.chosen[i].hypothesis;
+    if (each.traits().is_gain && each.joint <= kMoving) {
+      const double deviation = std::sqrt(fit.covariance_of(i)(0, 0));
+      TEST_ASSERT_DOUBLE_WITHIN(kSure * deviation, kGains[each.joint - 1],
+                                fit.chosen[i].values.front());
+      ++told;
+    }
+  }
+  TEST_ASSERT_EQUAL(kMoving, told);
 }
 
 void friction_that_falls_with_speed_joins_the_family_at_its_joint() {

@@ -36,11 +36,15 @@ Elimination::Set Elimination::best_on_path() {
     if (error < kSameError * least) {
       best = {members, is_held_, tolerance_, widest_, error};
     }
-    const std::size_t weakest = members.empty() ? members_.size() : weakest_of(members, wide);
-    if (weakest == members_.size()) {
+    const std::vector<std::size_t> weakest = weakest_of(members, wide);
+    if (weakest.empty()) {
       return best;
     }
-    members.erase(std::find(members.begin(), members.end(), weakest));
+    members.erase(std::remove_if(members.begin(), members.end(),
+                                 [&](std::size_t member) {
+                                   return std::count(weakest.begin(), weakest.end(), member) > 0;
+                                 }),
+                  members.end());
   }
 }
 

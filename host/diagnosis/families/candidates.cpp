@@ -16,6 +16,9 @@ bool is_candidate(const Observations& observations, const Hypothesis& hypothesis
 bool could_matter(const Hypothesis& hypothesis, const Eigen::MatrixXd& columns,
                   const Eigen::VectorXd& target) {
   constexpr double kNoticeable = 0.1;  // of what is to be explained
+  if (hypothesis.traits().is_gain) {
+    return true;
+  }
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
     const Parameter& parameter = hypothesis.parameters[static_cast<std::size_t>(i)];
     const double most = std::max(std::abs(parameter.lower), std::abs(parameter.upper));

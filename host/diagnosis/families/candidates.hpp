@@ -14,7 +14,8 @@ bool is_candidate(const Observations& observations, const Hypothesis& hypothesis
 
 /// Could a hypothesis, within its bounds, change a noticeable part of `target`? What could not, as
 /// masses on stiff springs, only fits what other numbers do to it. `columns`: its derivatives, a
-/// parameter each, samples as in `target`.
+/// parameter each, samples as in `target`. A gain matters however little its joint bears: where it
+/// is left out, all others are told in its joint's unit of torque.
 bool could_matter(const Hypothesis& hypothesis, const Eigen::MatrixXd& columns,
                   const Eigen::VectorXd& target);
 

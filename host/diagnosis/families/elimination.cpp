@@ -23,7 +23,22 @@ Eigen::Index part_of(const Observations& observations, const Sample& at) {
   return stretch_of(at.row, observations.scenes[at.scene].rows()) % kParts;
 }
 
+/// Samples of a remainder for each that is independent.
+double repeats_of(const Observations& observations, const Eigen::VectorXd& remainder) {
+  return observations.has(simulation::joint_torque)
+             ? static_cast<double>(observations.train) /
+                   independent_samples(observations, remainder)
+             : 1;
+}
+
 }  // namespace
+
+double deviation_of(const Observations& observations, const Eigen::VectorXd& remainder) {
+  const Eigen::VectorXd left = remainder.head(observations.train);
+  const double square =
+      huber_weights(left).dot(left.cwiseAbs2()) / static_cast<double>(observations.train);
+  return std::sqrt(repeats_of(observations, left) * std::max(1.0, square));
+}
 
 Elimination::Elimination(const Observations& observations, const Fit& given,
                          const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary)
@@ -89,13 +104,23 @@ std::vector<Eigen::Index> Elimination::columns_of(const std::vector<std::size_t>
   return all;
 }
 
-/// Standard deviations that hold the numbers; none is wider than its plausible range.
-Eigen::VectorXd Elimination::tolerance() const { return (tolerance_ * unit_).cwiseMin(widest_); }
+/// Standard deviations that hold the numbers; none is wider than its plausible range. Gains are
+/// held by that alone: only their usual size tells the unit of all torques, and how uncertain it
+/// is.
+Eigen::VectorXd Elimination::tolerance() const {
+  Eigen::VectorXd width = (tolerance_ * unit_).cwiseMin(widest_);
+  for (const Member& member : members_) {
+    if (member.chosen.hypothesis.traits().is_gain) {
+      width(member.columns) = widest_(member.columns);
+    }
+  }
+  return width;
+}
 
 /// Precisions by which the tolerances hold the numbers, beside samples over the noise. They weigh
 /// more where the remainder hangs together over time, since its samples tell less then.
 Eigen::VectorXd Elimination::precision() const {
-  return repeats_ * (spread_ / tolerance().array()).square().matrix();
+  return (deviation() / tolerance().array()).square().matrix();
 }
 
 Eigen::VectorXd Elimination::solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
@@ -169,10 +194,7 @@ void Elimination::solve(const std::vector<std::size_t>& members) {
     remainder_ = target_ - columns_ * value_;
     const auto n = static_cast<double>(remainder_.size());
     spread_ = std::max(1.0, std::sqrt(weight_.dot(remainder_.cwiseAbs2()) / n));
-    // Positions tell frames and tools whole: what holds them weighs as one sample.
-    repeats_ = observations_.has(simulation::joint_torque)
-                   ? n / independent_samples(observations_, remainder_)
-                   : 1;
+    repeats_ = repeats_of(observations_, remainder_);
     weight_ = huber_weights(remainder_, spread_);
   }
 }
@@ -189,36 +211,60 @@ double Elimination::error_elsewhere(const std::vector<std::size_t>& members) con
   return error;
 }
 
-/// The member that is known least beside the others, by Wald's statistic over its degrees of
-/// freedom; members_.size() where only given ones are left.
-std::size_t Elimination::weakest_of(const std::vector<std::size_t>& members,
-                                    const Eigen::VectorXd& widenings) const {
+/// Members that leave a set together: each by itself, but gains all at once. With all gains larger
+/// and all masses and frictions smaller, a machine gives the same torques: if one gain is left out,
+/// all other numbers are told in its joint's unit.
+std::vector<std::vector<std::size_t>> Elimination::leaving_together(
+    const std::vector<std::size_t>& members) const {
+  std::vector<std::vector<std::size_t>> all;
+  std::vector<std::size_t> gains;
+  for (const std::size_t member : members) {
+    if (members_[member].is_given) {
+      continue;
+    }
+    if (members_[member].chosen.hypothesis.traits().is_gain) {
+      gains.push_back(member);
+    } else {
+      all.push_back({member});
+    }
+  }
+  if (!gains.empty()) {
+    all.push_back(std::move(gains));
+  }
+  return all;
+}
+
+/// The members that are known least beside the others, by Wald's statistic over its degrees of
+/// freedom; none where only given ones are left.
+std::vector<std::size_t> Elimination::weakest_of(const std::vector<std::size_t>& members,
+                                                 const Eigen::VectorXd& widenings) const {
   const std::vector<Eigen::Index> columns = columns_of(members);
   Eigen::MatrixXd inner = gram_(columns, columns);
   inner.diagonal() += precision()(columns);
   const Eigen::LDLT<Eigen::MatrixXd> factors(inner);
+  Eigen::VectorXd value = Eigen::VectorXd::Zero(columns_.cols());
   const Eigen::VectorXd moment = moment_(columns);
-  const Eigen::VectorXd value = factors.solve(moment);
-  const Eigen::MatrixXd inverse =
+  const Eigen::VectorXd solved = factors.solve(moment);
+  value(columns) = solved;
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(columns_.cols(), columns_.cols());
+  const Eigen::MatrixXd covariance =
       factors.solve(Eigen::MatrixXd::Identity(inner.rows(), inner.cols()));
-  std::size_t weakest = members_.size();
+  inverse(columns, columns) = covariance;
+  std::vector<std::size_t> weakest;
   double least = std::numeric_limits<double>::infinity();
-  Eigen::Index first = 0;
-  for (const std::size_t member : members) {
-    const std::vector<Eigen::Index> own_columns = columns_of({member});
-    const auto count = static_cast<Eigen::Index>(own_columns.size());
-    if (count == 0) {
-      return member;
+  for (std::vector<std::size_t>& leaving : leaving_together(members)) {
+    const std::vector<Eigen::Index> own = columns_of(leaving);
+    if (own.empty()) {
+      return leaving;
     }
-    const double wide = widenings(own_columns).maxCoeff();
-    const Eigen::VectorXd own = value.segment(first, count);
-    const double known = own.dot(inverse.block(first, first, count, count).ldlt().solve(own)) /
-                         (wide * static_cast<double>(count));
-    if (!members_[member].is_given && !(known >= least)) {
+    const Eigen::VectorXd values = value(own);
+    const Eigen::MatrixXd uncertain = inverse(own, own);
+    const double known = values.dot(uncertain.ldlt().solve(values)) /
+                         (widenings(own).maxCoeff() * static_cast<double>(own.size()));
+    if (!(known >= least)) {
       least = std::isnan(known) ? -std::numeric_limits<double>::infinity() : known;
-      weakest = member;
+      weakest = std::move(leaving);
     }
-    first += count;
   }
   return weakest;
 }
@@ -308,6 +354,8 @@ Eigen::VectorXd Elimination::widenings_by_others(const std::vector<std::size_t>&
       .cwiseMax(1)
       .cwiseSqrt();
 }
+
+double Elimination::deviation() const { return spread_ * std::sqrt(repeats_); }
 
 std::vector<Chosen> Elimination::chosen_of(const Set& set) {
   tolerance_ = set.tolerance;

@@ -5,6 +5,11 @@
 
 namespace flexcomp::diagnosis {
 
+/// Deviation over the noise that the samples to fit to would have of a remainder, if independent
+/// ones had to say as much as all of them: what holds a number is weighed against it. Of positions,
+/// which tell frames and tools whole, each sample counts.
+double deviation_of(const Observations& observations, const Eigen::VectorXd& remainder);
+
 /// One hypothesis of a linear fit, and the columns that are its own.
 struct Member {
   Chosen chosen;
@@ -16,10 +21,10 @@ struct Member {
 /// least squares, and which of them predict best.
 ///
 /// The fit has Huber's weights, and is held to the model by a tolerance of each number. Numbers are
-/// left out one at a time, the least certain first, until none is left; of all sets on that way the
-/// one is taken that predicts best stretches of time (or of poses) that it was not fitted to. The
-/// tolerances are tried from tight to loose in the same manner: a recording that tells much needs
-/// no belief in the model, one of a few poses does.
+/// left out one at a time (gains all at once), the least certain first, until none is left; of all
+/// sets on that way the one is taken that predicts best stretches of time (or of poses) that it was
+/// not fitted to. The tolerances are tried from tight to loose in the same manner: a recording that
+/// tells much needs no belief in the model, one of a few poses does.
 ///
 /// Positions tell frames and springs only in combinations. What they do not tell is held by the
 /// size that the numbers of the same kind have, so that no large ones cancel each other.
@@ -35,6 +40,9 @@ class Elimination {
 
   /// The members of the best set with their values, each within its bounds and with its tolerance.
   std::vector<Chosen> best();
+
+  /// Deviation of what the best set leaves by which its tolerances are scaled (deviation_of).
+  double deviation() const;
 
   /// What all members together leave of the samples to fit to, held by their usual tolerances.
   Eigen::VectorXd fullest_remainder();
@@ -72,8 +80,10 @@ class Elimination {
   Eigen::VectorXd solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                            const std::vector<Eigen::Index>& columns) const;
   double error_elsewhere(const std::vector<std::size_t>& members) const;
-  std::size_t weakest_of(const std::vector<std::size_t>& members,
-                         const Eigen::VectorXd& widenings) const;
+  std::vector<std::vector<std::size_t>> leaving_together(
+      const std::vector<std::size_t>& members) const;
+  std::vector<std::size_t> weakest_of(const std::vector<std::size_t>& members,
+                                      const Eigen::VectorXd& widenings) const;
   Eigen::Index farthest_out(const std::vector<std::size_t>& members) const;
   void hold_impossible(const std::vector<std::size_t>& members);
   std::vector<std::size_t> all_members() const;

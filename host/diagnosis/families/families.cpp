@@ -154,10 +154,39 @@ Dictionary with_coupled_drive(const Observations& observations, const Dictionary
   return coupled;
 }
 
+/// The fit with its numbers held as what it leaves asks for. Their tolerances are scaled to what a
+/// linear choice of them left, which is more where gains multiply and motors are coupled.
+Fit held_as_fitted(const Observations& observations, Fit whole, std::size_t findings,
+                   double deviation, const Dictionary& dictionary) {
+  constexpr double kMuchLess = 0.8;  // time: a tolerance matters by its size alone
+  const double less = deviation_of(observations, whole.remainder) / deviation;
+  if (less > kMuchLess) {
+    return whole;
+  }
+  for (std::size_t i = findings; i < whole.chosen.size(); ++i) {
+    for (Parameter& parameter : whole.chosen[i].hypothesis.parameters) {
+      parameter.tolerance /= less;
+    }
+  }
+  return fit(observations, std::move(whole.chosen), kSimulatedSteps, &dictionary);
+}
+
+/// Numbers that a linear choice ends with, and the deviation to which their tolerances are scaled.
+struct Start {
+  std::vector<Chosen> chosen;
+  double deviation = 1;
+};
+
+Start start_of(Elimination families) {
+  std::vector<Chosen> chosen = families.best();
+  return {std::move(chosen), families.deviation()};
+}
+
 /// Fits by simulation from numbers close by on, until all that stay behind the findings can be.
-Fit settle(const Observations& observations, std::vector<Chosen> start, std::size_t findings,
+Fit settle(const Observations& observations, Start start, std::size_t findings,
            const Dictionary& dictionary) {
-  Fit whole = fit(observations, std::move(start), kSimulatedSteps, &dictionary);
+  Fit whole = fit(observations, std::move(start.chosen), kSimulatedSteps, &dictionary);
+  whole = held_as_fitted(observations, std::move(whole), findings, start.deviation, dictionary);
   std::vector<Chosen> possible;
   for (int round = 0; round < kPossibleRounds; ++round) {
     if (round < kHoldingRounds && !bodies_can_be(observations, whole)) {
@@ -183,15 +212,21 @@ Fit fit_anew(const Observations& observations, const Fit& fitted, std::size_t fi
   const Dictionary dictionary(observations, members, fitted.machine,
                               [](std::size_t, std::size_t) {});
   const Fit about = fit(observations, fitted.chosen, 0, &dictionary);
-  Elimination families(observations, about, findings, members, dictionary);
-  return settle(observations, families.best(), findings, dictionary);
+  return settle(observations, start_of({observations, about, findings, members, dictionary}),
+                findings, dictionary);
 }
 
-/// Sum of the squares of the numbers behind the findings, each over its usual size.
+/// Sum of the squares of the numbers behind the findings, each over its usual size. Torques tell
+/// their numbers well enough to be believed, but for the gains: with all of them larger and all
+/// masses smaller, a machine gives the same torques.
 double size_of_numbers(const Observations& observations, const Fit& fit, std::size_t findings) {
+  const bool is_by_gains = observations.has(simulation::joint_torque);
   double sum = 0;
   for (std::size_t i = findings; i < fit.chosen.size(); ++i) {
     const Chosen& chosen = fit.chosen[i];
+    if (is_by_gains && !chosen.hypothesis.traits().is_gain) {
+      continue;
+    }
     for (std::size_t k = 0; k < chosen.values.size(); ++k) {
       const double usual = usual_width(observations, chosen.hypothesis, k);
       sum += std::pow(chosen.values[k] / usual, 2);
@@ -201,13 +236,9 @@ double size_of_numbers(const Observations& observations, const Fit& fit, std::si
 }
 
 /// Do smaller numbers make up for a worse prediction of what was held out? Both are squares of
-/// deviations: of the numbers from the model, and of the change of the error from chance. Torques
-/// tell their numbers well enough to be believed.
+/// deviations: of the numbers from the model, and of the change of the error from chance.
 bool is_likelier(const Observations& observations, const Fit& before, const Fit& after,
                  std::size_t findings) {
-  if (observations.has(simulation::joint_torque)) {
-    return false;
-  }
   const double worse = confirmation_of(observations, after.remainder, before.remainder);
   return size_of_numbers(observations, before, findings) -
              size_of_numbers(observations, after, findings) >
@@ -237,7 +268,8 @@ Fit joined(const Observations& observations, Fit best, std::size_t findings,
   }
   std::vector<Chosen> all = best.chosen;
   all.insert(all.end(), late.begin(), late.end());
-  Fit with = settle(observations, std::move(all), findings, dictionary);
+  Fit with = settle(observations, {std::move(all), deviation_of(observations, best.remainder)},
+                    findings, dictionary);
   return predicts_better(observations, best, with) ? with : best;
 }
 
@@ -264,8 +296,8 @@ Fit or_regression(const Observations& observations, Fit best, std::size_t given,
 /// Findings, and behind them the numbers of the families that stay beside them.
 Fit fit_beside(const Observations& observations, const Fit& findings,
                const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  Elimination families(observations, findings, hypotheses, dictionary);
-  return settle(observations, families.best(), findings.chosen.size(), dictionary);
+  return settle(observations, start_of({observations, findings, hypotheses, dictionary}),
+                findings.chosen.size(), dictionary);
 }
 
 }  // namespace

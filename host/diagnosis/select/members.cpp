@@ -148,6 +148,31 @@ void add_friction_as_whole(const Inquiry& inquiry, const Fit& whole, const Witho
   }
 }
 
+/// Adds the gains that are told from one, if all of them together stand: without one of them the
+/// others, and all masses, make up for it.
+void add_gains_as_whole(const Inquiry& inquiry, const Fit& whole, const Without& without,
+                        std::vector<Finding>* standing) {
+  std::vector<std::size_t> gains;
+  for (std::size_t i = 0; i < whole.chosen.size(); ++i) {
+    if (whole.chosen[i].hypothesis.traits().is_gain) {
+      gains.push_back(i);
+    }
+  }
+  for (const std::size_t gain : gains) {
+    const Hypothesis& own = whole.chosen[gain].hypothesis;
+    const bool is_in = std::any_of(standing->begin(), standing->end(), [&](const Finding& each) {
+      return are_the_same(each.chosen.hypothesis, own);
+    });
+    if (is_in || !is_told_apart(whole, gain)) {
+      continue;
+    }
+    Finding finding = judge_linearly(inquiry, whole, without, gain, gains);
+    if (stands_as_member(inquiry, finding.evidence)) {
+      standing->push_back(std::move(finding));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Finding> members_that_stand(const Inquiry& inquiry, const Fit& whole) {
@@ -158,6 +183,7 @@ std::vector<Finding> members_that_stand(const Inquiry& inquiry, const Fit& whole
   const Without without(inquiry.observations, whole);
   std::vector<Finding> standing = standing_alone(inquiry, whole, without);
   add_friction_as_whole(inquiry, whole, without, &standing);
+  add_gains_as_whole(inquiry, whole, without, &standing);
   if (standing.size() < kLeastMembers) {
     return {};
   }
