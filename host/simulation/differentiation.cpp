@@ -8,38 +8,10 @@
 namespace flexcomp::simulation {
 namespace {
 
-constexpr Eigen::Index kFewestNeighbours = 3;  // on either side: six numbers of a polynomial
 constexpr int kOrder = kPolynomialOrder;
 constexpr double kStandingStill = 1e-5;  // rad/s, far below any programmed motion
 constexpr double kBeyondNoise = 4;       // deviations
-constexpr double kMostNoiseScale = 4;  // of the variance of the angles' noise, as it was estimated
-constexpr double kEnoughGone = 0.1;    // of the noise's variance, to tell its scale by
 constexpr double kTiny = 1e-300;
-
-struct Window {
-  Eigen::Index first, row, last;
-};
-
-/// Rows within half a window (s), and so many at least that a polynomial is held.
-Window window_about(const Eigen::VectorXd& time, double half_window, Eigen::Index row) {
-  const Eigen::Index end = time.size() - 1;
-  Eigen::Index first = row;
-  Eigen::Index last = row;
-  while (first > 0 &&
-         (row - first < kFewestNeighbours || time[row] - time[first - 1] <= half_window)) {
-    --first;
-  }
-  while (last < end &&
-         (last - row < kFewestNeighbours || time[last + 1] - time[row] <= half_window)) {
-    ++last;
-  }
-  // At the ends of a recording one side makes up for the other.
-  while (last - first < 2 * kFewestNeighbours && (first > 0 || last < end)) {
-    first -= first > 0 && last == end ? 1 : 0;
-    last += last < end ? 1 : 0;
-  }
-  return {first, row, last};
-}
 
 /// A joint that stands still all the while has no speed, whatever a polynomial says.
 void find_standing(const Eigen::VectorXd& time, const recording::Samples& q,
@@ -83,16 +55,25 @@ void find_standing_in_noise(const Eigen::VectorXd& time, const recording::Sample
   }
 }
 
-/// Order of the polynomials about a row near an end of a recording, where a window has less on one
-/// side. There a fifth order would amplify the noise up to 75 times as much as in the middle; of
-/// these orders, none does more than half as much again.
-int order_near_end(const Eigen::VectorXd& time, const Window& window) {
-  constexpr double kNearlyWhole = 0.9;  // of the longer side
-  constexpr double kHalf = 0.45;
+constexpr double kHalf = 0.45;  // of the longer side of a window
+
+/// The side of a window that has less time, over the other.
+double evenness(const Eigen::VectorXd& time, const Window& window) {
   const double before = time[window.row] - time[window.first];
   const double after = time[window.last] - time[window.row];
-  const double whole = std::min(before, after) / std::max(before, after);
-  return whole > kNearlyWhole ? kOrder : whole > kHalf ? kOrder - 1 : 2;
+  return std::min(before, after) / std::max(before, after);
+}
+
+/// Order of the polynomials about a row, near an end those that suit it there. There the fifth
+/// order would amplify the noise up to 75 times as much as in the middle; the fourth does not more
+/// than half as much again while a window has half of its other side.
+int order_at(double even, const JointPolynomials& suited) {
+  constexpr double kNearlyWhole = 0.9;
+  const bool noise_rules = suited.inner.half_window > kHalfWindows.front();
+  if (even > kNearlyWhole || (even > kHalf && !noise_rules)) {
+    return suited.inner.order;
+  }
+  return even > kHalf ? suited.inner.order - 1 : suited.end.order;
 }
 
 /// Products of the powers of time, one order beyond the polynomials'.
@@ -113,11 +94,30 @@ Columns<double, kOrder + 2> up_to(int order, Columns<double, kOrder + 2> moment)
   return moment;
 }
 
-/// Polynomials about a row; what one order more would change of the acceleration, beyond noise, is
-/// how far it may be wrong where the motion is too abrupt for the samples.
+}  // namespace
+
+Window window_about(const Eigen::VectorXd& time, double half_window, Eigen::Index row) {
+  const Eigen::Index end = time.size() - 1;
+  Eigen::Index first = row;
+  Eigen::Index last = row;
+  while (first > 0 &&
+         (row - first < kFewestNeighbours || time[row] - time[first - 1] <= half_window)) {
+    --first;
+  }
+  while (last < end &&
+         (last - row < kFewestNeighbours || time[last + 1] - time[row] <= half_window)) {
+    ++last;
+  }
+  // At the ends of a recording one side makes up for the other.
+  while (last - first < 2 * kFewestNeighbours && (first > 0 || last < end)) {
+    first -= first > 0 && last == end ? 1 : 0;
+    last += last < end ? 1 : 0;
+  }
+  return {first, row, last};
+}
+
 LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
-                          const Eigen::RowVectorXd& angle_noise, const Window& window,
-                          int order = kOrder) {
+                          const Eigen::RowVectorXd& angle_noise, const Window& window, int order) {
   constexpr int kCount = kOrder + 1;
   const Eigen::Index row = window.row;
   const double span = std::max(time[window.last] - time[row], time[row] - time[window.first]);
@@ -168,114 +168,21 @@ LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples&
   return motion;
 }
 
-/// Accelerations (rad/s²) at rows all over a recording, and their gain of the angles' noise (1/s²).
-struct Probes {
-  Eigen::MatrixXd acceleration;
-  Eigen::VectorXd gain;
-};
-
-Probes probe(const Eigen::VectorXd& time, const recording::Samples& q, double half_window) {
-  constexpr Eigen::Index kMostProbes = 300;  // time; they tell a variance to a tenth
-  const Eigen::Index count = std::min(kMostProbes, time.size());
-  const Eigen::RowVectorXd exact = Eigen::RowVectorXd::Zero(q.cols());
-  Probes probes{Eigen::MatrixXd(count, q.cols()), Eigen::VectorXd(count)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index row = i * (time.size() - 1) / std::max<Eigen::Index>(count - 1, 1);
-    const LocalMotion motion = differentiate(time, q, exact, window_about(time, half_window, row));
-    probes.acceleration.row(i) = motion.values.row(1);
-    probes.gain[i] = motion.gain[1];
-  }
-  return probes;
-}
-
-/// Mean square of what the angles' noise does to the accelerations, (rad/s²)².
-Eigen::ArrayXd mean_square_noise(const Probes& probes, const Eigen::RowVectorXd& angle_noise) {
-  return probes.gain.squaredNorm() / static_cast<double>(probes.gain.size()) *
-         angle_noise.array().square().transpose();
-}
-
-/// Mean square of what two windows' accelerations differ by, (rad/s²)².
-Eigen::ArrayXd mean_square_between(const Probes& one, const Probes& other) {
-  return (one.acceleration - other.acceleration).array().square().colwise().mean().transpose();
-}
-
-/// The part of that beyond their noise, whose variance is `scale` times as large as it was taken
-/// for.
-Eigen::ArrayXd cut_beyond(const Eigen::ArrayXd& differs, const Eigen::ArrayXd& gone,
-                          const Eigen::ArrayXd& scale) {
-  constexpr double kSlack = 1.2;  // of variances: probes tell them to a tenth
-  return (differs - kSlack * scale * gone).max(0);
-}
-
-/// The window whose noise and cut together are least, of mean squares.
-std::size_t best_of(Eigen::Index joint, const std::vector<Eigen::ArrayXd>& noise,
-                    const std::vector<Eigen::ArrayXd>& cut) {
-  constexpr double kMuchBetter = 0.5;  // of the mean square error of the shortest
-  std::size_t best = 0;
-  double least = kMuchBetter * noise[0][joint];
-  for (std::size_t k = 1; k < noise.size(); ++k) {
-    const double error = cut[k][joint] + noise[k][joint];
-    if (error < least) {
-      least = error;
-      best = k;
-    }
-  }
-  return best;
-}
-
-}  // namespace
-
 LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
-                         const Eigen::RowVectorXd& angle_noise, double half_window,
+                         const Eigen::RowVectorXd& angle_noise, const JointPolynomials& suited,
                          Eigen::Index row) {
-  const Window window = window_about(time, half_window, row);
-  if (half_window > kHalfWindows.front()) {  // noise rules
-    LocalMotion motion = differentiate(time, q, angle_noise, window, order_near_end(time, window));
+  Window window = window_about(time, suited.inner.half_window, row);
+  if (evenness(time, window) <= kHalf) {
+    window = window_about(time, suited.end.half_window, row);
+  }
+  LocalMotion motion =
+      differentiate(time, q, angle_noise, window, order_at(evenness(time, window), suited));
+  if (suited.inner.half_window > kHalfWindows.front()) {  // noise rules
     find_standing_in_noise(time, q, angle_noise, window, &motion);
-    return motion;
+  } else {
+    find_standing(time, q, angle_noise, window, &motion);
   }
-  LocalMotion motion = differentiate(time, q, angle_noise, window);
-  find_standing(time, q, angle_noise, window, &motion);
   return motion;
-}
-
-std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recording::Samples& q,
-                                      const Eigen::RowVectorXd& angle_noise) {
-  const Eigen::Index joints = q.cols();
-  std::vector<Probes> probes = {probe(time, q, kHalfWindows[0])};
-  std::vector<Eigen::ArrayXd> noise = {mean_square_noise(probes[0], angle_noise)};
-  std::vector<Eigen::ArrayXd> from_shortest = {Eigen::ArrayXd::Zero(joints)};
-  Eigen::ArrayXd scale = Eigen::ArrayXd::Constant(joints, kMostNoiseScale);
-  for (std::size_t k = 1; k < kHalfWindows.size(); ++k) {
-    probes.push_back(probe(time, q, kHalfWindows[k]));
-    noise.push_back(mean_square_noise(probes[k], angle_noise));
-    const Eigen::ArrayXd gone = (noise[0] - noise[k]).max(0);
-    from_shortest.push_back(mean_square_between(probes[k], probes[0]));
-    const Eigen::ArrayXd& differs = from_shortest[k];
-    scale = scale.min(
-        (gone > kEnoughGone * noise[0]).select((differs / gone.max(kTiny)).max(1), scale));
-    // A longer window cuts more still.
-    if ((differs > (2 * kMostNoiseScale + 1) * noise[0]).all()) {
-      break;
-    }
-  }
-  std::vector<Eigen::ArrayXd> cut(probes.size(), Eigen::ArrayXd::Zero(joints));
-  for (std::size_t k = 1; k < probes.size(); ++k) {
-    for (std::size_t shorter = 0; shorter < k; ++shorter) {
-      const Eigen::ArrayXd gone = (noise[shorter] - noise[k]).max(0);
-      const Eigen::ArrayXd differs =
-          shorter == 0 ? from_shortest[k] : mean_square_between(probes[k], probes[shorter]);
-      cut[k] = cut[k].max(cut_beyond(differs, gone, scale));
-    }
-  }
-  for (Eigen::ArrayXd& each : noise) {
-    each *= scale;
-  }
-  std::vector<std::size_t> best;
-  for (Eigen::Index joint = 0; joint < joints; ++joint) {
-    best.push_back(best_of(joint, noise, cut));
-  }
-  return best;
 }
 
 Eigen::VectorXd smoothed(const Eigen::VectorXd& time, const Eigen::VectorXd& values,

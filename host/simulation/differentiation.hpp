@@ -12,10 +12,14 @@ namespace flexcomp::simulation {
 
 /// Half of the time that a polynomial spans, s; the first is a little more than 16 ms, for times
 /// that are rounded. The others are for angles whose noise would drown the acceleration.
-constexpr std::array<double, 8> kHalfWindows = {0.0161, 0.025, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2};
+constexpr std::array<double, 11> kHalfWindows = {0.0161, 0.025, 0.035, 0.05, 0.07, 0.1,
+                                                 0.14,   0.2,   0.28,  0.4,  0.56};
 
 /// Order of the polynomials.
 constexpr int kPolynomialOrder = 5;
+
+/// Rows on either side that are enough for a polynomial's six numbers.
+constexpr Eigen::Index kFewestNeighbours = 3;
 
 /// So many numbers of every joint.
 template <typename Scalar, int Rows>
@@ -36,23 +40,48 @@ struct LocalMotion {
   Columns<int, 1> stands;
 };
 
-/// Motion at a row: polynomials of fifth order through the neighbours within half a window (s), at
-/// their true times (Savitzky and Golay 1964); without delay. `angle_noise` (rad) is of each joint.
-LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
-                         const Eigen::RowVectorXd& angle_noise, double half_window,
-                         Eigen::Index row);
+/// Rows from the first to the last through which a polynomial about one of them goes.
+struct Window {
+  Eigen::Index first, row, last;
+};
 
-/// Half windows of the joints' polynomials (indices of kHalfWindows) by which the accelerations are
-/// least wrong: a short one lets the angles' noise through, a long one cuts the motion's corners.
-///
-/// Both are measured. The noise of an acceleration is that of the angles times the polynomial's
-/// gain. What a window differs by from any shorter one beyond their noise is what it cuts (Lepski
-/// 1991; Goldenshluger and Lepski 2011): of nested least squares the variance of the difference is
-/// the difference of the variances. The shortest alone would not do, since its noise hides what
-/// the longer ones cut. Where all windows differ from the shortest by the same part of that
-/// variance, the noise is larger than it was taken for. The shortest is kept unless noise rules it.
-std::vector<std::size_t> best_windows(const Eigen::VectorXd& time, const recording::Samples& q,
-                                      const Eigen::RowVectorXd& angle_noise);
+/// Rows within half a window (s), and so many at least that a polynomial is held.
+Window window_about(const Eigen::VectorXd& time, double half_window, Eigen::Index row);
+
+/// Motion by polynomials of an order (kPolynomialOrder at most) through the rows of a window, at
+/// their true times (Savitzky and Golay 1964); without delay. `angle_noise` (rad) is of each joint.
+/// What one order more would change of the acceleration, beyond noise, is how far it may be wrong
+/// where the motion is too abrupt for the samples.
+LocalMotion differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
+                          const Eigen::RowVectorXd& angle_noise, const Window& window, int order);
+
+/// Polynomials of an order over half a window (s).
+struct Polynomials {
+  double half_window = kHalfWindows.front();
+  int order = kPolynomialOrder;
+
+  bool operator==(const Polynomials& other) const {
+    return half_window == other.half_window && order == other.order;
+  }
+};
+
+/// Polynomials that suit a joint: all along a recording, and at its ends, where a window has one
+/// side alone.
+struct JointPolynomials {
+  Polynomials inner, end;
+  /// Of the accelerations' noise all along, over that by independent readings of the angles.
+  double noise_scale = 1;
+
+  /// Are they the same polynomials?
+  bool operator==(const JointPolynomials& other) const {
+    return inner == other.inner && end == other.end;
+  }
+};
+
+/// Motion at a row of a recording, at its ends too.
+LocalMotion local_motion(const Eigen::VectorXd& time, const recording::Samples& q,
+                         const Eigen::RowVectorXd& angle_noise, const JointPolynomials& suited,
+                         Eigen::Index row);
 
 /// Values through the same polynomials: what of them is as slow as a motion that was differentiated
 /// over half a window (s). Rows as they are; three neighbours on either side at least.

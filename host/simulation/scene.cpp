@@ -14,7 +14,7 @@
 #include "model/chain.hpp"
 #include "recording/noise.hpp"
 #include "recording/sampling.hpp"
-#include "simulation/differentiation.hpp"
+#include "simulation/windows.hpp"
 #include "statistics/median.hpp"
 
 namespace flexcomp::simulation {
@@ -188,23 +188,24 @@ void differentiate(const Eigen::VectorXd& time, const recording::Samples& q,
   for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
     angle_noise[joint] = recording::encoder_noise(time, q.col(joint));
   }
-  const std::vector<std::size_t> windows = best_windows(time, q, angle_noise);
-  for (std::size_t window = 0; window < kHalfWindows.size(); ++window) {
-    if (std::find(windows.begin(), windows.end(), window) == windows.end()) {
-      continue;
+  const std::vector<JointPolynomials> suited = best_polynomials(time, q, angle_noise);
+  for (auto own = suited.begin(); own != suited.end(); ++own) {
+    if (std::find(suited.begin(), own, *own) != own) {
+      continue;  // with a joint before
     }
-    scene->half_window = std::max(scene->half_window, kHalfWindows[window]);
+    scene->half_window = std::max(scene->half_window, own->inner.half_window);
     for (Eigen::Index row = 0; row < scene->rows(); ++row) {
-      const LocalMotion motion = local_motion(time, q, angle_noise, kHalfWindows[window],
-                                              rows[static_cast<std::size_t>(row)]);
+      const LocalMotion motion =
+          local_motion(time, q, angle_noise, *own, rows[static_cast<std::size_t>(row)]);
       for (Eigen::Index joint = 0; joint < q.cols(); ++joint) {
-        if (windows[static_cast<std::size_t>(joint)] != window) {
+        if (!(suited[static_cast<std::size_t>(joint)] == *own)) {
           continue;
         }
         take(motion, joint, row, scene);
         if (row == scene->rows() / 2) {
           scene->velocity_noise[joint] = motion.gain[0] * angle_noise[joint];
-          scene->acceleration_noise[joint] = motion.gain[1] * angle_noise[joint];
+          scene->acceleration_noise[joint] = suited[static_cast<std::size_t>(joint)].noise_scale *
+                                             motion.gain[1] * angle_noise[joint];
         }
       }
     }

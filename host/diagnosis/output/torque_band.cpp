@@ -37,16 +37,27 @@ std::vector<Series> torques_of(const Observations& observations, const Eigen::Ve
   return all;
 }
 
+/// Does a scene's window hold so many samples that polynomials through them are smoother? Through
+/// few they pass whatever the samples hold.
+bool window_smooths(const Scene& scene) {
+  constexpr double kTwice = 2;  // samples for each coefficient
+  const double duration = scene.time[scene.rows() - 1] - scene.time[0];
+  const double in_window = 2 * scene.half_window * static_cast<double>(scene.rows()) / duration;
+  return in_window > kTwice * (simulation::kPolynomialOrder + 1);
+}
+
 }  // namespace
 
 std::optional<TorqueBand> torque_band(const Observations& observations) {
   TorqueBand band;
+  bool smooths = false;
   for (const Scene& scene : observations.scenes) {
     if (scene.has(simulation::joint_torque) && !scene.is_static) {
       band.half_window = std::max(band.half_window, scene.half_window);
+      smooths = smooths || window_smooths(scene);
     }
   }
-  if (band.half_window <= simulation::kHalfWindows.front()) {
+  if (!smooths) {
     return std::nullopt;
   }
   band.frequency = simulation::half_power_frequency(band.half_window);

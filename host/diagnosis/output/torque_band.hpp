@@ -18,8 +18,8 @@ struct TorqueBand {
   double frequency = 0;    ///< Hz, at which they pass half of the power
 };
 
-/// None where no torque was measured in motion, or where the angles are so exact that the shortest
-/// window served.
+/// None where no torque was measured in motion, or where windows hold so few samples that whatever
+/// these can show passes.
 std::optional<TorqueBand> torque_band(const Observations& observations);
 
 /// Root mean square (N·m) of joint torques, given over their noise, within the band: of the samples
