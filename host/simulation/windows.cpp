@@ -154,20 +154,20 @@ std::size_t best_of(Eigen::Index joint, const std::vector<Eigen::ArrayXd>& noise
 }
 
 /// Chooses the polynomials for the ends: those that err least where they are given one side of rows
-/// whose acceleration is known, by both sides. None is longer than those all along.
+/// whose acceleration is known, by both sides.
 void choose_ends(const Eigen::VectorXd& time, const recording::Samples& q,
                  const std::vector<Probes>& probes, const std::vector<std::size_t>& inner,
                  std::vector<JointPolynomials>* best) {
   constexpr int kOrders[] = {2, kPolynomialOrder};
   std::vector<double> least(inner.size(), kEndless);
-  for (std::size_t k = 0; k <= *std::max_element(inner.begin(), inner.end()); ++k) {
+  for (const double half_window : kHalfWindows) {
     for (const int order : kOrders) {
-      const Polynomials tried{kHalfWindows[k], order};
+      const Polynomials tried{half_window, order};
       const Probes at_end = probe(time, q, tried, one_side);
       for (std::size_t joint = 0; joint < inner.size(); ++joint) {
         const auto column = static_cast<Eigen::Index>(joint);
         const double error = mean_square_between(at_end, probes[inner[joint]])[column];
-        if (k <= inner[joint] && error < least[joint]) {
+        if (error < least[joint]) {
           least[joint] = error;
           (*best)[joint].end = tried;
         }
