@@ -96,23 +96,40 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
   diagnosis->reason = reason;
 }
 
-/// Does a form without physics, of no more parameters, account for more than findings do? Then what
-/// they have in common with the mismatch is no proof of them.
-bool is_outdone(const Observations& observations, const Fit& findings, const Proposal& rival) {
-  if (rival.terms.empty() || rival.fit.parameters() > findings.parameters()) {
-    return false;
-  }
-  const double samples = independent_samples(observations, rival.fit.remainder);
-  return bic_gain(samples, findings.train_sum, rival.fit.train_sum, 0) > kFarMoreEvidence;
+/// Does a form without physics, of no more numbers, account for more than findings do? Then what
+/// they have in common with the mismatch is no proof of them. `left`: the sum of squares that it
+/// leaves, of so many independent samples.
+bool is_outdone(const Fit& findings, std::size_t numbers, double left, double samples) {
+  return numbers <= findings.parameters() &&
+         bic_gain(samples, findings.train_sum, left, 0) > kFarMoreEvidence;
 }
 
-/// The same of a jump of the measured place.
 bool is_outdone(const Observations& observations, const Fit& findings, const Jump& rival) {
-  if (rival.numbers > findings.parameters()) {
-    return false;
+  return is_outdone(findings, rival.numbers, rival.left,
+                    independent_samples(observations, findings.remainder));
+}
+
+bool is_outdone(const Observations& observations, const Fit& findings, const Proposal& rival) {
+  return !rival.terms.empty() && is_outdone(findings, rival.fit.parameters(), rival.fit.train_sum,
+                                            independent_samples(observations, rival.fit.remainder));
+}
+
+/// Withdraws findings that a form without physics outdoes.
+void withdraw_outdone(const Observations& observations, Diagnosis* diagnosis) {
+  const Fit nothing = fit(observations, {}, 0);
+  const Jump jump = jump_of_place(observations, nothing);
+  if (is_outdone(observations, diagnosis->choice.fit, jump)) {
+    withdraw(
+        observations,
+        fmt::format("a jump of the measured place at {:.4g} s accounts for more of it", jump.time),
+        diagnosis);
+    return;
   }
-  const double samples = independent_samples(observations, findings.remainder);
-  return bic_gain(samples, findings.train_sum, rival.left, 0) > kFarMoreEvidence;
+  Proposal rival = propose(observations, nothing);
+  if (is_outdone(observations, diagnosis->choice.fit, rival)) {
+    withdraw(observations, "a form that no known effect has accounts for more of it", diagnosis);
+    diagnosis->proposal = std::move(rival.terms);
+  }
 }
 
 bool has_law(const Diagnosis& diagnosis) {
@@ -150,19 +167,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
     diagnosis->reason = more;
     // A law is such a form itself, with proof.
     if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
-      const Fit nothing = fit(observations, {}, 0);
-      const Jump jump = jump_of_place(observations, nothing);
-      Proposal rival = propose(observations, nothing);
-      if (is_outdone(observations, found, jump)) {
-        withdraw(observations,
-                 fmt::format("a jump of the measured place at {:.4g} s accounts for more of it",
-                             jump.time),
-                 diagnosis);
-      } else if (is_outdone(observations, found, rival)) {
-        withdraw(observations, "a form that no known effect has accounts for more of it",
-                 diagnosis);
-        diagnosis->proposal = std::move(rival.terms);
-      }
+      withdraw_outdone(observations, diagnosis);
     }
   }
 }

@@ -11,19 +11,18 @@ namespace {
 constexpr int kMoments = 40;      // of a recording at which a jump is tried: it tells one well
 constexpr double kAtOnce = 1e-6;  // s: time constant of what has grown whole in every row
 
-const Eigen::VectorXd& time_of(const Observations& observations, const Sample& sample) {
-  return observations.scenes[sample.scene].time;
+/// The moment (s) in a recording at a share of its length.
+double moment_of(const Scene& scene, double share) {
+  return scene.time[0] + share * (scene.time[scene.rows() - 1] - scene.time[0]);
 }
 
-/// The moment in each recording at a share of its length, and one where it is after that in each
-/// sample to fit to.
+/// One in each sample to fit to that is after the moment at a share of its recording, else zero.
 Eigen::VectorXd after(const Observations& observations, double share) {
   Eigen::VectorXd is_after(observations.train);
   for (Eigen::Index i = 0; i < observations.train; ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
-    const Eigen::VectorXd& time = time_of(observations, at);
-    const double moment = time[0] + share * (time[time.size() - 1] - time[0]);
-    is_after[i] = time[at.row] >= moment ? 1 : 0;
+    const Scene& scene = observations.scenes[at.scene];
+    is_after[i] = scene.time[at.row] >= moment_of(scene, share) ? 1 : 0;
   }
   return is_after;
 }
@@ -42,8 +41,7 @@ Jump best_jump(const Observations& observations, const Fit& beside, const Eigen:
     const Eigen::VectorXd size = columns.colPivHouseholderQr().solve(left);
     const double sum = (left - columns * size).squaredNorm();
     if (sum < best.left) {
-      const Eigen::VectorXd& time = observations.scenes.front().time;
-      best.time = time[0] + share * (time[time.size() - 1] - time[0]);
+      best.time = moment_of(observations.scenes.front(), share);
       best.left = sum;
     }
   }

@@ -6,7 +6,7 @@ namespace flexcomp::diagnosis {
 
 /// A jump at one moment, as of a tracker whose tripod was bumped.
 struct Jump {
-  double time = 0;          ///< s, of its recording
+  double time = 0;          ///< s, of the first recording
   double left = 0;          ///< sum of squares that it leaves, as Fit::train_sum
   std::size_t numbers = 0;  ///< of it: its size in each direction, and its moment
 };

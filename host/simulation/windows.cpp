@@ -95,21 +95,31 @@ std::vector<Probes> probes_of(const Eigen::VectorXd& time, const recording::Samp
   return all;
 }
 
+/// Mean squares of what the windows from one on differ from it by, the first of them zero.
+std::vector<Eigen::ArrayXd> differences_from(const std::vector<Probes>& probes,
+                                             std::size_t window) {
+  std::vector<Eigen::ArrayXd> all;
+  for (std::size_t longer = window; longer < probes.size(); ++longer) {
+    all.push_back(mean_square_between(probes[longer], probes[window]));
+  }
+  return all;
+}
+
 /// How much larger a window's noise is, as a variance, than independent readings would make it: an
 /// encoder's counts follow one another. Of the windows that have hardly any of the noise, the one
 /// that differs least tells it, since what that one cuts can only add. All of them may cut: then it
 /// is hardly more than `last`, that of the shorter window before. The longest windows tell nothing,
 /// and have that of the last.
-Eigen::ArrayXd noise_scale(const std::vector<Probes>& probes,
+Eigen::ArrayXd noise_scale(const std::vector<Eigen::ArrayXd>& differs,
                            const std::vector<Eigen::ArrayXd>& noise, std::size_t window,
                            const Eigen::ArrayXd& last) {
   constexpr double kNearlyAll = 0.9;  // of the noise's variance, that is gone
   constexpr double kHardlyMore = 1.5;
   Eigen::ArrayXd told = Eigen::ArrayXd::Constant(last.size(), kEndless);
-  for (std::size_t longer = window + 1; longer < probes.size(); ++longer) {
+  for (std::size_t longer = window + 1; longer < noise.size(); ++longer) {
     const Eigen::ArrayXd gone = noise[window] - noise[longer];
     if ((gone > kNearlyAll * noise[window]).all()) {
-      told = told.min(mean_square_between(probes[longer], probes[window]) / gone);
+      told = told.min(differs[longer - window] / gone);
     }
   }
   return (told < kEndless).select(told.min(kHardlyMore * last), last);
@@ -191,10 +201,11 @@ std::vector<JointPolynomials> best_polynomials(const Eigen::VectorXd& time,
   std::vector<Eigen::ArrayXd> scales;
   Eigen::ArrayXd scale = Eigen::ArrayXd::Constant(q.cols(), kMostNoiseScale);
   for (std::size_t shorter = 0; shorter < probes.size(); ++shorter) {
-    scale = noise_scale(probes, noise, shorter, scale);
+    const std::vector<Eigen::ArrayXd> all = differences_from(probes, shorter);
+    scale = noise_scale(all, noise, shorter, scale);
     const double chance = chance_of(probes[shorter], duration, kHalfWindows[shorter]);
     for (std::size_t k = shorter + 1; k < probes.size(); ++k) {
-      const Eigen::ArrayXd differs = mean_square_between(probes[k], probes[shorter]);
+      const Eigen::ArrayXd& differs = all[k - shorter];
       const Eigen::ArrayXd gone = scale * (noise[shorter] - noise[k]).max(0);
       cut[k] = (differs > chance * gone).select(cut[k].max(differs - gone), cut[k]);
     }
