@@ -34,7 +34,7 @@ recording::Recording expected(const model::Robot& robot, const recording::Record
   simulation::Preparation preparation;
   const simulation::Scene scene = simulation::prepare(recording, recording.size(), &preparation);
   const simulation::Prediction prediction =
-      simulation::predict(effects::machine_of(robot, {scene}), {scene}).front();
+      simulation::predict(effects::machine_of(robot, {scene}), scene).front();
   recording::Recording shown;
   shown.time = recording.time;
   std::array<recording::Samples, 3> values;

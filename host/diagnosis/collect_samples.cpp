@@ -108,6 +108,7 @@ void Observations::collect(std::size_t holdouts) {
     }
   }
   train = static_cast<Eigen::Index>(parts[0].size());
+  train_scenes = scenes.size() - holdouts;
   samples = parts[0];
   samples.insert(samples.end(), parts[1].begin(), parts[1].end());
   noise.resize(static_cast<Eigen::Index>(samples.size()));

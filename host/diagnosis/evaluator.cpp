@@ -10,7 +10,10 @@ namespace flexcomp::diagnosis {
 
 Evaluator::Evaluator(const Observations& observations, std::vector<Chosen> chosen,
                      const Dictionary* dictionary)
-    : observations_(observations), chosen_(std::move(chosen)), dictionary_(dictionary) {
+    : observations_(observations),
+      chosen_(std::move(chosen)),
+      dictionary_(dictionary),
+      train_scenes_(observations.train_scenes) {
   for (const Chosen& each : chosen_) {
     const bool alters = each.hypothesis.traits().alters_model;
     const bool is_linear = each.hypothesis.linear == each.hypothesis.parameters.size() &&
@@ -67,6 +70,15 @@ void Evaluator::set(const Values& all) {
   }
 }
 
+void Evaluator::keep_within_bounds() {
+  for (Chosen& each : chosen_) {
+    for (std::size_t i = 0; i < each.values.size(); ++i) {
+      const Parameter& bounds = each.hypothesis.parameters[i];
+      each.values[i] = std::clamp(each.values[i], bounds.lower, bounds.upper);
+    }
+  }
+}
+
 void Evaluator::halve_amplitudes() {
   for (Chosen& each : chosen_) {
     for (std::size_t i = 0; i < each.hypothesis.linear; ++i) {
@@ -88,14 +100,15 @@ bool Evaluator::alters_any() const {
 
 /// Rigid-body torques of a machine near which derivatives are wanted; most parameters leave them as
 /// they are.
-const std::vector<simulation::RigidTorque>& Evaluator::rigid_torques(const Machine& machine) {
+const std::vector<simulation::RigidTorque>& Evaluator::rigid_torques(const Scenes& scenes,
+                                                                     const Machine& machine) {
   const std::vector<simulation::RigidTorque>& known = observations_.rigid;
   if (known.empty() || !alters_any() || known.front().holds_for(machine)) {
     return known;
   }
   // A step that is taken is evaluated once for its remainder, and again for its derivative.
-  if (rigid_.empty() || !rigid_.front().holds_for(machine)) {
-    rigid_ = simulation::rigid_torques(machine, observations_.scenes);
+  if (rigid_.size() < scenes.size() || !rigid_.front().holds_for(machine)) {
+    rigid_ = simulation::rigid_torques(machine, scenes);
   }
   return rigid_;
 }
@@ -113,58 +126,71 @@ Values Evaluator::altering() const {
 
 /// Of the machine at the present values. The last are kept: a step that is taken is evaluated once
 /// for its remainder, and again for its derivative.
-const std::vector<Simulation>& Evaluator::simulations(const Machine& machine) {
+const std::vector<Simulation>& Evaluator::simulations(const Scenes& scenes,
+                                                      const Machine& machine) {
   if (!alters_any()) {
     return observations_.simulations;
   }
   const Values here = altering();
-  if (simulations_.empty() || here != simulated_at_) {
-    simulations_ = simulate_scenes(machine, rigid_torques(machine),
-                                   simulations_.empty() ? observations_.simulations : simulations_);
+  const bool has_all = simulations_.size() >= scenes.size();
+  if (!has_all || here != simulated_at_) {
+    simulations_ = simulate_scenes(scenes, machine, rigid_torques(scenes, machine),
+                                   has_all ? simulations_ : observations_.simulations);
     simulated_at_ = here;
   }
   return simulations_;
 }
 
 std::vector<Simulation> Evaluator::simulate_scenes(
-    const Machine& machine, const std::vector<simulation::RigidTorque>& rigid,
+    const Scenes& scenes, const Machine& machine, const std::vector<simulation::RigidTorque>& rigid,
     const std::vector<Simulation>& near) const {
-  return simulate(machine, observations_.scenes, rigid, simulation::Levers::of_terms, near);
+  return simulate(machine, scenes, rigid, simulation::Levers::of_terms, near);
 }
 
-Eigen::VectorXd Evaluator::prediction(const Machine& machine,
+Eigen::VectorXd Evaluator::prediction(const Scenes& scenes, const Machine& machine,
                                       const std::vector<Simulation>& simulations) const {
-  return observations_.stacked(with_terms(machine.terms, observations_.scenes, simulations));
+  return observations_.stacked(with_terms(machine.terms, scenes, simulations));
 }
 
 /// The prediction with one parameter a step further, from simulations without the step.
-Eigen::VectorXd Evaluator::stepped(const Values& values, std::size_t index, double step,
-                                   const std::vector<Simulation>& simulations,
+Eigen::VectorXd Evaluator::stepped(const Scenes& scenes, const Values& values, std::size_t index,
+                                   double step, const std::vector<Simulation>& simulations,
                                    const std::vector<simulation::RigidTorque>& rigid) const {
   Evaluator moved(observations_, chosen_, nullptr);
   Values other = values;
   other[index] += step;
   moved.set(other);
   const Machine changed = machine_with(observations_, moved.chosen_);
-  return alters_[index] ? prediction(changed, moved.simulate_scenes(changed, rigid, simulations))
-                        : prediction(changed, simulations);
+  return alters_[index] ? prediction(scenes, changed,
+                                     moved.simulate_scenes(scenes, changed, rigid, simulations))
+                        : prediction(scenes, changed, simulations);
+}
+
+Eigen::VectorXd Evaluator::evaluate_to_fit(const Values& values, Eigen::MatrixXd* derivative) {
+  return evaluate_in({observations_.scenes, train_scenes_}, values, derivative);
 }
 
 Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* derivative) {
+  return evaluate_in(observations_.scenes, values, derivative);
+}
+
+Eigen::VectorXd Evaluator::evaluate_in(const Scenes& scenes, const Values& values,
+                                       Eigen::MatrixXd* derivative) {
   set(values);
   const Machine machine = machine_with(observations_, chosen_);
-  const std::vector<Simulation>& at = simulations(machine);
-  Eigen::VectorXd base = prediction(machine, at);
+  const std::vector<Simulation>& at = simulations(scenes, machine);
+  Eigen::VectorXd base = prediction(scenes, machine, at);
   if (derivative == nullptr) {
     return base;
   }
-  const std::vector<simulation::RigidTorque>& rigid = rigid_torques(machine);
+  const std::vector<simulation::RigidTorque>& rigid = rigid_torques(scenes, machine);
   derivative->resize(base.size(), static_cast<Eigen::Index>(size()));
   in_parallel(
       size(), [](std::size_t, std::size_t) {},
       [&](std::size_t i) {
         if (known_[i] >= 0) {
-          derivative->col(static_cast<Eigen::Index>(i)) = dictionary_->columns.col(known_[i]);
+          derivative->col(static_cast<Eigen::Index>(i)) =
+              dictionary_->columns.col(known_[i]).head(base.size());
           return;
         }
         const Parameter& bounds = parameter(i);
@@ -174,10 +200,10 @@ Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* deriv
         }
         Eigen::VectorXd other;
         try {
-          other = stepped(values, i, step, at, rigid);
+          other = stepped(scenes, values, i, step, at, rigid);
         } catch (const InputError&) {
           step = -step;  // a spring that may get no softer may get stiffer
-          other = stepped(values, i, step, at, rigid);
+          other = stepped(scenes, values, i, step, at, rigid);
         }
         derivative->col(static_cast<Eigen::Index>(i)) = (other - base) / step;
       });

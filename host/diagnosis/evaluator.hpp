@@ -27,34 +27,44 @@ class Evaluator {
   const std::vector<Chosen>& chosen() const { return chosen_; }
   Values values() const;
   void set(const Values& all);
+  /// Moves what is beyond a parameter's bounds to them.
+  void keep_within_bounds();
+  /// Simulates also scenes that are held out whole, when the samples to fit to are wanted.
+  void simulate_all() { train_scenes_ = observations_.scenes.size(); }
   /// Halves what acts in proportion.
   void halve_amplitudes();
 
   Bodies bodies() const { return Bodies(observations_, chosen_); }
   /// The robot with the chosen hypotheses at other values.
   model::Robot robot_with(const Values& values) const;
-  /// Sets the values. Stacked prediction, and its derivative where wanted. Throws InputError where
-  /// the machine has no rest.
+  /// Sets the values. Stacked prediction of the samples to fit to, and its derivative where wanted.
+  /// Throws InputError where the machine has no rest.
+  Eigen::VectorXd evaluate_to_fit(const Values& values, Eigen::MatrixXd* derivative);
+  /// The same of all samples.
   Eigen::VectorXd evaluate(const Values& values, Eigen::MatrixXd* derivative);
 
  private:
+  Eigen::VectorXd evaluate_in(const Scenes& scenes, const Values& values,
+                              Eigen::MatrixXd* derivative);
   bool alters_any() const;
-  const std::vector<simulation::RigidTorque>& rigid_torques(const Machine& machine);
+  const std::vector<simulation::RigidTorque>& rigid_torques(const Scenes& scenes,
+                                                            const Machine& machine);
   Values altering() const;
-  const std::vector<Simulation>& simulations(const Machine& machine);
-  std::vector<Simulation> simulate_scenes(const Machine& machine,
+  const std::vector<Simulation>& simulations(const Scenes& scenes, const Machine& machine);
+  std::vector<Simulation> simulate_scenes(const Scenes& scenes, const Machine& machine,
                                           const std::vector<simulation::RigidTorque>& rigid,
                                           const std::vector<Simulation>& near) const;
   /// Stacked prediction of a machine that was simulated so.
-  Eigen::VectorXd prediction(const Machine& machine,
+  Eigen::VectorXd prediction(const Scenes& scenes, const Machine& machine,
                              const std::vector<Simulation>& simulations) const;
-  Eigen::VectorXd stepped(const Values& values, std::size_t index, double step,
-                          const std::vector<Simulation>& simulations,
+  Eigen::VectorXd stepped(const Scenes& scenes, const Values& values, std::size_t index,
+                          double step, const std::vector<Simulation>& simulations,
                           const std::vector<simulation::RigidTorque>& rigid) const;
 
   const Observations& observations_;
   std::vector<Chosen> chosen_;
   const Dictionary* dictionary_;
+  std::size_t train_scenes_;  ///< to simulate for the samples to fit to
   std::vector<bool> alters_;
   std::vector<Eigen::Index> known_;             ///< column of the dictionary, or −1
   std::vector<simulation::RigidTorque> rigid_;  ///< of the machine evaluated last

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "diagnosis/covariance.hpp"
 #include "diagnosis/held_remainder.hpp"
@@ -33,7 +34,7 @@ class WeightedRemainder : public HeldRemainder {
     const Eigen::Index n = measured_.size();
     Eigen::VectorXd predicted;
     try {
-      predicted = evaluator_->evaluate(values, slope);
+      predicted = evaluator_->evaluate_to_fit(values, slope);
     } catch (const InputError&) {
       return false;  // springs so soft that there is no rest
     }
@@ -65,12 +66,12 @@ Eigen::VectorXd predicted_at_rest(Evaluator* evaluator) {
   constexpr int kHalvings = 20;  // to a millionth
   for (int i = 0; i < kHalvings; ++i) {
     try {
-      return evaluator->evaluate(evaluator->values(), nullptr);
+      return evaluator->evaluate_to_fit(evaluator->values(), nullptr);
     } catch (const InputError&) {
       evaluator->halve_amplitudes();
     }
   }
-  return evaluator->evaluate(evaluator->values(), nullptr);
+  return evaluator->evaluate_to_fit(evaluator->values(), nullptr);
 }
 
 /// Parameters that act in steps, like the drag that holds a flank, have no derivative: values
@@ -81,7 +82,7 @@ bool scan_steps(const Eigen::VectorXd& measured, Evaluator* evaluator) {
   constexpr double kSame = 1e-9;    // of the sum of squares: rounding
   const Eigen::Index n = measured.size();
   Eigen::MatrixXd derivative;
-  evaluator->evaluate(evaluator->values(), &derivative);
+  evaluator->evaluate_to_fit(evaluator->values(), &derivative);
   bool changed = false;
   for (std::size_t i = 0; i < evaluator->size(); ++i) {
     if (derivative.col(static_cast<Eigen::Index>(i)).head(n).norm() > 0) {
@@ -100,7 +101,7 @@ bool scan_steps(const Eigen::VectorXd& measured, Evaluator* evaluator) {
       if (tried[i] < bounds.lower || tried[i] > bounds.upper) {
         continue;
       }
-      const Eigen::VectorXd left = measured - evaluator->evaluate(tried, nullptr).head(n);
+      const Eigen::VectorXd left = measured - evaluator->evaluate_to_fit(tried, nullptr).head(n);
       const double sum = huber_weights(left).dot(left.cwiseAbs2());
       if (sum < least * (1 - kSame)) {
         least = sum;
@@ -116,6 +117,48 @@ bool scan_steps(const Eigen::VectorXd& measured, Evaluator* evaluator) {
     evaluator->set(moved);
   }
   return changed;
+}
+
+/// Moves the values to those of the least weighted remainder in the samples to fit to.
+void move_to_least(const Eigen::VectorXd& to_fit, int most_steps, bool scans,
+                   Evaluator* evaluator) {
+  const Eigen::VectorXd first = predicted_at_rest(evaluator);
+  const Eigen::VectorXd weight = huber_weights(to_fit - first.head(to_fit.size()));
+  solve(to_fit, weight, most_steps, evaluator);
+  if (scans && scan_steps(to_fit, evaluator)) {
+    solve(to_fit, weight, most_steps, evaluator);
+  }
+}
+
+/// The prediction of all samples at the values; none where there is no rest, or a formula has no
+/// value, in what was held out.
+std::optional<Eigen::VectorXd> predicted_everywhere(Evaluator* evaluator,
+                                                    Eigen::MatrixXd* derivative) {
+  try {
+    Eigen::VectorXd predicted = evaluator->evaluate(evaluator->values(), derivative);
+    return predicted.allFinite() ? std::make_optional(std::move(predicted)) : std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// Fits, and predicts all samples. Scenes that are held out whole are simulated at the end only,
+/// or all along where the values must be others for their sake.
+Eigen::VectorXd fit_and_predict(const Eigen::VectorXd& to_fit, int most_steps, bool scans,
+                                Evaluator* evaluator, Eigen::MatrixXd* derivative) {
+  const Values begin = evaluator->values();
+  if (most_steps > 0) {
+    move_to_least(to_fit, most_steps, scans, evaluator);
+  } else {
+    evaluator->keep_within_bounds();
+  }
+  if (auto predicted = predicted_everywhere(evaluator, derivative)) {
+    return *predicted;
+  }
+  evaluator->set(begin);
+  evaluator->simulate_all();
+  move_to_least(to_fit, most_steps, scans, evaluator);
+  return evaluator->evaluate(evaluator->values(), derivative);
 }
 
 std::vector<effects::Placed> placed_of(const std::vector<Chosen>& chosen) {
@@ -186,14 +229,9 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
   Eigen::VectorXd predicted = base;
   result.derivative.resize(base.size(), 0);
   if (evaluator.size() > 0) {
-    const Eigen::VectorXd to_fit = measured.head(n);
-    const Eigen::VectorXd first = predicted_at_rest(&evaluator);
-    const Eigen::VectorXd weight = huber_weights(to_fit - first.head(n));
-    solve(to_fit, weight, most_steps, &evaluator);
-    if (dictionary == nullptr && most_steps > 0 && scan_steps(to_fit, &evaluator)) {
-      solve(to_fit, weight, most_steps, &evaluator);
-    }
-    predicted = evaluator.evaluate(evaluator.values(), &result.derivative);
+    const bool scans = dictionary == nullptr && most_steps > 0;
+    predicted =
+        fit_and_predict(measured.head(n), most_steps, scans, &evaluator, &result.derivative);
   }
   result.chosen = evaluator.chosen();
   result.machine = machine_with(observations, result.chosen);

@@ -102,10 +102,10 @@ void minimise(HeldRemainder* cost, const Steps& steps, Evaluator* evaluator) {
   ceres::Solve(options, &problem, &summary);
   Values values(scaled.size());
   for (std::size_t i = 0; i < scaled.size(); ++i) {
-    const Parameter& bounds = evaluator->parameter(i);
-    values[i] = std::clamp(scaled[i] * bounds.step, bounds.lower, bounds.upper);
+    values[i] = scaled[i] * evaluator->parameter(i).step;
   }
   evaluator->set(values);
+  evaluator->keep_within_bounds();
 }
 
 }  // namespace flexcomp::diagnosis

@@ -164,8 +164,8 @@ bool Observations::spans_workspace() const {
 }
 
 Eigen::VectorXd Observations::stacked(const std::vector<Prediction>& values) const {
-  Eigen::VectorXd column(noise.size());
-  for (Eigen::Index i = 0; i < noise.size(); ++i) {
+  Eigen::VectorXd column(values.size() < scenes.size() ? train : noise.size());
+  for (Eigen::Index i = 0; i < column.size(); ++i) {
     const Sample& at = samples[static_cast<std::size_t>(i)];
     column[i] = values[at.scene].channel[at.channel](at.row, at.component) / noise[i];
   }

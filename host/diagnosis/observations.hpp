@@ -12,6 +12,7 @@ using simulation::Channel;
 using simulation::Machine;
 using simulation::Prediction;
 using simulation::Scene;
+using simulation::Scenes;
 using simulation::Simulation;
 
 /// One scalar that was measured: a component of a channel in a row of a scene.
@@ -60,7 +61,8 @@ class Observations {
   /// Measured samples: those to fit to, then those held out; within each part samples of one
   /// component follow in time.
   std::vector<Sample> samples;
-  Eigen::Index train = 0;  ///< how many of the samples are there to fit to
+  Eigen::Index train = 0;        ///< how many of the samples are there to fit to
+  std::size_t train_scenes = 0;  ///< how many of the scenes these are in
   /// Standard deviation of each sample, SI: of its measurement, and of what no model here explains
   /// where that was added.
   Eigen::VectorXd noise;
@@ -90,7 +92,7 @@ class Observations {
   /// imitate whatever is smooth.
   bool spans_workspace() const;
 
-  /// Predictions as one column over the noise.
+  /// Predictions as one column over the noise: of all scenes, or of those to fit to.
   Eigen::VectorXd stacked(const std::vector<Prediction>& values) const;
   /// Residual of other predictions, over the noise.
   Eigen::VectorXd residual_of(const std::vector<Prediction>& values) const;

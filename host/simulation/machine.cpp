@@ -188,7 +188,7 @@ RigidTorque::RigidTorque(const Machine& machine, const Scene& scene)
   }
 }
 
-std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector<Scene>& scenes) {
+std::vector<RigidTorque> rigid_torques(const Machine& machine, const Scenes& scenes) {
   std::vector<RigidTorque> rigid;
   if (std::none_of(scenes.begin(), scenes.end(), [](const Scene& scene) {
         return scene.has(joint_torque) || scene.has(joint_deflection);
@@ -280,7 +280,7 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
   return prediction;
 }
 
-std::vector<Prediction> with_terms(const std::vector<Term>& terms, const std::vector<Scene>& scenes,
+std::vector<Prediction> with_terms(const std::vector<Term>& terms, const Scenes& scenes,
                                    const std::vector<Simulation>& simulations) {
   std::vector<Prediction> predictions;
   predictions.reserve(scenes.size());
@@ -290,7 +290,7 @@ std::vector<Prediction> with_terms(const std::vector<Term>& terms, const std::ve
   return predictions;
 }
 
-std::vector<Simulation> simulate(const Machine& machine, const std::vector<Scene>& scenes,
+std::vector<Simulation> simulate(const Machine& machine, const Scenes& scenes,
                                  const std::vector<RigidTorque>& rigid, Levers levers,
                                  const std::vector<Simulation>& near) {
   std::vector<Simulation> simulations;
@@ -302,7 +302,7 @@ std::vector<Simulation> simulate(const Machine& machine, const std::vector<Scene
   return simulations;
 }
 
-std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
+std::vector<Prediction> predict(const Machine& machine, const Scenes& scenes,
                                 const std::vector<RigidTorque>& rigid,
                                 const std::vector<Simulation>& near) {
   std::vector<Prediction> predictions;

@@ -81,7 +81,7 @@ class RigidTorque {
 
 /// The rigid-body torques of each scene; none where no scene shows torques or deflections of
 /// joints.
-std::vector<RigidTorque> rigid_torques(const Machine& machine, const std::vector<Scene>& scenes);
+std::vector<RigidTorque> rigid_torques(const Machine& machine, const Scenes& scenes);
 
 /// Which channels to simulate; levers and springs are kept only with `levers`.
 struct Wanted {
@@ -103,22 +103,22 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
                       const Simulation& simulation);
 
 /// Predictions of the simulations of scenes, each with the terms added.
-std::vector<Prediction> with_terms(const std::vector<Term>& terms, const std::vector<Scene>& scenes,
+std::vector<Prediction> with_terms(const std::vector<Term>& terms, const Scenes& scenes,
                                    const std::vector<Simulation>& simulations);
 
 /// Levers that simulations of scenes keep: all, or only those that the machine's terms need to move
 /// a TCP or a wrench.
 enum class Levers { all, of_terms };
 
-/// Simulates scenes without the machine's terms. `rigid` and `near`: of these scenes, or none, as
-/// in Wanted.
-std::vector<Simulation> simulate(const Machine& machine, const std::vector<Scene>& scenes,
+/// Simulates scenes without the machine's terms. `rigid` and `near`: of these scenes and perhaps
+/// others behind them, or none, as in Wanted.
+std::vector<Simulation> simulate(const Machine& machine, const Scenes& scenes,
                                  const std::vector<RigidTorque>& rigid, Levers levers,
                                  const std::vector<Simulation>& near = {});
 
 /// Predictions of a machine for scenes, with its terms; `rigid` and `near` as above. Keeps no
 /// simulation.
-std::vector<Prediction> predict(const Machine& machine, const std::vector<Scene>& scenes,
+std::vector<Prediction> predict(const Machine& machine, const Scenes& scenes,
                                 const std::vector<RigidTorque>& rigid = {},
                                 const std::vector<Simulation>& near = {});
 

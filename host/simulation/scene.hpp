@@ -50,6 +50,23 @@ struct Scene {
   bool has(Channel channel) const { return measured[channel].cols() > 0; }
 };
 
+/// A scene, or the first ones of a vector, that outlives this view of it.
+class Scenes {
+ public:
+  Scenes(const Scene& one) : first_(&one), count_(1) {}
+  Scenes(const std::vector<Scene>& all) : Scenes(all, all.size()) {}
+  Scenes(const std::vector<Scene>& all, std::size_t count) : first_(all.data()), count_(count) {}
+
+  std::size_t size() const { return count_; }
+  const Scene& operator[](std::size_t index) const { return first_[index]; }
+  const Scene* begin() const { return first_; }
+  const Scene* end() const { return first_ + count_; }
+
+ private:
+  const Scene* first_;
+  std::size_t count_;
+};
+
 /// Steps that made a recording usable.
 struct Preparation {
   Eigen::Index rows = 0;        ///< in the file
