@@ -92,6 +92,8 @@ class Observations {
   /// imitate whatever is smooth.
   bool spans_workspace() const;
 
+  /// The scenes with samples to fit to.
+  Scenes scenes_to_fit() const { return {scenes, train_scenes}; }
   /// Predictions as one column over the noise: of all scenes, or of those to fit to.
   Eigen::VectorXd stacked(const std::vector<Prediction>& values) const;
   /// Residual of other predictions, over the noise.

@@ -59,30 +59,43 @@ std::vector<Chosen> kept_of(const Inquiry& inquiry, const Fit& found) {
   return kept;
 }
 
+/// How numbers came to be fitted together, so that the same way can be gone over another noise.
+struct Way {
+  bool is_alone = true;        ///< without the findings that were made one by one
+  bool is_beside = true;       ///< beside those that are no numbers
+  std::vector<Chosen> extras;  ///< coupled drives and late clocks that stayed
+};
+
 /// The numbers of a machine together, in the place of those that were found one by one: beside the
 /// other findings, or without them where that predicts as well. Nothing where single numbers
-/// predict better.
-Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothesis>& hypotheses) {
+/// predict better. Tries the ways given, and gives the one that was best.
+Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothesis>& hypotheses,
+             Way* way) {
   const Observations& observations = inquiry.observations;
   const std::vector<Chosen> kept = kept_of(inquiry, found);
   const bool keeps_any = kept.size() > inquiry.given.chosen.size();
-  Fit best;
-  Fit beside;
+  Families alone;
+  Families beside;
   in_parallel(
-      keeps_any ? 2 : 1, [](std::size_t, std::size_t) {},
+      2, [](std::size_t, std::size_t) {},
       [&](std::size_t i) {
-        if (i == 0) {
-          best = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary);
-        } else {
+        if (i == 0 && (way->is_alone || !keeps_any)) {
+          alone = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary,
+                               way->extras);
+        } else if (i == 1 && way->is_beside && keeps_any) {
           const Fit rest = fit(observations, kept, kSteps, &inquiry.dictionary);
-          beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary);
+          beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary, way->extras);
         }
       });
-  if (keeps_any && (best.chosen.empty() ||
-                    (!beside.chosen.empty() && predicts_better(observations, best, beside)))) {
-    best = std::move(beside);
+  const bool is_beside =
+      !beside.fit.chosen.empty() &&
+      (alone.fit.chosen.empty() || predicts_better(observations, alone.fit, beside.fit));
+  Families& best = is_beside ? beside : alone;
+  if (best.fit.chosen.empty() || predicts_better(observations, best.fit, found)) {
+    return {};
   }
-  return best.chosen.empty() || predicts_better(observations, best, found) ? Fit{} : best;
+  *way = {!is_beside, is_beside, std::move(best.extras)};
+  return std::move(best.fit);
 }
 
 }  // namespace
@@ -104,14 +117,14 @@ Dictionary over_noise(Dictionary dictionary, const Eigen::VectorXd& factors, Eig
   return dictionary;
 }
 
-void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses, Way* way,
               Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
   const Dictionary& dictionary = inquiry.dictionary;
   const bool is_begun = !diagnosis->choice.begun.chosen.empty();
   const Fit& found = is_begun ? diagnosis->choice.begun : diagnosis->choice.fit;
   if (is_begun || are_many(inquiry, found)) {
-    take_members(inquiry, together(inquiry, found, hypotheses), 0, diagnosis);
+    take_members(inquiry, together(inquiry, found, hypotheses, way), 0, diagnosis);
   }
   if (diagnosis->is_weighed_whole || diagnosis->verdict == Verdict::explained) {
     return;
@@ -120,7 +133,7 @@ void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   diagnosis->retuned = retune(observations, diagnosis->choice.fit, hypotheses, dictionary);
   take_members(inquiry, Fit(diagnosis->retuned), findings, diagnosis);
   if (findings > 0) {
-    const Fit afresh = retune_whole(observations, inquiry.given, hypotheses, dictionary);
+    const Fit afresh = retune_whole(observations, inquiry.given, hypotheses, dictionary).fit;
     if (!afresh.chosen.empty() && predicts_better(observations, diagnosis->updated(), afresh)) {
       take_members(inquiry, afresh, diagnosis->choice.findings.size(), diagnosis);
     }
@@ -129,7 +142,7 @@ void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
 
 /// Refits where what is left of each component counts for noise: `factors` times its noise.
 Diagnosis refit_over(const Eigen::VectorXd& factors, const Inquiry& inquiry,
-                     const std::vector<Hypothesis>& hypotheses, Diagnosis diagnosis) {
+                     const std::vector<Hypothesis>& hypotheses, Way* way, Diagnosis diagnosis) {
   const Eigen::Index train = inquiry.observations.train;
   Observations doubtful = inquiry.observations;
   doubtful.add_model_error(factors);
@@ -142,7 +155,7 @@ Diagnosis refit_over(const Eigen::VectorXd& factors, const Inquiry& inquiry,
   };
   convert(factors, &diagnosis.choice.fit);
   convert(factors, &diagnosis.choice.begun);
-  refit_in({doubtful, dictionary, inquiry.false_discovery, given}, hypotheses, &diagnosis);
+  refit_in({doubtful, dictionary, inquiry.false_discovery, given}, hypotheses, way, &diagnosis);
   const Eigen::VectorXd back = factors.cwiseInverse();
   convert(back, &diagnosis.choice.fit);
   convert(back, &diagnosis.choice.begun);
@@ -161,12 +174,13 @@ void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
            Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
   const Eigen::VectorXd expected = least_model_error(inquiry, hypotheses);
-  Diagnosis first = refit_over(expected, inquiry, hypotheses, *diagnosis);
+  Way way;
+  Diagnosis first = refit_over(expected, inquiry, hypotheses, &way, *diagnosis);
   const Eigen::VectorXd found =
       model_error(observations, first.updated().remainder.head(observations.train));
   // A coupled drive or a delay is no number, so that less is left than was thought.
   if (first.verdict != Verdict::explained && (found.array() < kMuchLess * expected.array()).any()) {
-    Diagnosis second = refit_over(found, inquiry, hypotheses, *diagnosis);
+    Diagnosis second = refit_over(found, inquiry, hypotheses, &way, *diagnosis);
     if (!predicts_better(observations, second.updated(), first.updated())) {
       first = std::move(second);
     }

@@ -105,7 +105,7 @@ Fit retune(const Observations& observations, const Fit& findings,
         if (i == 0) {
           numbers = fit_model_numbers(observations, findings, hypotheses, dictionary);
         } else {
-          families = fit_families(observations, findings, hypotheses, dictionary);
+          families = fit_families(observations, findings, hypotheses, dictionary).fit;
         }
       });
   // Nothing holds these to the model: large changes that cancel each other imitate what is not
@@ -121,10 +121,11 @@ Fit retune(const Observations& observations, const Fit& findings,
   return best;
 }
 
-Fit retune_whole(const Observations& observations, const Fit& given,
-                 const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  Fit families = fit_families(observations, given, hypotheses, dictionary);
-  return stands(observations, given, families) ? families : Fit{};
+Families retune_whole(const Observations& observations, const Fit& given,
+                      const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary,
+                      const std::vector<Chosen>& known) {
+  Families families = fit_families(observations, given, hypotheses, dictionary, known);
+  return stands(observations, given, families.fit) ? families : Families{};
 }
 
 }  // namespace flexcomp::diagnosis

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "diagnosis/dictionary.hpp"
+#include "diagnosis/families/families.hpp"
 #include "diagnosis/fit.hpp"
 
 namespace flexcomp::diagnosis {
@@ -18,7 +19,9 @@ Fit retune(const Observations& observations, const Fit& findings,
            const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
 
 /// Whole families alone beside the `given` fit; nothing chosen unless they stand as above.
-Fit retune_whole(const Observations& observations, const Fit& given,
-                 const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary);
+/// `known`: coupled drives and late clocks to begin with.
+Families retune_whole(const Observations& observations, const Fit& given,
+                      const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary,
+                      const std::vector<Chosen>& known = {});
 
 }  // namespace flexcomp::diagnosis

@@ -32,7 +32,7 @@ const DrivenRobot& robot() {
 Fit fitted(const Observations& observations) {
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
-  return fit_families(observations, fit(observations, {}, 0), hypotheses, dictionary);
+  return fit_families(observations, fit(observations, {}, 0), hypotheses, dictionary).fit;
 }
 
 void friction_of_all_joints_is_told_and_nothing_else_beside_it() {

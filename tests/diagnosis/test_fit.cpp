@@ -193,6 +193,39 @@ void a_parameter_counts_by_what_the_samples_tell_of_it() {
                             told_parameters(inverse_of(derivative, weight, held), held));
 }
 
+/// The TCP is off along x. In the scene that is held out, only a small shift has a prediction.
+void a_fit_has_a_prediction_where_it_is_checked_as_well() {
+  constexpr double kTrue = 3e-3;  // m
+  constexpr double kMost = 2e-3;  // m, in the other scene
+  flexcomp::effects::Law law;
+  law.traits.linear_in = 1;
+  law.parameters = [](const flexcomp::model::Robot&, int) {
+    return std::vector<flexcomp::effects::Parameter>{{"shift", "m"}};
+  };
+  law.apply = [](const Values& values, int, Machine* machine) {
+    const double shift = values[0];
+    machine->terms.push_back(
+        {flexcomp::simulation::Term::instrument,
+         [shift](const Scene& scene, const Simulation&, Prediction* prediction) {
+           const double bounded = scene.file == "other" ? 0 * std::sqrt(kMost - shift) : 0;
+           prediction->channel[flexcomp::simulation::tcp_position].col(0).array() +=
+               shift + bounded;
+         }});
+  };
+  const SwingingRobot swinging(1);
+  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(swinging.rows(), 3);
+  error.col(0).setConstant(kTrue);
+  std::vector<Scene> scenes = {swinging.observed(error).scenes.front(),
+                               swinging.observed(error).scenes.front()};
+  scenes.back().file = "other";
+  const Observations observations(flexcomp::effects::machine_of(swinging.robot, scenes), scenes, 1);
+  Hypothesis hypothesis(std::make_shared<const flexcomp::effects::Law>(law), 0, swinging.robot);
+  hypothesis.set_bounds({{-1, 1, 1e-3}});
+  const Fit found = fit(observations, {{hypothesis, {1e-3}}}, 12);
+  TEST_ASSERT_TRUE(found.remainder.allFinite());
+  TEST_ASSERT_TRUE(found.chosen[0].values[0] >= 1e-3 && found.chosen[0].values[0] <= kMost);
+}
+
 Hypothesis of_two(double lower) {
   Hypothesis hypothesis(made_up({{"a", "1"}, {"b", "1"}}, 2), 0, {});
   hypothesis.set_bounds({{lower, 10, 1e-3}, {lower, 10, 1e-3}});
@@ -227,6 +260,7 @@ int main() {
   RUN_TEST(intervals_hold_where_errors_hang_together);
   RUN_TEST(intervals_hold_where_what_is_left_belongs_to_the_posture);
   RUN_TEST(a_fit_begins_where_the_robot_comes_to_rest);
+  RUN_TEST(a_fit_has_a_prediction_where_it_is_checked_as_well);
   RUN_TEST(the_shape_of_what_cannot_be_told_from_nothing_is_unknown);
   RUN_TEST(no_number_is_told_better_than_laws_are_exact);
   RUN_TEST(a_finding_is_summed_up_by_the_numbers_that_are_told_from_nothing);

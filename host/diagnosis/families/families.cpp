@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/candidates.hpp"
 #include "diagnosis/families/elimination.hpp"
+#include "diagnosis/families/extras.hpp"
 #include "diagnosis/families/latecomers.hpp"
 #include "diagnosis/families/possible_bodies.hpp"
 #include "diagnosis/families/regression.hpp"
@@ -15,144 +17,13 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr int kHoldingRounds = 4;         // of holding closer, before a body is left out after all
-constexpr int kPossibleRounds = 8;        // without what cannot be, others may become impossible
-constexpr int kRoundsAnew = 2;            // of choosing the numbers about those that were fitted
-constexpr Bounds kCouplings{-3, 3, 0.1};  // turns of a motor a turn of the joint before its own
-constexpr double kLeastCoupling = 0.2;    // turns: below it friction of another form is imitated
-constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
-                              0.003, 0.006, 0.012,  0.02,   0.03};
-constexpr double kHopeless = 1.1;  // of the held-out error, that choosing anew does not make up for
+constexpr int kHoldingRounds = 4;   // of holding closer, before a body is left out after all
+constexpr int kPossibleRounds = 8;  // without what cannot be, others may become impossible
+constexpr int kRoundsAnew = 2;      // of choosing the numbers about those that were fitted
 constexpr double kClearlyBetter =
     0.97;                            // of the held-out error, that bodies which cannot be are worth
 constexpr int kExtraSteps = 0;       // before the numbers are beside them
 constexpr double kLeastGain = 0.01;  // of the sum of squares, that a coupling is worth trying for
-
-/// Physics that is far from linear, so that it must be there before the numbers are fitted.
-struct Extra {
-  Chosen chosen;
-  double gain = 0;  ///< fall of the sum of squares, to first order
-};
-
-/// A fit, and what of its machine's torques stays when a drive or a clock is changed.
-struct Known {
-  const Observations& observations;
-  const Fit& fit;
-  std::vector<simulation::RigidTorque> rigid;
-};
-
-/// Change of a fit's prediction by a machine, in the samples to fit to.
-Eigen::VectorXd change_by(const Known& known, const Machine& machine) {
-  const Observations& observations = known.observations;
-  return known.fit.remainder.head(observations.train) -
-         (observations.residual + observations.stacked(observations.predictions) -
-          observations.stacked(
-              predict(machine, observations.scenes, known.rigid, observations.simulations)))
-             .head(observations.train);
-}
-
-/// A drive that turns with the joint before its own, by one turn or against it, its friction and
-/// rotor as they are.
-void propose_coupling(const Known& known, const effects::LawPointer& law, int joint,
-                      std::vector<Extra>* all) {
-  const auto left = known.fit.remainder.head(known.observations.train);
-  Hypothesis hypothesis(law, joint, known.observations.machine.robot);
-  hypothesis.set_bounds({kCouplings});
-  for (const double ratio : {1.0, -1.0}) {
-    Machine coupled = known.fit.machine;
-    hypothesis.apply({ratio}, &coupled);
-    const Eigen::VectorXd change = change_by(known, coupled);
-    const double product = change.dot(left);
-    const double gain = product > 0 ? product * product / change.squaredNorm() : 0;
-    all->push_back({{hypothesis, {ratio}}, gain});
-  }
-}
-
-void propose_couplings(const Known& known, std::vector<Extra>* all) {
-  const model::Robot& robot = known.fit.machine.robot;
-  for (const effects::Effect& effect : effects::catalogue()) {
-    for (const effects::LawPointer& law : effect.forms) {
-      if (!law->traits.couples_drives) {
-        continue;
-      }
-      for (const int joint : law->joints(robot.joints())) {
-        if (robot.transmission(joint - 1, joint - 2) == 0) {
-          propose_coupling(known, law, joint, all);
-        }
-      }
-    }
-  }
-}
-
-/// Torques whose clock is late or early.
-void propose_clocks(const Known& known, const std::vector<Hypothesis>& hypotheses,
-                    std::vector<Extra>* all) {
-  const auto left = known.fit.remainder.head(known.observations.train);
-  for (const Hypothesis& hypothesis : hypotheses) {
-    if (!hypothesis.traits().is_clock || hypothesis.linear > 0 ||
-        hypothesis.traits().alters_model || is_chosen(known.fit.chosen, hypothesis)) {
-      continue;
-    }
-    Extra best{{hypothesis, {}}, 0};
-    for (const double delay : kDelays) {
-      Machine late = known.fit.machine;
-      hypothesis.apply({delay}, &late);
-      const double gain = left.squaredNorm() - (left - change_by(known, late)).squaredNorm();
-      if (gain > best.gain) {
-        best = {{hypothesis, {delay}}, gain};
-      }
-    }
-    if (best.gain > 0) {
-      all->push_back(best);
-    }
-  }
-}
-
-std::vector<Extra> propose_extras(const Observations& observations, const Fit& fit,
-                                  const std::vector<Hypothesis>& hypotheses) {
-  const Known known{observations, fit, simulation::rigid_torques(fit.machine, observations.scenes)};
-  std::vector<Extra> all;
-  propose_couplings(known, &all);
-  propose_clocks(known, hypotheses, &all);
-  std::sort(all.begin(), all.end(), [](const Extra& a, const Extra& b) { return a.gain > b.gain; });
-  return all;
-}
-
-/// Is an extra, as fitted, one that can be, and no mere touch of it?
-bool is_real(const Observations& observations, const Fit& fit, std::size_t index) {
-  const Chosen& extra = fit.chosen[index];
-  return why_impossible(observations, fit, index).empty() &&
-         (extra.hypothesis.traits().is_clock || std::abs(extra.values.front()) > kLeastCoupling);
-}
-
-/// The dictionary with the numbers of a coupled drive as they act through its coupling.
-Dictionary with_coupled_drive(const Observations& observations, const Dictionary& dictionary,
-                              const Chosen& coupling) {
-  Dictionary coupled = dictionary;
-  Machine machine = observations.machine;
-  coupling.hypothesis.apply(coupling.values, &machine);
-  const Eigen::VectorXd base = observations.stacked(
-      predict(machine, observations.scenes, observations.rigid, observations.simulations));
-  for (const Entry& entry : coupled.entries) {
-    const Hypothesis& hypothesis = coupled.hypotheses[entry.hypothesis];
-    if (hypothesis.joint != coupling.hypothesis.joint || !hypothesis.traits().is_in_family) {
-      continue;
-    }
-    for (Eigen::Index i = 0; i < entry.count; ++i) {
-      const auto parameter = static_cast<std::size_t>(i);
-      Values values(hypothesis.parameters.size(), 0.0);
-      values[parameter] = hypothesis.parameters[parameter].step;
-      Machine changed = machine;
-      hypothesis.apply(values, &changed);
-      coupled.columns.col(entry.first + i) =
-          (observations.stacked(predict(changed, observations.scenes, observations.rigid,
-                                        observations.simulations)) -
-           base) /
-          values[parameter];
-    }
-  }
-  return coupled;
-}
 
 /// The fit with its numbers held as what it leaves asks for. Their tolerances are scaled to what a
 /// linear choice of them left, which is more where gains multiply and motors are coupled.
@@ -300,44 +171,111 @@ Fit fit_beside(const Observations& observations, const Fit& findings,
                 findings.chosen.size(), dictionary);
 }
 
-}  // namespace
+/// The families beside findings and extras, as far as the search for extras has come.
+struct Progress {
+  std::vector<Chosen> given;  ///< findings, and behind them extras
+  Dictionary dictionary;      ///< with the numbers as they act beside the extras
+  Fit best;
+};
 
-Fit fit_families(const Observations& observations, const Fit& findings,
-                 const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  Fit best = refined(observations, fit_beside(observations, findings, hypotheses, dictionary),
-                     findings.chosen.size(), hypotheses);
-  if (!observations.has(simulation::joint_torque)) {
-    return best;
+/// The families fitted beside extras as well.
+Progress with_extras(const Observations& observations, Progress progress,
+                     const std::vector<Chosen>& extras, const std::vector<Hypothesis>& hypotheses) {
+  for (const Chosen& extra : extras) {
+    progress.given.push_back(extra);
+    if (!extra.hypothesis.traits().is_clock) {
+      progress.dictionary = with_coupled_drive(observations, progress.dictionary, extra);
+    }
   }
-  std::vector<Chosen> given = findings.chosen;
-  Dictionary current = dictionary;
+  const Fit start = fit(observations, progress.given, kExtraSteps, &progress.dictionary);
+  progress.best = fit_beside(observations, start, hypotheses, progress.dictionary);
+  return progress;
+}
+
+/// Adds one extra after another, as long as there is strong evidence for it. Gives the one that
+/// was refused in the end; one that was `refused` before is not tried again.
+std::optional<Hypothesis> add_extras(const Observations& observations,
+                                     const std::vector<Hypothesis>& hypotheses,
+                                     const std::optional<Hypothesis>& refused, Progress* progress) {
   while (true) {
+    const Fit& best = progress->best;
     const std::vector<Extra> extras = propose_extras(observations, best, hypotheses);
     if (extras.empty() || extras.front().gain < kLeastGain * best.train_sum) {
-      break;
+      return std::nullopt;
     }
-    std::vector<Chosen> more = given;
-    more.push_back(extras.front().chosen);
-    Dictionary next_dictionary = more.back().hypothesis.traits().is_clock
-                                     ? current
-                                     : with_coupled_drive(observations, current, more.back());
-    Fit next = fit_beside(observations, fit(observations, more, kExtraSteps, &next_dictionary),
-                          hypotheses, next_dictionary);
-    if (held_out_torque(observations, next) > kHopeless * held_out_torque(observations, best)) {
-      break;
+    const Chosen& first = extras.front().chosen;
+    if (refused && are_the_same(first.hypothesis, *refused)) {
+      return refused;
     }
-    next = refined(observations, std::move(next), more.size(), hypotheses);
-    if (!(bic_gain(observations, best, next) > kStrongEvidence) ||
-        !predicts_better(observations, best, next) ||
-        !is_real(observations, next, more.size() - 1)) {
-      break;
+    Progress next = with_extras(observations, *progress, {first}, hypotheses);
+    if (!(bic_gain(observations, best, next.best) > kStrongEvidence) ||
+        !predicts_better(observations, best, next.best) ||
+        !is_real(observations, next.best, next.given.size() - 1)) {
+      return first.hypothesis;
     }
-    best = std::move(next);
-    given = std::move(more);
-    current = std::move(next_dictionary);
+    *progress = std::move(next);
   }
-  best = joined(observations, std::move(best), given.size(), dictionary);
-  return or_regression(observations, std::move(best), given.size(), hypotheses, current);
+}
+
+void settle_numbers(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+                    Progress* progress) {
+  progress->best =
+      refined(observations, std::move(progress->best), progress->given.size(), hypotheses);
+}
+
+/// Adds extras, and settles the numbers beside them. What the numbers leave before they are settled
+/// may hide an extra, or imitate one, so that the search goes on afterwards if it was refused one.
+void settle_with_extras(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
+                        Progress* progress) {
+  const auto refused = add_extras(observations, hypotheses, std::nullopt, progress);
+  settle_numbers(observations, hypotheses, progress);
+  const std::size_t extras = progress->given.size();
+  if (refused) {
+    add_extras(observations, hypotheses, refused, progress);
+  }
+  if (progress->given.size() > extras) {
+    settle_numbers(observations, hypotheses, progress);
+  }
+}
+
+/// Where the search for extras begins: from those that were known, if all are real.
+Progress begin(const Observations& observations, const Fit& findings,
+               const std::vector<Chosen>& known, const std::vector<Hypothesis>& hypotheses,
+               const Dictionary& dictionary) {
+  const Progress none{findings.chosen, dictionary, {}};
+  if (!known.empty()) {
+    Progress progress = with_extras(observations, none, known, hypotheses);
+    bool are_real = true;
+    for (std::size_t i = findings.chosen.size(); i < progress.given.size(); ++i) {
+      are_real = are_real && is_real(observations, progress.best, i);
+    }
+    if (are_real) {
+      return progress;
+    }
+  }
+  return {none.given, dictionary, fit_beside(observations, findings, hypotheses, dictionary)};
+}
+
+}  // namespace
+
+Families fit_families(const Observations& observations, const Fit& findings,
+                      const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary,
+                      const std::vector<Chosen>& known) {
+  Progress progress = begin(observations, findings, known, hypotheses, dictionary);
+  if (observations.has(simulation::joint_torque)) {
+    settle_with_extras(observations, hypotheses, &progress);
+    Fit best = joined(observations, std::move(progress.best), progress.given.size(), dictionary);
+    progress.best = or_regression(observations, std::move(best), progress.given.size(), hypotheses,
+                                  progress.dictionary);
+  } else {
+    settle_numbers(observations, hypotheses, &progress);
+  }
+  const std::size_t given = progress.given.size();
+  Families families{std::move(progress.best), {}};
+  const std::vector<Chosen>& chosen = families.fit.chosen;
+  families.extras.assign(chosen.begin() + static_cast<std::ptrdiff_t>(findings.chosen.size()),
+                         chosen.begin() + static_cast<std::ptrdiff_t>(given));
+  return families;
 }
 
 }  // namespace flexcomp::diagnosis
