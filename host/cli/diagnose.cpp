@@ -18,6 +18,7 @@
 #include "cli/output_folder.hpp"
 #include "cli/progress.hpp"
 #include "cli/robot_choice.hpp"
+#include "cli/stage_line.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/output/json.hpp"
 #include "diagnosis/output/report.hpp"
@@ -222,6 +223,17 @@ void keep_freed_memory() {
 #endif
 }
 
+/// Diagnoses, and shows how far it is.
+diagnosis::Diagnosis diagnosed(const std::vector<diagnosis::Hypothesis>& hypotheses,
+                               diagnosis::Settings settings,
+                               diagnosis::Observations* observations) {
+  Progress simulating("simulating hypotheses", hypotheses.size());
+  StageLine choosing;
+  settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };
+  settings.choosing = [&](const std::string& stage) { choosing.begin(stage); };
+  return diagnosis::diagnose(observations, hypotheses, settings);
+}
+
 int run(const DiagnoseOptions& options) {
   keep_freed_memory();
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
@@ -247,17 +259,13 @@ int run(const DiagnoseOptions& options) {
   for (const std::string& file : options.laws) {
     hypotheses.push_back(diagnosis::read_tried_law(file, observations));
   }
-  Progress simulating("simulating hypotheses", hypotheses.size());
-  Progress choosing("choosing", 5);
   diagnosis::Settings settings;
   settings.false_discovery = options.false_discovery;
   settings.law_seconds = options.law_seconds;
   if (!settings.law_seconds && !is_in_order(origin.checks)) {
     settings.law_seconds = 0;
   }
-  settings.simulating = [&](std::size_t done, std::size_t) { simulating.show(done); };
-  settings.choosing = [&](std::size_t done, std::size_t) { choosing.show(done); };
-  const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
+  const diagnosis::Diagnosis result = diagnosed(hypotheses, settings, &observations);
   // All of it is made before any of it is written, and written whole or not at all.
   const std::string json = diagnosis::to_json(observations, result, origin.checks).dump(2) + "\n";
   const std::string html = diagnosis::to_html(observations, result, origin);

@@ -289,7 +289,7 @@ Basis basis_of(Observations* observations, const std::vector<Hypothesis>& hypoth
 
 /// Fits anew where the findings leave something, or are many.
 void refit_open(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
-                Diagnosis* diagnosis) {
+                const TellStage& tell, Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
   const bool leaves_something = is_open(*diagnosis);
   if (!leaves_something && !are_many(inquiry, diagnosis->choice.fit)) {
@@ -298,7 +298,7 @@ void refit_open(const Inquiry& inquiry, const std::vector<Hypothesis>& hypothese
   if (leaves_something && diagnosis->proposal.empty()) {
     diagnosis->proposal = propose(observations, diagnosis->choice.fit).terms;
   }
-  refit(inquiry, hypotheses, diagnosis);
+  refit(inquiry, hypotheses, tell, diagnosis);
   diagnosis->left = locate(observations, diagnosis->choice.fit.remainder);
 }
 
@@ -368,7 +368,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     diagnosis.indistinguishable.clear();
     settle(inquiry, settings, &diagnosis);
   }
-  refit_open(inquiry, hypotheses, &diagnosis);
+  refit_open(inquiry, hypotheses, settings.choosing, &diagnosis);
   if (!settings.law_seconds && diagnosis.verdict == Verdict::unexplained) {
     seek_laws_last(inquiry, settings, &diagnosis);
   }

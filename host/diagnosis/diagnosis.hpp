@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,8 +63,8 @@ struct Settings {
   /// Processor time (s) in which laws are composed (grammar/laws.hpp): beside what was found and in
   /// its place; none are for 0. Where it is not given, they are where nothing was found.
   std::optional<double> law_seconds;
-  Tell simulating;  ///< told while hypotheses are simulated
-  Tell choosing;    ///< told while they are chosen
+  std::function<void(std::size_t done, std::size_t count)> simulating;  ///< told of hypotheses
+  TellStage choosing;  ///< told what is done with them
 };
 
 /// Diagnoses what was observed by the hypotheses of `all_hypotheses`. The noise of a load test is

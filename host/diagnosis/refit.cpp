@@ -170,8 +170,9 @@ Diagnosis refit_over(const Eigen::VectorXd& factors, const Inquiry& inquiry,
 
 }  // namespace
 
-void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
+void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses, const TellStage& tell,
            Diagnosis* diagnosis) {
+  tell("fitting the machine's numbers together");
   const Observations& observations = inquiry.observations;
   const Eigen::VectorXd expected = least_model_error(inquiry, hypotheses);
   Way way;
@@ -180,6 +181,7 @@ void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
       model_error(observations, first.updated().remainder.head(observations.train));
   // A coupled drive or a delay is no number, so that less is left than was thought.
   if (first.verdict != Verdict::explained && (found.array() < kMuchLess * expected.array()).any()) {
+    tell("fitting the machine's numbers again, over what they left");
     Diagnosis second = refit_over(found, inquiry, hypotheses, &way, *diagnosis);
     if (!predicts_better(observations, second.updated(), first.updated())) {
       first = std::move(second);

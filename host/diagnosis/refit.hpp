@@ -11,6 +11,7 @@ bool are_many(const Inquiry& inquiry, const Fit& found);
 /// Fits a machine's numbers together. If many were found one by one, they take the place of those.
 /// If few were, or too few stand then, they are fitted beside the findings, and once more without
 /// them. Numbers that stand become findings, the others stand in for what is left.
-void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses, Diagnosis* diagnosis);
+void refit(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses, const TellStage& tell,
+           Diagnosis* diagnosis);
 
 }  // namespace flexcomp::diagnosis

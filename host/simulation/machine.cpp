@@ -62,16 +62,14 @@ Row balance(const Machine& machine, const Row& q) {
   return torque;
 }
 
-/// A torque in parallel to a linear spring winds it up like a motor that stands elsewhere.
 Equilibrium settle_balanced(const Machine& machine, const Row& q, const Wrench<double>& wrench,
-                            const Row& compliance, Springs* springs) {
+                            Springs* springs) {
   constexpr double kTolerance = 1e-10;  // rad, m: far below what any sensor sees
-  Equilibrium equilibrium = settle_from(machine.robot.elastic, q, wrench, kTolerance, springs);
-  for (int round = 0; round < 2 && !machine.balancers.empty(); ++round) {
-    const Row shift = compliance.cwiseProduct(balance(machine, equilibrium.q_link));
-    equilibrium = settle_from(machine.robot.elastic, q + shift, wrench, kTolerance, springs);
+  Balance balancers;
+  if (!machine.balancers.empty()) {
+    balancers = [&machine](const Row& q_link) { return balance(machine, q_link); };
   }
-  return equilibrium;
+  return settle_from(machine.robot.elastic, q, wrench, kTolerance, springs, balancers);
 }
 
 /// Where the robot rests, with its levers; `springs`: what they gave in a state nearby, and give in
@@ -80,8 +78,7 @@ void rest(const Machine& machine, const Scene& scene, bool levers, Eigen::Index 
           Springs* springs, Simulation* at) {
   const Chain& elastic = machine.robot.elastic;
   const Wrench<double> wrench = at->wrench.row(row).transpose();
-  const Equilibrium equilibrium =
-      settle_balanced(machine, row_of(at->q, row), wrench, at->joint_compliance, springs);
+  const Equilibrium equilibrium = settle_balanced(machine, row_of(at->q, row), wrench, springs);
   if (scene.has(tcp_position)) {
     at->prediction.channel[tcp_position].row(row) = equilibrium.tcp.position.transpose();
   }

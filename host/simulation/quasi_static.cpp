@@ -58,7 +58,9 @@ struct Load {
   }
 };
 
-Springs load_springs(const Chain& chain, const BentChain& bent, const Wrench<double>& wrench) {
+/// `held`: torques on the joints' springs, in parallel to the drives.
+Springs load_springs(const Chain& chain, const BentChain& bent, const Wrench<double>& wrench,
+                     const JointValues& held) {
   Springs springs(chain);
   const Vector3<double> force = wrench.head<3>();
   Load load{force, wrench.tail<3>() + bent.tcp.position.cross(force)};
@@ -78,10 +80,10 @@ Springs load_springs(const Chain& chain, const BentChain& bent, const Wrench<dou
       springs.link[i] = joint.link_compliance.cwiseProduct(load.at(bent.stiff[i]));
     }
     const Pose<double>& frame = bent.stiff[i];
-    const double torque = joint_load(joint, frame.rotation * joint.axis, load.force,
-                                     load.moment - frame.position.cross(load.force));
-    springs.windup[static_cast<Eigen::Index>(i)] =
-        (joint.compliance + joint.cubic_compliance * torque * torque) * torque;
+    const auto at = static_cast<Eigen::Index>(i);
+    const double torque = held[at] + joint_load(joint, frame.rotation * joint.axis, load.force,
+                                                load.moment - frame.position.cross(load.force));
+    springs.windup[at] = (joint.compliance + joint.cubic_compliance * torque * torque) * torque;
   }
   springs.base = chain.base_compliance.cwiseProduct(load.at(Pose<double>{}));
   return springs;
@@ -106,11 +108,14 @@ Equilibrium settle(const Chain& chain, const JointValues& q_motor, const Wrench<
 }
 
 Equilibrium settle_from(const Chain& chain, const JointValues& q_motor,
-                        const Wrench<double>& wrench, double tolerance, Springs* springs) {
+                        const Wrench<double>& wrench, double tolerance, Springs* springs,
+                        const Balance& balance) {
   constexpr int kMaxRounds = 200;
   for (int round = 0; round < kMaxRounds; ++round) {
     const BentChain bent = bend(chain, q_motor, *springs);
-    const Springs next = load_springs(chain, bent, wrench);
+    const JointValues held =
+        balance ? balance(q_motor + springs->windup) : JointValues::Zero(q_motor.size());
+    const Springs next = load_springs(chain, bent, wrench, held);
     const double change = largest_change(*springs, next);
     *springs = next;
     if (change <= tolerance) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "model/chain_kinematics.hpp"
 
 namespace flexcomp::simulation {
@@ -33,10 +35,14 @@ struct Equilibrium {
 Equilibrium settle(const model::Chain& chain, const JointValues& q_motor,
                    const Wrench<double>& wrench, double tolerance = 1e-13);
 
+/// Torques (N·m) in parallel to the drives, on the joints' springs, by the links' angles.
+using Balance = std::function<JointValues(const JointValues& q_link)>;
+
 /// The equilibrium, sought from what the springs gave in a state nearby, like the one before.
-/// `springs` holds what they give in this one afterwards.
+/// `springs` holds what they give in this one afterwards. `balance` may be left out.
 Equilibrium settle_from(const model::Chain& chain, const JointValues& q_motor,
-                        const Wrench<double>& wrench, double tolerance, Springs* springs);
+                        const Wrench<double>& wrench, double tolerance, Springs* springs,
+                        const Balance& balance = {});
 
 /// A chain, or a model of the core, with all of its springs `factor` times as soft.
 template <typename Model>

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import pty
 import random
 import re
 import subprocess
@@ -22,6 +23,14 @@ TOO_SLOW = "motions take minutes in the sanitized build; the release build runs 
 
 def run(*arguments):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def read_screen(screen):
+    """What comes next; nothing at the end, when nobody has the terminal open any more."""
+    try:
+        return os.read(screen, 4096)
+    except OSError:
+        return b""
 
 
 def load_test(folder, poses, seed):
@@ -480,6 +489,23 @@ class Diagnose(unittest.TestCase):
         self.assertEqual(found["verdict"], "no_mismatch")
         self.assertEqual(found["findings"], [])
         self.assertTrue(math.isclose(found["noise_floor_rms"]["tcp_position"], NOISE, rel_tol=0.3))
+
+    def test_a_terminal_shows_what_is_done_and_a_clean_line_afterwards(self):
+        true = self.changed_model("joint_a2: {compliance: 0.29e-6}", "joint_a2: {compliance: 0.40e-6}")
+        recording = measured(self.folder, true, seed=1)
+        arguments = ["diagnose", "--model", ROBOT, "--recording", recording, "--out", self.out]
+        screen, terminal = pty.openpty()
+        with subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=terminal, stderr=terminal):
+            os.close(terminal)
+            shown = b""
+            while chunk := read_screen(screen):
+                shown += chunk
+        os.close(screen)
+        work, _, answer = shown.decode().rpartition("\r\033[K")
+        self.assertIn("choosing causes, 1 so far, 0 s", work)
+        self.assertNotIn("choosing", answer)
+        self.assertIn("explained", answer)
+        self.assertEqual(run(*arguments).stderr, "")  # which is no terminal
 
     def test_too_few_samples_are_said_to_be_too_few(self):
         found = self.diagnosis(measured(self.folder, ROBOT, seed=3, poses=4))

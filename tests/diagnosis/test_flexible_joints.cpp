@@ -105,7 +105,7 @@ void the_vibration_of_a_flexible_joint_is_found_at_its_joint_with_its_frequency(
   const auto hypotheses = diagnosis::all_hypotheses(observations);
   diagnosis::Settings settings;
   settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](std::size_t, std::size_t) {};
+  settings.choosing = [](const std::string&) {};
   const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
   const nlohmann::ordered_json json = diagnosis::to_json(observations, result);
   TEST_ASSERT_FALSE(json.at("findings").empty());

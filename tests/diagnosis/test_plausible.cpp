@@ -90,7 +90,8 @@ recording::Recording random_recording(const model::Robot& robot, unsigned seed) 
 Settings quiet() {
   Settings settings;
   settings.law_seconds = 0;
-  settings.simulating = settings.choosing = [](std::size_t, std::size_t) {};
+  settings.simulating = [](std::size_t, std::size_t) {};
+  settings.choosing = [](const std::string&) {};
   return settings;
 }
 

@@ -149,7 +149,8 @@ void friction_everywhere_and_a_coupled_drive_are_found_together() {
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
   diagnosis::Settings settings;
   settings.law_seconds = 0;
-  settings.simulating = settings.choosing = [](std::size_t, std::size_t) {};
+  settings.simulating = [](std::size_t, std::size_t) {};
+  settings.choosing = [](const std::string&) {};
   const diagnosis::Diagnosis found = diagnose(&observations, hypotheses, settings);
   std::set<int> with_friction;
   bool is_coupled = false;

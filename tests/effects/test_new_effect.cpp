@@ -18,7 +18,7 @@ void a_new_effect_is_found_named_and_learnt() {
   const std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
   diagnosis::Settings settings;
   settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = settings.simulating;
+  settings.choosing = [](const std::string&) {};
   const diagnosis::Diagnosis found = diagnosis::diagnose(&observations, hypotheses, settings);
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
   const nlohmann::ordered_json first = to_json(observations, found).at("findings").at(0);

@@ -48,28 +48,62 @@ void the_equilibrium_approaches_the_linear_prediction_quadratically() {
   TEST_ASSERT_TRUE(ratio > 3.5 && ratio < 4.5);
 }
 
-/// The state is a minimum of potential energy: springs and load. A joint spring alone, so that the
-/// energy is easily written down.
-void the_equilibrium_has_the_least_energy() {
-  const auto model = kr270<double>();
-  const Angles q = loop_angles<double>(0.4);
-  const Wrench<double> wrench = milling_wrench(1);
-  const Vector3<double> force = wrench.head<3>();
-  Wrench<double> pure = Wrench<double>::Zero();
-  pure.head<3>() = force;
-  const Angles settled = settle(model, q, pure).q_link - q;
-  const auto energy = [&](const Angles& windup) {
-    double sum = -force.dot(forward_kinematics<double, 6>(model, q + windup).tcp.position);
+/// A robot on joint springs alone, so that its energy is easily written down, pulled by a force.
+struct Pulled {
+  RobotModel<double, 6> model = kr270<double>();
+  Angles q = loop_angles<double>(0.4);
+  Wrench<double> wrench = Wrench<double>::Zero();
+
+  Pulled() { wrench.head<3>() = milling_wrench(1).head<3>(); }
+
+  double energy(const Angles& windup) const {
+    double sum =
+        -wrench.head<3>().dot(forward_kinematics<double, 6>(model, q + windup).tcp.position);
     for (std::size_t i = 0; i < 6; ++i) {
       sum += std::pow(windup[static_cast<Eigen::Index>(i)], 2) / (2 * model.joints[i].compliance);
     }
     return sum;
-  };
+  }
+};
+
+template <typename Energy>
+void assert_least(const Energy& energy, const Angles& windup) {
   for (Eigen::Index joint = 0; joint < 6; ++joint) {
     for (const double step : {-1e-5, 1e-5}) {
-      TEST_ASSERT_TRUE(energy(settled + step * Angles::Unit(joint)) > energy(settled));
+      TEST_ASSERT_TRUE(energy(windup + step * Angles::Unit(joint)) > energy(windup));
     }
   }
+}
+
+/// The state is a minimum of potential energy: springs and load.
+void the_equilibrium_has_the_least_energy() {
+  const Pulled robot;
+  const Angles windup = settle(robot.model, robot.q, robot.wrench).q_link - robot.q;
+  assert_least([&](const Angles& other) { return robot.energy(other); }, windup);
+}
+
+/// So it is with a spring from the base to a link beside the drive's own.
+void the_equilibrium_with_a_balancer_has_the_least_energy() {
+  constexpr Eigen::Index kJoint = 1;
+  constexpr double kRate = 3e5;    // N·m/rad
+  constexpr double kRelaxed = -1;  // rad
+  const Pulled robot;
+  const model::Chain chain = model::chain_of(robot.model);
+  simulation::Springs springs(chain);
+  const auto balance = [&](const model::JointValues& q_link) {
+    model::JointValues torque = model::JointValues::Zero(6);
+    torque[kJoint] = -kRate * (q_link[kJoint] - kRelaxed);
+    return torque;
+  };
+  const Angles windup =
+      simulation::settle_from(chain, robot.q, robot.wrench, 1e-13, &springs, balance).q_link -
+      robot.q;
+  assert_least(
+      [&](const Angles& other) {
+        return robot.energy(other) +
+               kRate / 2 * std::pow(robot.q[kJoint] + other[kJoint] - kRelaxed, 2);
+      },
+      windup);
 }
 
 void corrected_joint_springs_leave_no_error() {
@@ -150,6 +184,7 @@ int main() {
   RUN_TEST(without_load_the_robot_stands_where_its_motors_are);
   RUN_TEST(the_equilibrium_approaches_the_linear_prediction_quadratically);
   RUN_TEST(the_equilibrium_has_the_least_energy);
+  RUN_TEST(the_equilibrium_with_a_balancer_has_the_least_energy);
   RUN_TEST(corrected_joint_springs_leave_no_error);
   RUN_TEST(corrected_structure_springs_leave_their_stated_remainder);
   RUN_TEST(scaled_springs_bend_in_proportion);

@@ -87,16 +87,17 @@ Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget*
 
 bool is_law(const Hypothesis& hypothesis) { return hypothesis.law->written != nullptr; }
 
-Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget, const Tell& tell) {
+Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget,
+                   const TellStage& tell) {
   const Material material(inquiry.observations);
   Fit grown = begun;
   for (std::size_t i = 0; i < kMostLaws && !budget->is_spent(); ++i) {
+    tell("composing laws");
     Fit next = with_one(inquiry, material, grown);
     if (next.chosen.empty()) {
       break;
     }
     grown = revised(inquiry, material, std::move(next), budget);
-    tell(grown.chosen.size(), kMostFindings);
     if (more_than_noise(inquiry.observations, grown.remainder).empty()) {
       break;
     }

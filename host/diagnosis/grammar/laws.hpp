@@ -12,7 +12,7 @@ namespace flexcomp::diagnosis::grammar {
 ///
 /// There are no findings unless a law is among them. Once the budget is spent nothing more is
 /// begun.
-Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget, const Tell& tell);
+Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget, const TellStage& tell);
 
 /// Is a hypothesis a law that was composed or written, and not one of the catalogue?
 bool is_law(const Hypothesis& hypothesis);

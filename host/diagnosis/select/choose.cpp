@@ -16,7 +16,8 @@ bool is_settled(const Observations& observations, const Fit& fit) {
 
 /// A fit that grows from a pair of hypotheses may end better than one that grows from a single. In
 /// a load test, whose fits are quick, the best pair grows even if it is not better yet.
-Attempt best_of_pairs(const Inquiry& inquiry, Attempt best, const Tell& tell) {
+Attempt best_of_pairs(const Inquiry& inquiry, Attempt best, const TellStage& tell) {
+  tell("trying pairs of causes");
   const std::vector<Fit> pairs = propose_pairs(inquiry);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (is_better(inquiry, pairs[i], best.fit) || (inquiry.observations.is_static && i == 0)) {
@@ -62,7 +63,7 @@ Choice conclude(const Inquiry& inquiry, const Attempt& grown) {
   return choice;
 }
 
-Choice choose(const Inquiry& inquiry, const Tell& tell) {
+Choice choose(const Inquiry& inquiry, const TellStage& tell) {
   const Observations& observations = inquiry.observations;
   const bool is_fresh = inquiry.given.chosen.empty();
   Attempt best{inquiry.given, is_fresh ? nullptr : seek(inquiry, inquiry.given)};

@@ -33,7 +33,7 @@ struct Choice {
 /// A hypothesis holds if its gain is strong, its chance (times the hypotheses looked at) is below
 /// `false_discovery`, what was held out confirms it, it can be (plausible.hpp), and it is large
 /// enough; select/standards.hpp says by how much.
-Choice choose(const Inquiry& inquiry, const Tell& tell);
+Choice choose(const Inquiry& inquiry, const TellStage& tell);
 
 /// Prunes and simplifies (3 and 4) what has grown.
 Choice conclude(const Inquiry& inquiry, const Attempt& grown);

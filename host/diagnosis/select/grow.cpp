@@ -1,5 +1,7 @@
 #include "diagnosis/select/grow.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -104,10 +106,10 @@ Fit best_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most)
              : fit(inquiry.observations, tried.front().chosen, kSteps, &inquiry.dictionary);
 }
 
-Attempt grow(const Inquiry& inquiry, Attempt attempt, const Tell& tell) {
+Attempt grow(const Inquiry& inquiry, Attempt attempt, const TellStage& tell) {
   Places found_in;
   while (attempt.fit.chosen.size() < kMostFindings && add_one(inquiry, &found_in, &attempt)) {
-    tell(attempt.fit.chosen.size(), kMostFindings);
+    tell(fmt::format("choosing causes, {} so far", attempt.fit.chosen.size()));
     attempt.fit = revised(inquiry, attempt);
     attempt.sought = seek(inquiry, attempt.fit);
     attempt.is_of_families = is_of_families(inquiry, attempt.fit);

@@ -1,16 +1,14 @@
 #pragma once
 
 #include "diagnosis/select/judge.hpp"
+#include "diagnosis/stage.hpp"
 
 namespace flexcomp::diagnosis {
-
-/// Tells progress: how many steps are done, and of how many.
-using Tell = std::function<void(std::size_t, std::size_t)>;
 
 /// Adds hypotheses one by one, each the best beside those before, as long as they hold. After each
 /// step it replaces an earlier one by a better or simpler one that does its work, and seeks starts
 /// anew in what is left.
-Attempt grow(const Inquiry& inquiry, Attempt attempt, const Tell& tell);
+Attempt grow(const Inquiry& inquiry, Attempt attempt, const TellStage& tell);
 
 /// The best fit with a hypothesis of a shortlist added; nothing chosen if the list is empty.
 Fit best_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most);
