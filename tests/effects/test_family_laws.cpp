@@ -241,6 +241,42 @@ void each_is_read_as_it_was_written() {
   }
 }
 
+/// A robot on stiff joints that carries a spindle.
+struct CarryingRobot : test::MovingRobot {
+  CarryingRobot() {
+    for (model::ChainJoint& joint : robot.elastic.joints) {
+      joint.compliance = joint.cubic_compliance = 0;
+    }
+    robot.elastic.payload_mass = 80;
+    robot.elastic.payload_center = Vector(0, 0, -0.1);
+  }
+};
+
+/// By how much the TCP moves with a spring (m/N, tool frame) under the wrench, and the payload.
+void assert_gives(const char* form, double carried) {
+  const CarryingRobot carrying;
+  const simulation::Scene scene = carrying.scene();
+  const Values compliance = {2e-7, 3e-7, 1e-7};
+  const simulation::Machine plain = effects::machine_of(carrying.robot);
+  simulation::Machine machine = plain;
+  effects::find_law("tool_compliance", form)->apply(compliance, 0, &machine);
+  const Eigen::MatrixXd change = shown(machine, scene, simulation::tcp_position) -
+                                 shown(plain, scene, simulation::tcp_position);
+  for (Eigen::Index row = 0; row < scene.rows(); row += 20) {
+    const Axes axes(carrying.robot, scene.q.row(row));
+    const Matrix tool = axes.link.back() * carrying.robot.elastic.tool.rotation;
+    const Vector force =
+        scene.wrench.row(row).head<3>().transpose() + carried * carrying.robot.elastic.gravity;
+    const Vector give =
+        Eigen::Map<const Vector>(compliance.data()).cwiseProduct(tool.transpose() * force);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0, (change.row(row).transpose() - tool * give).norm());
+  }
+}
+
+void the_payload_hangs_on_a_flange_that_gives() { assert_gives("", 80); }
+
+void the_payload_does_not_hang_on_a_holder_that_gives() { assert_gives("holder", 0); }
+
 }  // namespace
 
 int main() {
@@ -252,6 +288,8 @@ int main() {
   RUN_TEST(a_gain_scales_what_is_measured_of_one_joint);
   RUN_TEST(friction_under_load_is_a_share_of_the_torque_against_the_motion);
   RUN_TEST(a_robot_that_leans_carries_its_weight_as_if_gravity_leant_the_other_way);
+  RUN_TEST(the_payload_hangs_on_a_flange_that_gives);
+  RUN_TEST(the_payload_does_not_hang_on_a_holder_that_gives);
   RUN_TEST(each_is_read_as_it_was_written);
   return UNITY_END();
 }
