@@ -7,6 +7,15 @@
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis {
+namespace {
+
+std::vector<Simulation> simulate_scenes(const Scenes& scenes, const Machine& machine,
+                                        const std::vector<simulation::RigidTorque>& rigid,
+                                        const std::vector<Simulation>& near) {
+  return simulate(machine, scenes, rigid, simulation::Levers::of_terms, near);
+}
+
+}  // namespace
 
 Evaluator::Evaluator(const Observations& observations, std::vector<Chosen> chosen,
                      const Dictionary* dictionary)
@@ -141,12 +150,6 @@ const std::vector<Simulation>& Evaluator::simulations(const Scenes& scenes,
   return simulations_;
 }
 
-std::vector<Simulation> Evaluator::simulate_scenes(
-    const Scenes& scenes, const Machine& machine, const std::vector<simulation::RigidTorque>& rigid,
-    const std::vector<Simulation>& near) const {
-  return simulate(machine, scenes, rigid, simulation::Levers::of_terms, near);
-}
-
 Eigen::VectorXd Evaluator::prediction(const Scenes& scenes, const Machine& machine,
                                       const std::vector<Simulation>& simulations) const {
   return observations_.stacked(with_terms(machine.terms, scenes, simulations));
@@ -161,9 +164,9 @@ Eigen::VectorXd Evaluator::stepped(const Scenes& scenes, const Values& values, s
   other[index] += step;
   moved.set(other);
   const Machine changed = machine_with(observations_, moved.chosen_);
-  return alters_[index] ? prediction(scenes, changed,
-                                     moved.simulate_scenes(scenes, changed, rigid, simulations))
-                        : prediction(scenes, changed, simulations);
+  return alters_[index]
+             ? prediction(scenes, changed, simulate_scenes(scenes, changed, rigid, simulations))
+             : prediction(scenes, changed, simulations);
 }
 
 Eigen::VectorXd Evaluator::evaluate_to_fit(const Values& values, Eigen::MatrixXd* derivative) {

@@ -51,9 +51,6 @@ class Evaluator {
                                                             const Machine& machine);
   Values altering() const;
   const std::vector<Simulation>& simulations(const Scenes& scenes, const Machine& machine);
-  std::vector<Simulation> simulate_scenes(const Scenes& scenes, const Machine& machine,
-                                          const std::vector<simulation::RigidTorque>& rigid,
-                                          const std::vector<Simulation>& near) const;
   /// Stacked prediction of a machine that was simulated so.
   Eigen::VectorXd prediction(const Scenes& scenes, const Machine& machine,
                              const std::vector<Simulation>& simulations) const;
