@@ -79,7 +79,7 @@ Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothe
   in_parallel(
       2, [](std::size_t, std::size_t) {},
       [&](std::size_t i) {
-        if (i == 0 && (way->is_alone || !keeps_any)) {
+        if (i == 0 && way->is_alone) {
           alone = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary,
                                way->extras);
         } else if (i == 1 && way->is_beside && keeps_any) {

@@ -242,9 +242,9 @@ void settle_with_extras(const Observations& observations, const std::vector<Hypo
 Progress begin(const Observations& observations, const Fit& findings,
                const std::vector<Chosen>& known, const std::vector<Hypothesis>& hypotheses,
                const Dictionary& dictionary) {
-  const Progress none{findings.chosen, dictionary, {}};
   if (!known.empty()) {
-    Progress progress = with_extras(observations, none, known, hypotheses);
+    Progress progress =
+        with_extras(observations, {findings.chosen, dictionary, {}}, known, hypotheses);
     bool are_real = true;
     for (std::size_t i = findings.chosen.size(); i < progress.given.size(); ++i) {
       are_real = are_real && is_real(observations, progress.best, i);
@@ -253,7 +253,7 @@ Progress begin(const Observations& observations, const Fit& findings,
       return progress;
     }
   }
-  return {none.given, dictionary, fit_beside(observations, findings, hypotheses, dictionary)};
+  return {findings.chosen, dictionary, fit_beside(observations, findings, hypotheses, dictionary)};
 }
 
 }  // namespace
