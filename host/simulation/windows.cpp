@@ -3,17 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace flexcomp::simulation {
 namespace {
 
 constexpr double kMostNoiseScale = 4;  // of the variance of the angles' noise, as it was estimated
+constexpr double kCreep = 10;  // of the angles' noise in half a window: three counts of an encoder
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Accelerations (rad/s²) at rows all over a recording, and their gain of the angles' noise (1/s²).
+/// Accelerations (rad/s²) at rows (× joints) all over a recording, and their gain of the angles'
+/// noise (1/s²).
 /// None is near an end, where polynomials of a lower order cut more of the motion.
 struct Probes {
   Eigen::MatrixXd acceleration;
+  Eigen::MatrixXd moved;  ///< rad, in half a window
   Eigen::VectorXd gain;
 };
 
@@ -43,7 +47,8 @@ Probes probe(const Eigen::VectorXd& time, const recording::Samples& q, const Pol
   const std::vector<Eigen::Index> rows = inner_rows(time);
   const auto count = static_cast<Eigen::Index>(rows.size());
   const Eigen::RowVectorXd exact = Eigen::RowVectorXd::Zero(q.cols());
-  Probes probes{Eigen::MatrixXd(count, q.cols()), Eigen::VectorXd(count)};
+  Probes probes{Eigen::MatrixXd(count, q.cols()), Eigen::MatrixXd(count, q.cols()),
+                Eigen::VectorXd(count)};
   for (Eigen::Index i = 0; i < count; ++i) {
     Window window = window_about(time, through.half_window, rows[static_cast<std::size_t>(i)]);
     if (side == one_side) {
@@ -52,6 +57,7 @@ Probes probe(const Eigen::VectorXd& time, const recording::Samples& q, const Pol
     }
     const LocalMotion motion = differentiate(time, q, exact, window, through.order);
     probes.acceleration.row(i) = motion.values.row(1);
+    probes.moved.row(i) = through.half_window * motion.values.row(0).cwiseAbs();
     probes.gain[i] = motion.gain[1];
   }
   return probes;
@@ -63,19 +69,48 @@ Eigen::ArrayXd mean_square_noise(const Probes& probes, const Eigen::RowVectorXd&
          angle_noise.array().square().transpose();
 }
 
-/// Mean square of what two windows' accelerations differ by, (rad/s²)². The largest fiftieth of the
-/// squares does not count: where a motion is abrupt for a moment, its acceleration is doubted, and
-/// all the rest need not be as noisy as a window that follows it.
-Eigen::ArrayXd mean_square_between(const Probes& one, const Probes& other) {
+std::vector<Eigen::Index> all_rows(const Probes& probes) {
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(probes.gain.size()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  return rows;
+}
+
+/// Rows that tell a window from longer ones: those where the joint does not creep, or all where
+/// these are few. While a joint creeps, its encoder counts at an even pace. That is a tone, which a
+/// window follows and all longer ones cut, as if it were motion.
+std::vector<Eigen::Index> telling_rows(const Probes& probes, double angle_noise,
+                                       Eigen::Index joint) {
+  constexpr double kFew = 0.25;  // of all
+  std::vector<Eigen::Index> telling = all_rows(probes);
+  const double few = kFew * static_cast<double>(telling.size());
+  const auto creeps = [&](Eigen::Index row) {
+    return !(probes.moved(row, joint) > kCreep * angle_noise);
+  };
+  telling.erase(std::remove_if(telling.begin(), telling.end(), creeps), telling.end());
+  return static_cast<double>(telling.size()) < few ? all_rows(probes) : telling;
+}
+
+/// Mean square of what two windows' accelerations of a joint differ by, (rad/s²)². The largest
+/// fiftieth of the squares does not count: where a motion is abrupt for a moment, its acceleration
+/// is doubted, and all the rest need not be as noisy as a window that follows it.
+double mean_square_between(const Probes& one, const Probes& other,
+                           const std::vector<Eigen::Index>& rows, Eigen::Index joint) {
   constexpr double kCounted = 0.98;
   constexpr double kPower = 0.856;  // of independent normal errors, that these have
-  Eigen::ArrayXXd squares = (one.acceleration - other.acceleration).array().square();
-  const auto counted = static_cast<Eigen::Index>(kCounted * static_cast<double>(squares.rows()));
-  Eigen::ArrayXd mean(squares.cols());
-  for (Eigen::Index joint = 0; joint < squares.cols(); ++joint) {
-    auto own = squares.col(joint);
-    std::nth_element(own.begin(), own.begin() + counted, own.end());
-    mean[joint] = own.head(counted).sum() / (kPower * static_cast<double>(squares.rows()));
+  Eigen::ArrayXd squares =
+      (one.acceleration(rows, joint) - other.acceleration(rows, joint)).array().square();
+  const auto counted = static_cast<Eigen::Index>(kCounted * static_cast<double>(squares.size()));
+  std::nth_element(squares.begin(), squares.begin() + counted, squares.end());
+  return squares.head(counted).sum() / (kPower * static_cast<double>(squares.size()));
+}
+
+/// The same of every joint, at the rows that tell the shorter window from others.
+Eigen::ArrayXd mean_square_from(const Probes& shorter, const Probes& longer,
+                                const Eigen::RowVectorXd& angle_noise) {
+  Eigen::ArrayXd mean(angle_noise.size());
+  for (Eigen::Index joint = 0; joint < mean.size(); ++joint) {
+    mean[joint] = mean_square_between(shorter, longer,
+                                      telling_rows(shorter, angle_noise[joint], joint), joint);
   }
   return mean;
 }
@@ -88,7 +123,7 @@ std::vector<Probes> probes_of(const Eigen::VectorXd& time, const recording::Samp
     all.push_back(probe(time, q, {half_window, kPolynomialOrder}, both_sides));
     const Eigen::ArrayXd clearly =
         (2 * kMostNoiseScale + 1) * mean_square_noise(all.front(), angle_noise);
-    if ((mean_square_between(all.back(), all.front()) > clearly).all()) {
+    if ((mean_square_from(all.front(), all.back(), angle_noise) > clearly).all()) {
       break;
     }
   }
@@ -97,10 +132,11 @@ std::vector<Probes> probes_of(const Eigen::VectorXd& time, const recording::Samp
 
 /// Mean squares of what the windows from one on differ from it by, the first of them zero.
 std::vector<Eigen::ArrayXd> differences_from(const std::vector<Probes>& probes,
+                                             const Eigen::RowVectorXd& angle_noise,
                                              std::size_t window) {
   std::vector<Eigen::ArrayXd> all;
   for (std::size_t longer = window; longer < probes.size(); ++longer) {
-    all.push_back(mean_square_between(probes[longer], probes[window]));
+    all.push_back(mean_square_from(probes[window], probes[longer], angle_noise));
   }
   return all;
 }
@@ -169,6 +205,7 @@ void choose_ends(const Eigen::VectorXd& time, const recording::Samples& q,
                  const std::vector<Probes>& probes, const std::vector<std::size_t>& inner,
                  std::vector<JointPolynomials>* best) {
   constexpr int kOrders[] = {2, kPolynomialOrder};
+  const std::vector<Eigen::Index> rows = all_rows(probes.front());
   std::vector<double> least(inner.size(), kEndless);
   for (const double half_window : kHalfWindows) {
     for (const int order : kOrders) {
@@ -176,7 +213,7 @@ void choose_ends(const Eigen::VectorXd& time, const recording::Samples& q,
       const Probes at_end = probe(time, q, tried, one_side);
       for (std::size_t joint = 0; joint < inner.size(); ++joint) {
         const auto column = static_cast<Eigen::Index>(joint);
-        const double error = mean_square_between(at_end, probes[inner[joint]])[column];
+        const double error = mean_square_between(at_end, probes[inner[joint]], rows, column);
         if (error < least[joint]) {
           least[joint] = error;
           (*best)[joint].end = tried;
@@ -201,7 +238,7 @@ std::vector<JointPolynomials> best_polynomials(const Eigen::VectorXd& time,
   std::vector<Eigen::ArrayXd> scales;
   Eigen::ArrayXd scale = Eigen::ArrayXd::Constant(q.cols(), kMostNoiseScale);
   for (std::size_t shorter = 0; shorter < probes.size(); ++shorter) {
-    const std::vector<Eigen::ArrayXd> all = differences_from(probes, shorter);
+    const std::vector<Eigen::ArrayXd> all = differences_from(probes, angle_noise, shorter);
     scale = noise_scale(all, noise, shorter, scale);
     const double chance = chance_of(probes[shorter], duration, kHalfWindows[shorter]);
     for (std::size_t k = shorter + 1; k < probes.size(); ++k) {

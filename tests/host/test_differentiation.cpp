@@ -102,6 +102,25 @@ void the_window_taken_errs_little_more_than_the_best_one() {
   }
 }
 
+double half_window_of(const VectorXd& time, const VectorXd& angle) {
+  const VectorXd read = in_counts(angle);
+  const RowVectorXd noise = RowVectorXd::Constant(1, encoder_noise(time, read));
+  return best_polynomials(time, read, noise).front().inner.half_window;
+}
+
+/// A joint swings for three seconds, comes to a creep in another three, and creeps for four. Its
+/// encoder counts at an even pace then, which no polynomial may take for motion.
+void a_joint_that_creeps_for_a_while_has_the_window_of_its_motion() {
+  const VectorXd time = VectorXd::LinSpaced(10 * kRows, 0, 10);
+  const VectorXd swings = kSwing * (kOmega * time.array()).sin();
+  const VectorXd fade = ((6 - time.array()) / 3).max(0).min(1);
+  const VectorXd fades = swings.array() * (M_PI / 2 * fade.array()).sin().pow(4);
+  for (const double counts : {10, 12, 15, 20, 25, 30, 40}) {  // 1/s
+    TEST_ASSERT_TRUE(half_window_of(time, fades + kCount * counts * time) >=
+                     0.7 * half_window_of(time, swings));
+  }
+}
+
 /// Largest error of the acceleration within the window of an end.
 double error_near_ends(const Encoder& encoder, std::size_t window) {
   double most = 0;
@@ -212,6 +231,7 @@ int main() {
   RUN_TEST(a_swing_by_an_exact_encoder_keeps_the_shortest_window);
   RUN_TEST(a_swing_by_a_coarse_encoder_takes_a_longer_window_and_errs_by_much_less);
   RUN_TEST(the_window_taken_errs_little_more_than_the_best_one);
+  RUN_TEST(a_joint_that_creeps_for_a_while_has_the_window_of_its_motion);
   RUN_TEST(a_coarse_encoder_tells_the_acceleration_at_the_ends_nearly_as_well);
   RUN_TEST(what_the_ends_cut_of_a_motion_is_doubted);
   RUN_TEST(a_window_is_no_longer_than_the_motion_bears_though_noise_hides_what_it_cuts);
