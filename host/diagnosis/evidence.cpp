@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "diagnosis/covariance.hpp"
 #include "diagnosis/jump.hpp"
 #include "diagnosis/plausible.hpp"
 #include "recording/noise.hpp"
@@ -18,16 +19,6 @@ namespace {
 constexpr double kAsGoodAsNoise = 2;
 /// Times its error where it was fitted: such a fit must not be so much worse elsewhere.
 constexpr double kFarWorse = 1.5;
-constexpr Eigen::Index kNeighboursApart = 40;  // of all rows: half a stretch that is held out
-
-/// Samples that follow each other, though a slow sensor may have none in many rows between; not
-/// across what is held out.
-bool are_neighbours(const Observations& observations, const Sample& a, const Sample& b) {
-  const Eigen::Index nearest =
-      std::max<Eigen::Index>(2, observations.scenes[a.scene].rows() / kNeighboursApart);
-  return a.scene == b.scene && a.channel == b.channel && a.component == b.component &&
-         b.row - a.row <= nearest;
-}
 
 /// Sums of squares over samples, weighted so that single samples that are far off after the fit do
 /// not decide.
@@ -102,22 +93,9 @@ double confirmation_of(const Observations& observations, const Eigen::VectorXd& 
 }
 
 double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder) {
-  const auto count = static_cast<double>(observations.train);
-  if (observations.is_static) {
-    return count;
-  }
-  double product = 0;
-  double square = 0;
-  for (Eigen::Index i = 1; i < observations.train; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (are_neighbours(observations, observations.samples[at - 1], observations.samples[at])) {
-      const double a = std::clamp(remainder[i - 1], -kGross, kGross);
-      const double b = std::clamp(remainder[i], -kGross, kGross);
-      product += a * b;
-      square += 0.5 * (a * a + b * b);
-    }
-  }
-  return recording::effective_samples(count, square > 0 ? product / square : 0);
+  const Eigen::VectorXd left =
+      remainder.head(observations.train).cwiseMax(-kGross).cwiseMin(kGross);
+  return static_cast<double>(observations.train) / correlated_widening(observations, left);
 }
 
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters) {

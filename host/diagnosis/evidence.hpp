@@ -54,7 +54,10 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
 double confirmation_of(const Observations& observations, const Eigen::VectorXd& before,
                        const Eigen::VectorXd& after);
 
-/// Number of independent samples to fit to, by the correlation of neighbours in a remainder.
+/// Number of independent samples to fit to, by how long a remainder hangs together: their number
+/// over the variance of its mean, in terms of what it would be if they were independent
+/// (correlated_widening). Neighbours alone would not tell: a remainder as smooth as a motion has
+/// nearly the same value twice, whether it is the next for a tenth of a second or for ten.
 double independent_samples(const Observations& observations, const Eigen::VectorXd& remainder);
 
 /// Schwarz's criterion: n·ln(before/after) less ln(n) for each parameter; n independent samples.
