@@ -60,6 +60,8 @@ class Dictionary {
   std::vector<Entry> entries;
   Eigen::MatrixXd columns;  ///< samples × columns, over the noise
   Eigen::MatrixXd gram;     ///< columns × columns, over the samples to fit to
+  /// By which the torques of each joint are multiplied in the columns; empty where by nothing.
+  Eigen::VectorXd gains;
 
  private:
   Dictionary(const Observations& observations, std::vector<Hypothesis> all, const Changes& changes,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/gains.hpp"
 #include "error.hpp"
 #include "parallel/in_parallel.hpp"
 
@@ -177,6 +178,16 @@ Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* deriv
   return evaluate_in(observations_.scenes, values, derivative);
 }
 
+/// What chosen gains multiply the first samples by beyond what the dictionary knows: its columns are
+/// of a machine with gains of its own.
+Eigen::VectorXd Evaluator::gains_over_dictionary(Eigen::Index count) const {
+  Eigen::VectorXd gains = gains_of(chosen_, observations_.machine.robot.joints());
+  if (dictionary_ != nullptr && dictionary_->gains.size() > 0) {
+    gains = gains.cwiseQuotient(dictionary_->gains);
+  }
+  return by_sample(observations_, gains, count);
+}
+
 Eigen::VectorXd Evaluator::evaluate_in(const Scenes& scenes, const Values& values,
                                        Eigen::MatrixXd* derivative) {
   set(values);
@@ -187,13 +198,14 @@ Eigen::VectorXd Evaluator::evaluate_in(const Scenes& scenes, const Values& value
     return base;
   }
   const std::vector<simulation::RigidTorque>& rigid = rigid_torques(scenes, machine);
+  const Eigen::VectorXd gains = gains_over_dictionary(base.size());
   derivative->resize(base.size(), static_cast<Eigen::Index>(size()));
   in_parallel(
       size(), [](std::size_t, std::size_t) {},
       [&](std::size_t i) {
         if (known_[i] >= 0) {
           derivative->col(static_cast<Eigen::Index>(i)) =
-              dictionary_->columns.col(known_[i]).head(base.size());
+              gains.cwiseProduct(dictionary_->columns.col(known_[i]).head(base.size()));
           return;
         }
         const Parameter& bounds = parameter(i);

@@ -46,6 +46,7 @@ class Evaluator {
  private:
   Eigen::VectorXd evaluate_in(const Scenes& scenes, const Values& values,
                               Eigen::MatrixXd* derivative);
+  Eigen::VectorXd gains_over_dictionary(Eigen::Index count) const;
   bool alters_any() const;
   const std::vector<simulation::RigidTorque>& rigid_torques(const Scenes& scenes,
                                                             const Machine& machine);

@@ -87,9 +87,7 @@ Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothe
           beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary, way->extras);
         }
       });
-  const bool is_beside =
-      !beside.fit.chosen.empty() &&
-      (alone.fit.chosen.empty() || predicts_better(observations, alone.fit, beside.fit));
+  const bool is_beside = is_better_beside(observations, alone.fit, beside.fit);
   Families& best = is_beside ? beside : alone;
   if (best.fit.chosen.empty() || predicts_better(observations, best.fit, found)) {
     return {};
@@ -98,7 +96,22 @@ Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothe
   return std::move(best.fit);
 }
 
+/// Does a fit hold bodies that cannot be?
+bool has_regression(const Fit& fit) {
+  return std::any_of(fit.chosen.begin(), fit.chosen.end(),
+                     [](const Chosen& each) { return each.hypothesis.is_regression; });
+}
+
 }  // namespace
+
+bool is_better_beside(const Observations& observations, const Fit& alone, const Fit& beside) {
+  if (beside.chosen.empty() || alone.chosen.empty()) {
+    return !beside.chosen.empty();
+  }
+  const bool stands_in = has_regression(alone) && !has_regression(beside);
+  return predicts_better(observations, alone, beside) ||
+         (stands_in && !predicts_better(observations, beside, alone));
+}
 
 bool are_many(const Inquiry& inquiry, const Fit& found) {
   const auto count =

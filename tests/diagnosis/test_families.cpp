@@ -7,6 +7,8 @@
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/families/families.hpp"
 #include "diagnosis/families/possible_bodies.hpp"
+#include "diagnosis/families/settle.hpp"
+#include "diagnosis/gains.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
@@ -103,6 +105,33 @@ void gains_are_told_beside_what_they_multiply() {
   TEST_ASSERT_EQUAL(kMoving, told);
 }
 
+/// A dictionary's columns are of the model, whose torques no gain multiplies: as derivatives of a
+/// machine with gains they must be multiplied.
+void what_a_gain_multiplies_has_derivatives_that_it_multiplies() {
+  const Observations observations = robot().observed(robot().machine());
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const auto hypothesis = [&](const char* effect, const char* form, int joint) {
+    return *std::find_if(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& each) {
+      return each.effect() == effect && each.law->form == form && each.joint == joint;
+    });
+  };
+  const Hypothesis gain = hypothesis("torque_gain", "", 2);
+  const Hypothesis rotor = hypothesis("rotor_inertia", "", 2);
+  const Hypothesis other = hypothesis("rotor_inertia", "", 3);
+  Dictionary dictionary(observations, {gain, rotor, other}, [](std::size_t, std::size_t) {});
+  const std::vector<Chosen> chosen = {{gain, {0.3}}, {rotor, {0}}, {other, {0}}};
+  const Eigen::MatrixXd exact = fit(observations, chosen, 0).derivative;
+  const Eigen::MatrixXd known = fit(observations, chosen, 0, &dictionary).derivative;
+  TEST_ASSERT_TRUE((known - exact).norm() < 1e-6 * exact.norm());
+  // Those of a dictionary about such a machine are multiplied already.
+  const Fit about = fit(observations, chosen, 0);
+  Dictionary own(observations, {gain, rotor, other}, about.machine,
+                 [](std::size_t, std::size_t) {});
+  own.gains = gains_of(chosen, robot().robot.joints());
+  const Eigen::MatrixXd again = fit(observations, chosen, 0, &own).derivative;
+  TEST_ASSERT_TRUE((again - exact).norm() < 1e-6 * exact.norm());
+}
+
 void friction_that_falls_with_speed_joins_the_family_at_its_joint() {
   constexpr int kJoint = 2;
   simulation::Machine truth = robot().machine();
@@ -184,6 +213,47 @@ void torques_that_no_body_has_are_predicted_by_a_regression() {
                                [](const Chosen& each) { return each.hypothesis.is_regression; }));
 }
 
+/// Links that are all heavier by as much give torques that larger gains would give as well. A
+/// regression has no need of gains.
+void links_that_are_all_heavier_are_not_taken_for_gains() {
+  constexpr double kHeavier = 0.3;
+  simulation::Machine truth = robot().machine();
+  for (int joint = 2; joint <= 6; ++joint) {
+    const double mass = robot().robot.elastic.joints[static_cast<std::size_t>(joint - 1)].mass;
+    effects::find_law("link_mass", "body")->apply({kHeavier * mass}, joint, &truth);
+  }
+  const Observations observations = robot().observed(truth);
+  const Fit fit = fitted(observations);
+  const double noise =
+      observations.rms(Eigen::VectorXd::Ones(observations.size()), simulation::joint_torque, true);
+  TEST_ASSERT_TRUE(observations.rms(fit.remainder, simulation::joint_torque, true) < 1.1 * noise);
+  TEST_ASSERT_TRUE(std::none_of(fit.chosen.begin(), fit.chosen.end(), [](const Chosen& each) {
+    return each.hypothesis.traits().is_gain;
+  }));
+}
+
+/// Gains multiply what a body does that is held at the edge of what can be.
+void numbers_settle_where_no_step_lowers_their_cost() {
+  ImpossibleBody body;
+  simulation::Machine truth = body.truth();
+  effects::find_law("torque_gain", "")->apply({0.4}, 2, &truth);
+  effects::find_law("torque_gain", "")->apply({-0.3}, 3, &truth);
+  body.observations = robot().observed(truth);
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(body.observations);
+  const Dictionary dictionary(body.observations, hypotheses, [](std::size_t, std::size_t) {});
+  std::vector<Chosen> chosen = body.fitted(1e-3).chosen;
+  chosen.front().values = {0, 0, 0, 0};
+  for (const int joint : {2, 3}) {
+    Hypothesis gain(effects::find_law("torque_gain", ""), joint, robot().robot);
+    gain.set_bounds({{-0.5, 1, 0.1}});
+    chosen.push_back({gain, {0}});
+  }
+  const Fit settled = settle(body.observations, {chosen, 1}, 0, dictionary);
+  TEST_ASSERT_TRUE(bodies_can_be(body.observations, settled));
+  const Fit further = fit(body.observations, settled.chosen, 200);
+  TEST_ASSERT_TRUE(settled.train_sum < 1.01 * further.train_sum);
+}
+
 }  // namespace
 
 int main() {
@@ -191,7 +261,10 @@ int main() {
   RUN_TEST(a_body_with_an_edge_is_held_within_what_can_be);
   RUN_TEST(a_body_that_cannot_be_is_moved_to_where_it_can);
   RUN_TEST(torques_that_no_body_has_are_predicted_by_a_regression);
+  RUN_TEST(links_that_are_all_heavier_are_not_taken_for_gains);
+  RUN_TEST(numbers_settle_where_no_step_lowers_their_cost);
   RUN_TEST(gains_are_told_beside_what_they_multiply);
+  RUN_TEST(what_a_gain_multiplies_has_derivatives_that_it_multiplies);
   RUN_TEST(friction_that_falls_with_speed_joins_the_family_at_its_joint);
   RUN_TEST(friction_of_all_joints_is_told_and_nothing_else_beside_it);
   return UNITY_END();

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/refit.hpp"
 #include "diagnosis/retune.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
@@ -172,6 +173,23 @@ void friction_everywhere_and_a_coupled_drive_are_found_together() {
   TEST_ASSERT_TRUE(held_out(observations, found.updated().remainder) < 1.1 * kTorqueNoise);
 }
 
+/// Bodies that cannot be predict as well as a finding may be what it is: the finding says more.
+void findings_stay_where_only_bodies_that_cannot_be_predict_as_well() {
+  const SwingingRobot swinging(5);
+  const Observations observations =
+      with_torques(swinging, at_joint(2, Eigen::VectorXd::Constant(swinging.recording.size(), 3)));
+  Fit alone = fit(observations, {}, 0);
+  const Hypothesis body(effects::find_law("link_mass", "mounted"), 2, swinging.robot);
+  alone.chosen = {{body, {0, 0, 0, 0}}};
+  const Fit beside = alone;
+  TEST_ASSERT_FALSE(is_better_beside(observations, alone, beside));
+  alone.chosen.front().hypothesis.is_regression = true;
+  TEST_ASSERT_TRUE(is_better_beside(observations, alone, beside));
+  Fit better = alone;
+  better.remainder *= 0.9;
+  TEST_ASSERT_FALSE(is_better_beside(observations, better, beside));
+}
+
 }  // namespace
 
 int main() {
@@ -180,6 +198,7 @@ int main() {
   RUN_TEST(numbers_stand_in_for_what_findings_leave);
   RUN_TEST(a_model_that_agrees_keeps_its_numbers);
   RUN_TEST(what_no_number_can_stand_in_for_leaves_them_as_they_are);
+  RUN_TEST(findings_stay_where_only_bodies_that_cannot_be_predict_as_well);
   RUN_TEST(friction_everywhere_and_a_coupled_drive_are_found_together);
   return UNITY_END();
 }

@@ -74,9 +74,7 @@ Elimination::Set Elimination::best_of_tolerances() {
   for (const double tolerance : kTolerances) {
     tolerance_ = tolerance;
     std::fill(is_held_.begin(), is_held_.end(), false);
-    weight_.setOnes();
-    spread_ = 1;
-    repeats_ = 1;
+    begin_anew();
     sets.push_back(best_on_path());
   }
   const auto is_less = [](const Set& a, const Set& b) { return a.error < b.error; };

@@ -357,10 +357,18 @@ Eigen::VectorXd Elimination::widenings_by_others(const std::vector<std::size_t>&
 
 double Elimination::deviation() const { return spread_ * std::sqrt(repeats_); }
 
+/// Every sample weighs as much as any other, whatever was solved before.
+void Elimination::begin_anew() {
+  weight_.setOnes();
+  spread_ = 1;
+  repeats_ = 1;
+}
+
 std::vector<Chosen> Elimination::chosen_of(const Set& set) {
   tolerance_ = set.tolerance;
   widest_ = set.widest;
   is_held_ = set.is_held;
+  begin_anew();
   solve(set.members);
   const Eigen::VectorXd widenings = widenings_by_others(set.members);
   std::vector<Chosen> all;

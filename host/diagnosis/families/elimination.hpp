@@ -76,6 +76,7 @@ class Elimination {
                          const Eigen::VectorXd& weight) const;
   void prepare_plain();
   std::vector<Equations> weighted_parts() const;
+  void begin_anew();
   void solve(const std::vector<std::size_t>& members);
   Eigen::VectorXd solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                            const std::vector<Eigen::Index>& columns) const;

@@ -10,67 +10,23 @@
 #include "diagnosis/families/elimination.hpp"
 #include "diagnosis/families/extras.hpp"
 #include "diagnosis/families/latecomers.hpp"
-#include "diagnosis/families/possible_bodies.hpp"
 #include "diagnosis/families/regression.hpp"
+#include "diagnosis/families/settle.hpp"
+#include "diagnosis/gains.hpp"
 #include "diagnosis/plausible.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr int kHoldingRounds = 4;   // of holding closer, before a body is left out after all
-constexpr int kPossibleRounds = 8;  // without what cannot be, others may become impossible
-constexpr int kRoundsAnew = 2;      // of choosing the numbers about those that were fitted
+constexpr int kRoundsAnew = 2;  // of choosing the numbers about those that were fitted
 constexpr double kClearlyBetter =
     0.97;                            // of the held-out error, that bodies which cannot be are worth
 constexpr int kExtraSteps = 0;       // before the numbers are beside them
 constexpr double kLeastGain = 0.01;  // of the sum of squares, that a coupling is worth trying for
 
-/// The fit with its numbers held as what it leaves asks for. Their tolerances are scaled to what a
-/// linear choice of them left, which is more where gains multiply and motors are coupled.
-Fit held_as_fitted(const Observations& observations, Fit whole, std::size_t findings,
-                   double deviation, const Dictionary& dictionary) {
-  constexpr double kMuchLess = 0.8;  // time: a tolerance matters by its size alone
-  const double less = deviation_of(observations, whole.remainder) / deviation;
-  if (less > kMuchLess) {
-    return whole;
-  }
-  for (std::size_t i = findings; i < whole.chosen.size(); ++i) {
-    for (Parameter& parameter : whole.chosen[i].hypothesis.parameters) {
-      parameter.tolerance /= less;
-    }
-  }
-  return fit(observations, std::move(whole.chosen), kSimulatedSteps, &dictionary);
-}
-
-/// Numbers that a linear choice ends with, and the deviation to which their tolerances are scaled.
-struct Start {
-  std::vector<Chosen> chosen;
-  double deviation = 1;
-};
-
 Start start_of(Elimination families) {
   std::vector<Chosen> chosen = families.best();
   return {std::move(chosen), families.deviation()};
-}
-
-/// Fits by simulation from numbers close by on, until all that stay behind the findings can be.
-Fit settle(const Observations& observations, Start start, std::size_t findings,
-           const Dictionary& dictionary) {
-  Fit whole = fit(observations, std::move(start.chosen), kSimulatedSteps, &dictionary);
-  whole = held_as_fitted(observations, std::move(whole), findings, start.deviation, dictionary);
-  std::vector<Chosen> possible;
-  for (int round = 0; round < kPossibleRounds; ++round) {
-    if (round < kHoldingRounds && !bodies_can_be(observations, whole)) {
-      possible = with_possible_bodies(observations, whole);
-    } else if (auto all =
-                   without_impossible(observations, whole, findings, round < kHoldingRounds)) {
-      possible = std::move(*all);
-    } else {
-      break;
-    }
-    whole = fit(observations, possible, kSimulatedSteps, &dictionary);
-  }
-  return whole;
 }
 
 /// Chooses the numbers anew about those that were fitted. A torque's gain multiplies what masses
@@ -80,8 +36,8 @@ Fit fit_anew(const Observations& observations, const Fit& fitted, std::size_t fi
   std::vector<Hypothesis> members;
   std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(members),
                [](const Hypothesis& each) { return each.traits().is_in_family; });
-  const Dictionary dictionary(observations, members, fitted.machine,
-                              [](std::size_t, std::size_t) {});
+  Dictionary dictionary(observations, members, fitted.machine, [](std::size_t, std::size_t) {});
+  dictionary.gains = gains_of(fitted.chosen, observations.machine.robot.joints());
   const Fit about = fit(observations, fitted.chosen, 0, &dictionary);
   return settle(observations, start_of({observations, about, findings, members, dictionary}),
                 findings, dictionary);
@@ -142,26 +98,6 @@ Fit joined(const Observations& observations, Fit best, std::size_t findings,
   Fit with = settle(observations, {std::move(all), deviation_of(observations, best.remainder)},
                     findings, dictionary);
   return predicts_better(observations, best, with) ? with : best;
-}
-
-/// Root mean square error (N·m) of what was held out.
-double held_out_torque(const Observations& observations, const Fit& fit) {
-  return observations.rms(fit.remainder, simulation::joint_torque, true);
-}
-
-/// The plain refit in the place of a fit whose bodies can be, where that leaves far more. Its first
-/// `given` stay.
-Fit or_regression(const Observations& observations, Fit best, std::size_t given,
-                  const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary) {
-  if (largest_ratio(observations, best.remainder) < kLikeNoise) {
-    return best;
-  }
-  const auto end = best.chosen.begin() + static_cast<std::ptrdiff_t>(given);
-  const Fit stays = fit(observations, {best.chosen.begin(), end}, 0);
-  Fit plain = fit_regression(observations, stays, hypotheses, dictionary);
-  return held_out_torque(observations, plain) < kClearlyBetter * held_out_torque(observations, best)
-             ? plain
-             : best;
 }
 
 /// Findings, and behind them the numbers of the families that stay beside them.
@@ -256,26 +192,83 @@ Progress begin(const Observations& observations, const Fit& findings,
   return {findings.chosen, dictionary, fit_beside(observations, findings, hypotheses, dictionary)};
 }
 
+bool is_gain(const Chosen& chosen) { return chosen.hypothesis.traits().is_gain; }
+
+/// Are gains among the numbers?
+bool has_gains(const Progress& progress) {
+  const auto& chosen = progress.best.chosen;
+  const auto numbers = chosen.begin() + static_cast<std::ptrdiff_t>(progress.given.size());
+  return std::any_of(numbers, chosen.end(), is_gain);
+}
+
+/// The plain refit beside what is given; nothing where the families have no gains and leave no more
+/// than noise, so that it could show nothing.
+std::optional<Fit> plain_refit(const Observations& observations, const Progress& progress,
+                               const std::vector<Hypothesis>& hypotheses) {
+  if (!has_gains(progress) && largest_ratio(observations, progress.best.remainder) < kLikeNoise) {
+    return std::nullopt;
+  }
+  const auto& chosen = progress.best.chosen;
+  const auto end = chosen.begin() + static_cast<std::ptrdiff_t>(progress.given.size());
+  const Fit stays = fit(observations, {chosen.begin(), end}, 0);
+  return fit_regression(observations, stays, hypotheses, progress.dictionary);
+}
+
+/// Root mean square error (N·m) of what was held out.
+double held_out_torque(const Observations& observations, const Fit& fit) {
+  return observations.rms(fit.remainder, simulation::joint_torque, true);
+}
+
+/// Does a plain refit leave far less than bodies that can be?
+bool is_clearly_better(const Observations& observations, const Fit& plain, const Fit& best) {
+  return held_out_torque(observations, plain) <
+         kClearlyBetter * held_out_torque(observations, best);
+}
+
+/// Are gains among the numbers though a plain refit, which has none, predicts as well? With all
+/// gains larger and all bodies lighter torques are the same, and what keeps the bodies from
+/// predicting better holds them less. The model's bodies are off more often than its unit of
+/// torque.
+bool has_idle_gains(const Observations& observations, const Progress& progress, const Fit& plain) {
+  return has_gains(progress) && !predicts_better(observations, plain, progress.best);
+}
+
+std::vector<Hypothesis> without_gains(const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Hypothesis> others;
+  std::copy_if(hypotheses.begin(), hypotheses.end(), std::back_inserter(others),
+               [](const Hypothesis& each) { return !each.traits().is_gain; });
+  return others;
+}
+
+/// A fit, its first choices the findings and, behind them, the extras.
+Families families_of(Fit fit, std::size_t findings, std::size_t given) {
+  const auto first = fit.chosen.begin();
+  std::vector<Chosen> extras(first + static_cast<std::ptrdiff_t>(findings),
+                             first + static_cast<std::ptrdiff_t>(given));
+  return {std::move(fit), std::move(extras)};
+}
+
 }  // namespace
 
 Families fit_families(const Observations& observations, const Fit& findings,
                       const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary,
                       const std::vector<Chosen>& known) {
   Progress progress = begin(observations, findings, known, hypotheses, dictionary);
-  if (observations.has(simulation::joint_torque)) {
-    settle_with_extras(observations, hypotheses, &progress);
-    Fit best = joined(observations, std::move(progress.best), progress.given.size(), dictionary);
-    progress.best = or_regression(observations, std::move(best), progress.given.size(), hypotheses,
-                                  progress.dictionary);
-  } else {
+  if (!observations.has(simulation::joint_torque)) {
     settle_numbers(observations, hypotheses, &progress);
+    return families_of(std::move(progress.best), findings.chosen.size(), progress.given.size());
+  }
+  settle_with_extras(observations, hypotheses, &progress);
+  const std::optional<Fit> plain = plain_refit(observations, progress, hypotheses);
+  if (plain && has_idle_gains(observations, progress, *plain)) {
+    return fit_families(observations, findings, without_gains(hypotheses), dictionary, known);
   }
   const std::size_t given = progress.given.size();
-  Families families{std::move(progress.best), {}};
-  const std::vector<Chosen>& chosen = families.fit.chosen;
-  families.extras.assign(chosen.begin() + static_cast<std::ptrdiff_t>(findings.chosen.size()),
-                         chosen.begin() + static_cast<std::ptrdiff_t>(given));
-  return families;
+  Fit best = joined(observations, std::move(progress.best), given, dictionary);
+  if (plain && is_clearly_better(observations, *plain, best)) {
+    best = *plain;
+  }
+  return families_of(std::move(best), findings.chosen.size(), given);
 }
 
 }  // namespace flexcomp::diagnosis
