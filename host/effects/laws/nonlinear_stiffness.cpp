@@ -5,12 +5,14 @@
 namespace flexcomp::effects {
 namespace {
 
-/// Wind-up c1 τ + c3 τ³ that does not turn back, nor is beyond tenfold, under the largest load.
+/// Wind-up c1 τ + c3 τ³ that turns back no more than the cubic of a spring that levels off, nor is
+/// beyond tenfold, under the largest load. The cubic that comes nearest to tanh over ±2 loses half
+/// of the straight line's wind-up at the end.
 Range cubic_spring(const Subject& of) {
   const double load = std::max(of.load(), 1.0);
   const double straight = of.joint().compliance / (load * load);
   const double known = of.joint().cubic_compliance;
-  return {-straight / 3 - known, std::min(10 * straight, kMostTurn) - known};
+  return {-straight / 2 - known, std::min(10 * straight, kMostTurn) - known};
 }
 
 }  // namespace
@@ -29,10 +31,11 @@ Forms laws::nonlinear_stiffness() {
         robot->elastic.joints[index_of(joint)].cubic_compliance += values[0];
       },
       &law);
-  return {{law},
-          {},
-          {{"", " cubic_compliance ", cubic_spring,
-            "more torque winds up more: a curve that turns back stores no energy"}}};
+  return {
+      {law},
+      {},
+      {{"", " cubic_compliance ", cubic_spring,
+        "more torque winds up more; the cubic of a spring that levels off turns back a little"}}};
 }
 
 }  // namespace flexcomp::effects
