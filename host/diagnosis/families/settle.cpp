@@ -29,9 +29,10 @@ Fit fit_without_edges(const Observations& observations, const std::vector<Chosen
   return whole;
 }
 
-/// The numbers held as what is left of them asks for. Their tolerances were scaled to what a linear
-/// choice of them left, which is more where gains multiply and motors are coupled. False where it
-/// is hardly more: a tolerance matters by its size alone, and a fit takes time.
+/// Holds the numbers as what they leave asks for. Their tolerances were scaled to what a linear
+/// choice left, which is more where gains multiply and motors are coupled. Does nothing, and gives
+/// false, where hardly less is left now: a tolerance matters by its size alone, and a fit takes
+/// time.
 bool hold_as_fitted(const Observations& observations, const Start& start, std::size_t findings,
                     Fit* whole) {
   constexpr double kMuchLess = 0.8;
