@@ -178,8 +178,8 @@ Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* deriv
   return evaluate_in(observations_.scenes, values, derivative);
 }
 
-/// What chosen gains multiply the first samples by beyond what the dictionary knows: its columns are
-/// of a machine with gains of its own.
+/// What chosen gains multiply the first samples by beyond what the dictionary knows: its columns
+/// are of a machine with gains of its own.
 Eigen::VectorXd Evaluator::gains_over_dictionary(Eigen::Index count) const {
   Eigen::VectorXd gains = gains_of(chosen_, observations_.machine.robot.joints());
   if (dictionary_ != nullptr && dictionary_->gains.size() > 0) {
