@@ -13,8 +13,7 @@ constexpr double kCreep = 10;  // of the angles' noise in half a window: three c
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Accelerations (rad/s²) at rows (× joints) all over a recording, and their gain of the angles'
-/// noise (1/s²).
-/// None is near an end, where polynomials of a lower order cut more of the motion.
+/// noise (1/s²). None is near an end, where polynomials of a lower order cut more of the motion.
 struct Probes {
   Eigen::MatrixXd acceleration;
   Eigen::MatrixXd moved;  ///< rad, in half a window

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "diagnosis/bodies.hpp"
 #include "diagnosis/families/elimination.hpp"
@@ -71,12 +72,11 @@ std::vector<Chosen> part_of_way(const Fit& from, std::vector<Chosen> to, double 
 }
 
 /// The optimum by a fit's tangent within what bodies can be; less of the way where the tangent
-/// errs.
-Fit step_within_edges(const Observations& observations, const Fit& from,
+/// errs. A start that `is_inside` is left for nothing that costs more.
+Fit step_within_edges(const Observations& observations, const Fit& from, bool is_inside,
                       const Dictionary& dictionary) {
   constexpr double kLeastPart = 0.1;
   const std::vector<Chosen> aim = with_possible_bodies(observations, from);
-  const bool is_inside = bodies_can_be(observations, from);
   double part = 1;
   Fit next = fit(observations, aim, 0, &dictionary);
   while (is_inside && cost_of(next) > cost_of(from) && part > kLeastPart) {
@@ -95,14 +95,13 @@ void set_edges(const std::vector<Chosen>& as, Fit* fit) {
 /// Fits within what bodies can be, a tangent at a time: each step's own search for an optimum
 /// within the edges simulates nothing (sequential quadratic programming, Nocedal and Wright 2006,
 /// ch. 18).
-Fit fit_within_edges(const Observations& observations, const std::vector<Chosen>& chosen,
-                     const Dictionary& dictionary) {
+Fit fit_within_edges(const Observations& observations, Fit best, const Dictionary& dictionary) {
   constexpr double kSettled = 1e-3;  // of the cost
-  Fit best = fit(observations, chosen, 0, &dictionary);
+  const std::vector<Chosen> edges = best.chosen;
   for (int step = 0; step < kSimulatedSteps; ++step) {
     const bool was_inside = bodies_can_be(observations, best);
-    set_edges(chosen, &best);
-    Fit next = step_within_edges(observations, best, dictionary);
+    set_edges(edges, &best);
+    Fit next = step_within_edges(observations, best, was_inside, dictionary);
     const double gain = 1 - cost_of(next) / cost_of(best);
     if (was_inside && gain <= 0) {
       break;
@@ -118,7 +117,7 @@ Fit fit_within_edges(const Observations& observations, const std::vector<Chosen>
 Fit fit_possible(const Observations& observations, const std::vector<Chosen>& chosen,
                  const Dictionary& dictionary) {
   return Bodies(observations, chosen).size() > 0
-             ? fit_within_edges(observations, chosen, dictionary)
+             ? fit_within_edges(observations, fit(observations, chosen, 0, &dictionary), dictionary)
              : fit(observations, chosen, kSimulatedSteps, &dictionary);
 }
 
@@ -131,7 +130,7 @@ Fit settle(const Observations& observations, const Start& start, std::size_t fin
     whole = fit_without_edges(observations, whole.chosen, dictionary);
   }
   if (!bodies_can_be(observations, whole)) {
-    whole = fit_within_edges(observations, whole.chosen, dictionary);
+    whole = fit_within_edges(observations, std::move(whole), dictionary);
   }
   for (int round = 0; round < kPossibleRounds; ++round) {
     const auto possible = without_impossible(observations, whole, findings, round < kHoldingRounds);
