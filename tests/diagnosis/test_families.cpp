@@ -6,6 +6,7 @@
 
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/families/families.hpp"
+#include "diagnosis/families/latecomers.hpp"
 #include "diagnosis/families/possible_bodies.hpp"
 #include "diagnosis/families/settle.hpp"
 #include "diagnosis/gains.hpp"
@@ -29,6 +30,13 @@ double viscous(std::size_t joint) { return 120 - 10 * static_cast<double>(joint)
 const DrivenRobot& robot() {
   static const DrivenRobot driven;
   return driven;
+}
+
+Hypothesis found(const std::vector<Hypothesis>& hypotheses, const char* effect, const char* form,
+                 int joint) {
+  return *std::find_if(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& each) {
+    return each.effect() == effect && each.law->form == form && each.joint == joint;
+  });
 }
 
 Fit fitted(const Observations& observations) {
@@ -110,14 +118,9 @@ void gains_are_told_beside_what_they_multiply() {
 void what_a_gain_multiplies_has_derivatives_that_it_multiplies() {
   const Observations observations = robot().observed(robot().machine());
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
-  const auto hypothesis = [&](const char* effect, const char* form, int joint) {
-    return *std::find_if(hypotheses.begin(), hypotheses.end(), [&](const Hypothesis& each) {
-      return each.effect() == effect && each.law->form == form && each.joint == joint;
-    });
-  };
-  const Hypothesis gain = hypothesis("torque_gain", "", 2);
-  const Hypothesis rotor = hypothesis("rotor_inertia", "", 2);
-  const Hypothesis other = hypothesis("rotor_inertia", "", 3);
+  const Hypothesis gain = found(hypotheses, "torque_gain", "", 2);
+  const Hypothesis rotor = found(hypotheses, "rotor_inertia", "", 2);
+  const Hypothesis other = found(hypotheses, "rotor_inertia", "", 3);
   Dictionary dictionary(observations, {gain, rotor, other}, [](std::size_t, std::size_t) {});
   const std::vector<Chosen> chosen = {{gain, {0.3}}, {rotor, {0}}, {other, {0}}};
   const Eigen::MatrixXd exact = fit(observations, chosen, 0).derivative;
@@ -132,6 +135,17 @@ void what_a_gain_multiplies_has_derivatives_that_it_multiplies() {
   TEST_ASSERT_TRUE((again - exact).norm() < 1e-6 * exact.norm());
 }
 
+/// Joints at which an effect is among those that were chosen.
+std::vector<int> joints_with(const char* effect, const std::vector<Chosen>& chosen) {
+  std::vector<int> joints;
+  for (const Chosen& each : chosen) {
+    if (each.hypothesis.effect() == effect) {
+      joints.push_back(each.hypothesis.joint);
+    }
+  }
+  return joints;
+}
+
 void friction_that_falls_with_speed_joins_the_family_at_its_joint() {
   constexpr int kJoint = 2;
   simulation::Machine truth = robot().machine();
@@ -142,14 +156,47 @@ void friction_that_falls_with_speed_joins_the_family_at_its_joint() {
   effects::find_law("stribeck_friction", "")->apply({60, 0.02}, kJoint, &truth);
   const Observations observations = robot().observed(truth);
   const Fit fit = fitted(observations);
-  std::vector<int> joints;
-  for (const Chosen& each : fit.chosen) {
-    if (each.hypothesis.effect() == "stribeck_friction") {
-      joints.push_back(each.hypothesis.joint);
-    }
-  }
+  const std::vector<int> joints = joints_with("stribeck_friction", fit.chosen);
   TEST_ASSERT_EQUAL(1, joints.size());
   TEST_ASSERT_EQUAL(kJoint, joints.front());
+}
+
+/// Friction that falls at low speed and rises at high looks dry, and neither of its parts shows
+/// much without the other.
+void friction_that_falls_and_rises_is_proposed_whole() {
+  constexpr int kJoint = 2;
+  simulation::Machine truth = robot().machine();
+  truth.robot.dynamics[kJoint - 1].coulomb += 60;
+  truth.robot.dynamics[kJoint - 1].viscous += 150;
+  effects::find_law("stribeck_friction", "")->apply({40, 0.1}, kJoint, &truth);
+  const Observations observations = robot().observed(truth);
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
+  const Hypothesis dry = found(hypotheses, "coulomb_friction", "", kJoint);
+  const Fit as_dry = fit(observations, {{dry, {60}}}, 10);
+  const std::vector<Chosen> late = latecomers(observations, as_dry, dictionary);
+  TEST_ASSERT_EQUAL(1, joints_with("stribeck_friction", late).size());
+  TEST_ASSERT_EQUAL(1, joints_with("viscous_friction", late).size());
+  TEST_ASSERT_EQUAL(kJoint, joints_with("stribeck_friction", late).front());
+  TEST_ASSERT_EQUAL(kJoint, joints_with("viscous_friction", late).front());
+}
+
+/// What a joint's friction leaves unexplained may hide the friction of a smaller joint.
+void friction_that_hides_behind_a_latecomer_joins_after_it() {
+  constexpr double kLarge = 400, kSmall = 16;  // N·m
+  simulation::Machine truth = robot().machine();
+  for (std::size_t i = 0; i < kMoving; ++i) {
+    truth.robot.dynamics[i].coulomb += dry(i);
+    truth.robot.dynamics[i].viscous += viscous(i);
+  }
+  const effects::LawPointer stribeck = effects::find_law("stribeck_friction", "");
+  stribeck->apply({kLarge, 0.03}, 2, &truth);
+  stribeck->apply({kSmall, 0.03}, 4, &truth);
+  const std::vector<int> joints =
+      joints_with("stribeck_friction", fitted(robot().observed(truth)).chosen);
+  TEST_ASSERT_EQUAL(2, joints.size());
+  TEST_ASSERT_EQUAL(2, joints.front());
+  TEST_ASSERT_EQUAL(4, joints.back());
 }
 
 constexpr int kBody = 3;  // the link whose body cannot be
@@ -266,6 +313,8 @@ int main() {
   RUN_TEST(gains_are_told_beside_what_they_multiply);
   RUN_TEST(what_a_gain_multiplies_has_derivatives_that_it_multiplies);
   RUN_TEST(friction_that_falls_with_speed_joins_the_family_at_its_joint);
+  RUN_TEST(friction_that_falls_and_rises_is_proposed_whole);
+  RUN_TEST(friction_that_hides_behind_a_latecomer_joins_after_it);
   RUN_TEST(friction_of_all_joints_is_told_and_nothing_else_beside_it);
   return UNITY_END();
 }

@@ -86,18 +86,24 @@ Fit refined(const Observations& observations, Fit best, std::size_t findings,
   return best;
 }
 
-/// With what joins the families late, if that predicts better.
+/// With what joins the families late, as long as that predicts better: what one of them explains
+/// may have hidden another.
 Fit joined(const Observations& observations, Fit best, std::size_t findings,
            const Dictionary& dictionary) {
-  const std::vector<Chosen> late = latecomers(observations, best, dictionary);
-  if (late.empty()) {
-    return best;
+  while (true) {
+    const std::vector<Chosen> late = latecomers(observations, best, dictionary);
+    if (late.empty()) {
+      return best;
+    }
+    std::vector<Chosen> all = best.chosen;
+    all.insert(all.end(), late.begin(), late.end());
+    Fit with = settle(observations, {std::move(all), deviation_of(observations, best.remainder)},
+                      findings, dictionary);
+    if (!predicts_better(observations, best, with)) {
+      return best;
+    }
+    best = std::move(with);
   }
-  std::vector<Chosen> all = best.chosen;
-  all.insert(all.end(), late.begin(), late.end());
-  Fit with = settle(observations, {std::move(all), deviation_of(observations, best.remainder)},
-                    findings, dictionary);
-  return predicts_better(observations, best, with) ? with : best;
 }
 
 /// Findings, and behind them the numbers of the families that stay beside them.
