@@ -1,5 +1,6 @@
 // Which of many numbers stay, and with what values: against least squares in closed form.
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 
@@ -98,6 +99,22 @@ void a_number_that_would_leave_its_bounds_is_held() {
   TEST_ASSERT_DOUBLE_WITHIN(0.02, expected[1], slope.values[0]);
 }
 
+/// A number that stays for what another, left out, could have done as well. Both share it where
+/// neither is left out, so that the one that stays is as uncertain as half of it.
+void what_was_left_out_makes_uncertain_what_stays_in_its_place() {
+  constexpr double kTrue = 10;
+  const Hypothesis pair = hypothesis_of("pair", {nearly_hum, whistle}, -1000);
+  const Hypothesis alone = hypothesis_of("alone", {hum}, -1000);
+  const Observations observations = made_by({{alone, {kTrue}}, {pair, {0, 40}}});
+  const std::vector<Chosen> best = best_for(observations, {pair, alone});
+  TEST_ASSERT_EQUAL_UINT64(1, best.size());
+  TEST_ASSERT_EQUAL_STRING("pair", best.front().hypothesis.effect().c_str());
+  TEST_ASSERT_DOUBLE_WITHIN(0.5, kTrue, best.front().values[0]);
+  const Eigen::MatrixXd columns = test::columns_of(observations, kJoint, {nearly_hum, whistle});
+  const double certain = std::sqrt((columns.transpose() * columns).inverse()(0, 0));
+  TEST_ASSERT_TRUE(best.front().hypothesis.parameters[0].widening * certain > 0.45 * kTrue);
+}
+
 /// Two numbers that act alike but for a millionth: least squares makes them large and opposite.
 void numbers_that_cannot_be_told_apart_stay_near_the_model() {
   constexpr double kTrue = 10;
@@ -125,6 +142,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(what_is_there_stays_and_what_is_not_goes);
   RUN_TEST(a_number_that_would_leave_its_bounds_is_held);
+  RUN_TEST(what_was_left_out_makes_uncertain_what_stays_in_its_place);
   RUN_TEST(numbers_that_cannot_be_told_apart_stay_near_the_model);
   return UNITY_END();
 }

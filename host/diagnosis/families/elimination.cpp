@@ -322,21 +322,25 @@ Eigen::VectorXd Elimination::widenings() const {
   return wide;
 }
 
-/// Variances of numbers, over the noise's; endless certainty, zero, of those that are not among
-/// them.
-Eigen::VectorXd Elimination::variances(const std::vector<Eigen::Index>& columns) const {
+/// What a set of numbers is found to be, and how certainly; endless certainty, zero, of those that
+/// are not among them.
+Elimination::Estimate Elimination::estimate(const std::vector<Eigen::Index>& columns) const {
   Eigen::MatrixXd inner = gram_(columns, columns);
   inner.diagonal() += precision()(columns);
+  const Eigen::LDLT<Eigen::MatrixXd> factors(inner);
   const Eigen::MatrixXd inverse =
-      inner.ldlt().solve(Eigen::MatrixXd::Identity(inner.rows(), inner.cols()));
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(columns_.cols());
-  all(columns) = inverse.diagonal();
+      factors.solve(Eigen::MatrixXd::Identity(inner.rows(), inner.cols()));
+  Estimate all{Eigen::VectorXd::Zero(columns_.cols()), Eigen::VectorXd::Zero(columns_.cols())};
+  const Eigen::VectorXd moment = moment_(columns);
+  const Eigen::VectorXd value = factors.solve(moment);
+  all.value(columns) = value;
+  all.variance(columns) = deviation() * deviation() * inverse.diagonal();
   return all;
 }
 
 /// Factors by which a set's numbers are less certain if the members that were left out are not
-/// ruled out. Other forms of friction do not count: which form it is makes no other number
-/// uncertain.
+/// ruled out: they would share what a number tells, and change it. Other forms of friction do not
+/// count: which form it is makes no other number uncertain.
 Eigen::VectorXd Elimination::widenings_by_others(const std::vector<std::size_t>& members) const {
   const std::vector<Eigen::Index> own = columns_of(members);
   std::vector<Eigen::Index> all = own;
@@ -347,10 +351,11 @@ Eigen::VectorXd Elimination::widenings_by_others(const std::vector<std::size_t>&
       all.insert(all.end(), member.columns.begin(), member.columns.end());
     }
   }
-  const Eigen::VectorXd alone = variances(own);
-  const Eigen::VectorXd beside = variances(all);
-  return (alone.array() > 0)
-      .select(beside.cwiseQuotient(alone.cwiseMax(1e-300)), 1)
+  const Estimate alone = estimate(own);
+  const Estimate beside = estimate(all);
+  const Eigen::VectorXd square = beside.variance + (beside.value - alone.value).cwiseAbs2();
+  return (alone.variance.array() > 0)
+      .select(square.cwiseQuotient(alone.variance.cwiseMax(1e-300)), 1)
       .cwiseMax(1)
       .cwiseSqrt();
 }

@@ -67,6 +67,12 @@ class Elimination {
     double square = 0;
   };
 
+  /// By column; zero where it is not in use.
+  struct Estimate {
+    Eigen::VectorXd value;
+    Eigen::VectorXd variance;
+  };
+
   template <typename Columns>
   void add(Member member, const Columns& columns);
   std::vector<Eigen::Index> columns_of(const std::vector<std::size_t>& members) const;
@@ -93,7 +99,7 @@ class Elimination {
   Set best_on_path();
   Set best_of_tolerances();
   Set best_set();
-  Eigen::VectorXd variances(const std::vector<Eigen::Index>& columns) const;
+  Estimate estimate(const std::vector<Eigen::Index>& columns) const;
   Eigen::VectorXd widenings_by_others(const std::vector<std::size_t>& members) const;
   std::vector<Chosen> chosen_of(const Set& set);
 

@@ -92,8 +92,7 @@ Fit refined(const Observations& observations, Fit best, std::size_t findings,
             const std::vector<Hypothesis>& hypotheses) {
   for (int round = 0; round < kRoundsAnew; ++round) {
     Fit anew = fit_anew(observations, best, findings, hypotheses);
-    if (!is_better(observations, best, anew) &&
-        !is_likelier(observations, best, anew, findings)) {
+    if (!is_better(observations, best, anew) && !is_likelier(observations, best, anew, findings)) {
       break;
     }
     best = std::move(anew);

@@ -11,10 +11,24 @@ namespace {
 
 constexpr double kAluminium = 23e-6;  // 1/K, growth of the lightest material of arms
 
-/// Rise of the temperature (K) over its first hundredth, whose mean is less noisy than one value.
-Eigen::VectorXd warming(const Eigen::VectorXd& temperature) {
-  const Eigen::Index first = std::max<Eigen::Index>(temperature.size() / 100, 1);
-  return temperature.array() - temperature.head(first).mean();
+/// Temperature (°C) at the beginning: where a straight line through the first rows begins, which is
+/// less noisy than one value, and no warmer than the beginning as their mean would be.
+double first_temperature(const Scene& scene) {
+  constexpr Eigen::Index kOneIn = 33;  // rows
+  constexpr Eigen::Index kLeast = 3;   // rows that make a line
+  const Eigen::Index first = std::max<Eigen::Index>(scene.temperature.size() / kOneIn, 1);
+  const double mean = scene.temperature.head(first).mean();
+  const Eigen::VectorXd time = scene.time.head(first).array() - scene.time.head(first).mean();
+  const double square = time.squaredNorm();
+  if (first < kLeast || !(square > 0)) {
+    return mean;
+  }
+  return mean + time.dot(scene.temperature.head(first)) / square * time[0];
+}
+
+/// Rise of the temperature (K) since the beginning.
+Eigen::VectorXd warming(const Scene& scene) {
+  return scene.temperature.array() - first_temperature(scene);
 }
 
 Eigen::VectorXd approach(const Eigen::VectorXd& time, double constant) {
@@ -25,7 +39,7 @@ Eigen::VectorXd approach(const Eigen::VectorXd& time, double constant) {
 using Growth = Eigen::VectorXd (*)(const Scene&, const Values&);
 
 Eigen::VectorXd by_temperature(const Scene& scene, const Values& /*values*/) {
-  return warming(scene.temperature);
+  return warming(scene);
 }
 
 Eigen::VectorXd by_time(const Scene& scene, const Values& values) {

@@ -79,6 +79,16 @@ class Judging(unittest.TestCase):
             1, diagnosis["findings"][0]))
         self.assertEqual((1, 1, 2), (result.found, result.right_findings, result.findings))
 
+    def test_foreign_physics_that_a_catalogue_has_by_now_is_rightly_named(self):
+        truth = truth_of("foreign", foreign={"name": "load_friction", "joint": 5})
+        for named, claims in ((("load_friction", 5), False), (("load_friction", 4), True),
+                              (("coulomb_friction", 5), True)):
+            with self.subTest(named=named):
+                findings = [fake_tool.finding(effect(*named))]
+                result = judged(truth, lambda diagnosis, found=findings: diagnosis.update(
+                    verdict="explained", findings=found))
+                self.assertIs(claims, result.claims)
+
     def test_any_finding_in_foreign_physics_is_a_wrong_claim(self):
         truth = truth_of("foreign", foreign={"name": "tracker_walk"})
 

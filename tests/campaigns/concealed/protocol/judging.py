@@ -91,7 +91,8 @@ def for_the_scorer(truth):
     family = truth["family"]
     if family == "effect":
         family = "single" if len(effects) == 1 else "pair"
-    foreign = {"name": truth["foreign"]["effect"]} if family == "foreign" else None
+    foreign = ({"name": truth["foreign"]["effect"], "joint": truth["foreign"]["joint"]}
+               if family == "foreign" else None)
     return {"family": family, "seed": truth["seed"], "kind": truth["kind"], "foreign": foreign,
             "effects": [] if foreign else effects, "noise_rms": noise_rms(truth)}
 

@@ -31,7 +31,7 @@ class Result:
     findings: int = 0
     right_findings: int = 0
     alarm: bool = False  # anything but no_mismatch
-    claims: bool = False  # any finding by a name of the catalogue
+    claims: bool = False  # any finding by a name of the catalogue but that of the physics itself
     holdout_ratio: dict = dataclasses.field(default_factory=dict)  # channel -> rms / noise
     covered: int = 0  # parameters whose 95 % interval holds the truth
     compared: int = 0
@@ -96,7 +96,9 @@ def judge(truth, answer, seconds):
     result.verdict, result.seconds = answer.verdict, seconds
     result.named = "+".join(label(place) for place in answer.named)
     result.alarm = answer.verdict != "no_mismatch"
-    result.claims = any(effect != "law" for effect, _ in answer.named)
+    own = truth["foreign"] and (truth["foreign"]["name"], truth["foreign"].get("joint"))
+    result.claims = any(place[0] != "law" and not (own and _same(place, own))
+                        for place in answer.named)
     result.findings = len(answer.named)
     result.first = _first(answer, effects) if effects else ("wrong" if answer.named else "nothing")
     result.found = sum(any(match(place, effect) in RIGHT for place in answer.named)
