@@ -69,6 +69,31 @@ std::array<Eigen::MatrixXd, 3> Observations::change_with(const Scene& other, std
   return change;
 }
 
+void Observations::find_acceleration_error() {
+  constexpr double kCut = 5e-3;  // of an acceleration, where a window was chosen with care
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    acceleration_error_.emplace_back();
+    for (Eigen::Index joint = 0; joint < scenes[s].joints(); ++joint) {
+      Scene other = scenes[s];
+      other.acceleration.col(joint) *= 1 + kCut;
+      acceleration_error_.back().push_back(change_with(other, s));
+    }
+  }
+}
+
+Eigen::MatrixXd Observations::acceleration_error() const {
+  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(train, machine.robot.joints());
+  for (Eigen::Index i = 0; i < train; ++i) {
+    const Sample& at = samples[static_cast<std::size_t>(i)];
+    for (Eigen::Index joint = 0; joint < error.cols(); ++joint) {
+      const Eigen::MatrixXd& change =
+          acceleration_error_[at.scene][static_cast<std::size_t>(joint)][at.channel];
+      error(i, joint) = change.size() > 0 ? change(at.row, at.component) / noise[i] : 0;
+    }
+  }
+  return error;
+}
+
 PredictionNoise Observations::prediction_noise(std::size_t s) const {
   Scene noisy = scenes[s];
   std::mt19937 random(1);

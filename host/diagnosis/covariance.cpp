@@ -62,6 +62,16 @@ double squares_of_windows(const Eigen::Ref<const Eigen::VectorXd>& series, Eigen
   return squares;
 }
 
+/// Covariance by errors (samples × independent causes, over the noise) of one deviation each.
+Eigen::MatrixXd covariance_by(const Eigen::MatrixXd& errors, const NormalInverse& inverse,
+                              const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight) {
+  const Eigen::MatrixXd shift =
+      inverse.unit.asDiagonal() *
+      (inverse.inner * (inverse.unit.asDiagonal() *
+                        (derivative.transpose() * (weight.asDiagonal() * errors))));
+  return shift * shift.transpose();
+}
+
 }  // namespace
 
 NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
@@ -115,7 +125,8 @@ Eigen::MatrixXd covariance_of(const Observations& observations, const NormalInve
     const double alone = inverse.inner(i, i) * variance;
     widening[i] *= !(size[i] > 0) ? 0 : std::sqrt(std::max(1.0, together[i] / alone));
   }
-  return widening.asDiagonal() * (inverse.inner * variance) * widening.asDiagonal();
+  return widening.asDiagonal() * (inverse.inner * variance) * widening.asDiagonal() +
+         covariance_by(observations.acceleration_error(), inverse, derivative, weight);
 }
 
 }  // namespace flexcomp::diagnosis

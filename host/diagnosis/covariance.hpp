@@ -30,6 +30,9 @@ NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorX
 /// deviation is at least what these fits scatter by: the jackknife by clusters (Bell and McCaffrey
 /// 2002, "CR3"; Cameron, Gelbach and Miller 2008). It is never narrowed: there are few clusters.
 /// Zero where nothing depends on a parameter.
+///
+/// What the accelerations may all be wrong by alike is added: an inertia that a joint moves would
+/// take it up, and leave nothing.
 Eigen::MatrixXd covariance_of(const Observations& observations, const NormalInverse& inverse,
                               const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
                               const Eigen::VectorXd& remainder, double variance);

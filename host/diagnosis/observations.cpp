@@ -60,6 +60,7 @@ Observations::Observations(Machine model, std::vector<Scene> all, std::size_t ho
   predictions = with_terms(machine.terms, scenes, simulations);
   is_static = scenes.front().is_static;
   noise_is_known = !is_static;
+  find_acceleration_error();
   collect(holdouts);
   renew_residual();
 }

@@ -94,6 +94,10 @@ class Observations {
 
   /// The scenes with samples to fit to.
   Scenes scenes_to_fit() const { return {scenes, train_scenes}; }
+  /// What the samples to fit to would be wrong by (over the noise, a column a joint) if one joint's
+  /// accelerations were all too small by what no remainder shows: a window that smooths angles cuts
+  /// from all of them alike.
+  Eigen::MatrixXd acceleration_error() const;
   /// Predictions as one column over the noise: of all scenes, or of those to fit to.
   Eigen::VectorXd stacked(const std::vector<Prediction>& values) const;
   /// Residual of other predictions, over the noise.
@@ -121,11 +125,15 @@ class Observations {
   /// Change of the predictions, by channel, for another course of a scene's motion.
   std::array<Eigen::MatrixXd, 3> change_with(const Scene& other, std::size_t scene) const;
   PredictionNoise prediction_noise(std::size_t scene) const;
+  void find_acceleration_error();
   void collect(std::size_t holdouts);
   void add_component(const Sample& first, const PredictionNoise& predicted, bool splits,
                      bool is_holdout, std::array<std::vector<Sample>, 2>* parts,
                      std::array<std::vector<double>, 2>* noises);
   void renew_residual();
+
+  /// By scene and joint: change of the predictions by the error of that joint's accelerations.
+  std::vector<std::vector<std::array<Eigen::MatrixXd, 3>>> acceleration_error_;
 };
 
 /// Torques (N·m, a column a joint) on the joints' springs as what was measured shows them: with

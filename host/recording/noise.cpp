@@ -68,6 +68,7 @@ double white_noise(const Eigen::VectorXd& signal, Eigen::Index stride) {
 double quantisation_step(const Eigen::VectorXd& signal) {
   constexpr double kWhole = 0.1;    // of a step: how far a multiple may be from a whole one
   constexpr double kMostly = 0.95;  // of the steps between neighbours, that are multiples
+  constexpr double kOnce = 0.9;     // of the values: hardly one comes twice
   std::vector<double> sizes;
   std::vector<double> values;
   for (Eigen::Index row = 1; row < signal.size(); ++row) {
@@ -81,7 +82,7 @@ double quantisation_step(const Eigen::VectorXd& signal) {
   }
   std::sort(values.begin(), values.end());
   const auto distinct = std::unique(values.begin(), values.end()) - values.begin();
-  if (sizes.empty() || 2 * static_cast<std::size_t>(distinct) > values.size()) {
+  if (sizes.empty() || static_cast<double>(distinct) > kOnce * static_cast<double>(values.size())) {
     return 0;
   }
   const double step = *std::min_element(sizes.begin(), sizes.end());

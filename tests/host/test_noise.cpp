@@ -63,7 +63,7 @@ VectorXd times() { return VectorXd::LinSpaced(4000, 0, 39.99); }
 VectorXd in_counts(const VectorXd& angle) { return kCount * (angle / kCount).array().round(); }
 
 void the_count_of_a_coarse_encoder_is_found() {
-  for (const double swing : {0.01, 0.1, 0.3}) {  // rad
+  for (const double swing : {0.01, 0.1, 0.3, 0.8}) {  // rad
     const VectorXd angle = 0.2 + swing * (3 * times().array()).sin();
     TEST_ASSERT_DOUBLE_WITHIN(1e-9 * kCount, kCount, quantisation_step(in_counts(angle)));
   }

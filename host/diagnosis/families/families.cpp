@@ -18,7 +18,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr int kRoundsAnew = 2;  // of choosing the numbers about those that were fitted
+constexpr int kRoundsAnew = 5;  // of choosing the numbers about those that were fitted
 constexpr double kClearlyBetter =
     0.97;                            // of the held-out error, that bodies which cannot be are worth
 constexpr int kExtraSteps = 0;       // before the numbers are beside them
