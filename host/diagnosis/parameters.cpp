@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,10 +17,15 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// by 0.1 to 1 % (tools/concealed, seed 771203).
 constexpr double kExactness = 0.005;
 
-double deviation_at(const Values& values, const Eigen::MatrixXd& covariance, Eigen::Index i) {
-  const double value = values[static_cast<std::size_t>(i)];
-  return covariance(i, i) > 0 ? std::hypot(std::sqrt(covariance(i, i)), kExactness * value)
-                              : kUnknown;
+/// Standard deviation of a parameter; none where it is beyond all that the parameter may be, so
+/// that nothing is told.
+double deviation_at(const Hypothesis& hypothesis, const Values& values,
+                    const Eigen::MatrixXd& covariance, std::size_t at) {
+  const auto i = static_cast<Eigen::Index>(at);
+  const Parameter& parameter = hypothesis.parameters[at];
+  const double deviation = std::sqrt(std::max(covariance(i, i), 0.0));
+  const bool is_told = deviation > 0 && deviation < parameter.upper - parameter.lower;
+  return is_told ? std::hypot(deviation, kExactness * values[at]) : kUnknown;
 }
 
 /// Can one of the parameters that act in proportion be told from zero? Otherwise the covariance
@@ -59,26 +65,23 @@ std::vector<Estimate> estimates(const Observations& observations, const Chosen& 
                                 const Eigen::MatrixXd& covariance) {
   const Hypothesis& hypothesis = chosen.hypothesis;
   const Values& values = chosen.values;
-  const auto count = static_cast<Eigen::Index>(values.size());
   const bool is_wave = hypothesis.traits().is_wave;
   const bool is_shape_told = tells_the_shape(hypothesis, values, covariance);
   std::vector<Estimate> all;
   if (is_wave) {
     add_wave(values, hypothesis.parameters.front().unit, covariance, &all);
   }
-  for (Eigen::Index i = is_wave ? 2 : 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
+  for (std::size_t at = is_wave ? 2 : 0; at < values.size(); ++at) {
     const Parameter& parameter = hypothesis.parameters[at];
     const bool is_told = at < hypothesis.linear || is_shape_told;
     all.push_back({parameter.name, parameter.unit, values[at],
-                   is_told ? deviation_at(values, covariance, i) : kUnknown, at});
+                   is_told ? deviation_at(hypothesis, values, covariance, at) : kUnknown, at});
   }
   if (hypothesis.law->derived) {
     const model::Robot& robot = observations.machine.robot;
     for (const effects::Derived& each : hypothesis.law->derived(robot, hypothesis.joint, values)) {
       all.push_back({each.name, each.unit, each.value,
-                     deviation_at(values, covariance, static_cast<Eigen::Index>(each.parameter)),
-                     each.parameter});
+                     deviation_at(hypothesis, values, covariance, each.parameter), each.parameter});
     }
   }
   return all;

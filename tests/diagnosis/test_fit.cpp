@@ -172,6 +172,16 @@ void no_number_is_told_better_than_laws_are_exact() {
   TEST_ASSERT_DOUBLE_WITHIN(0.1, 15, deviation);  // half a percent
 }
 
+void a_number_that_may_be_anything_that_it_can_be_is_not_told() {
+  const auto deviation_of = [](double deviation) {
+    const Shaped shaped(-3000, deviation);
+    const auto& found = shaped.diagnosis.choice.findings[0];
+    return estimates(shaped.observations, found.chosen, found.covariance)[0].deviation;
+  };
+  TEST_ASSERT_TRUE(std::isnan(deviation_of(1e9)));
+  TEST_ASSERT_FALSE(std::isnan(deviation_of(1000)));
+}
+
 void a_finding_is_summed_up_by_the_numbers_that_are_told_from_nothing() {
   const auto said = [](const Shaped& shaped) {
     return statement(shaped.observations, shaped.diagnosis, 0);
@@ -263,6 +273,7 @@ int main() {
   RUN_TEST(a_fit_has_a_prediction_where_it_is_checked_as_well);
   RUN_TEST(the_shape_of_what_cannot_be_told_from_nothing_is_unknown);
   RUN_TEST(no_number_is_told_better_than_laws_are_exact);
+  RUN_TEST(a_number_that_may_be_anything_that_it_can_be_is_not_told);
   RUN_TEST(a_finding_is_summed_up_by_the_numbers_that_are_told_from_nothing);
   RUN_TEST(a_parameter_counts_by_what_the_samples_tell_of_it);
   RUN_TEST(amplitudes_of_two_hypotheses_that_leave_their_bounds_are_held_at_zero);

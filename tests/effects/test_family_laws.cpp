@@ -6,6 +6,8 @@
 #include "effects/learned.hpp"
 #include "effects/moving_robot.hpp"
 #include "host/scratch_folder.hpp"
+#include "model/chain_kinematics.hpp"
+#include "simulation/inverse_dynamics.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
@@ -241,6 +243,44 @@ void each_is_read_as_it_was_written() {
   }
 }
 
+/// Derivative of a point's place on a link (m/rad) by the joints' angles, by central differences.
+Eigen::MatrixXd jacobian_of(const model::Robot& robot, const simulation::JointValues& q,
+                            std::size_t link, const Vector& point) {
+  constexpr double kStep = 1e-6;
+  const auto place = [&](const simulation::JointValues& at) -> Vector {
+    const Pose<double>& frame = model::forward_kinematics(robot.elastic, at).links[link];
+    return frame.position + frame.rotation * point;
+  };
+  Eigen::MatrixXd jacobian(3, q.size());
+  for (Eigen::Index joint = 0; joint < q.size(); ++joint) {
+    simulation::JointValues step = simulation::JointValues::Zero(q.size());
+    step[joint] = kStep;
+    jacobian.col(joint) = (place(q + step) - place(q - step)) / (2 * kStep);
+  }
+  return jacobian;
+}
+
+/// Lagrange: a point mass adds m JᵀJ to the joint-space inertia.
+void a_lump_takes_the_torque_of_a_mass_at_its_place() {
+  constexpr double kMass = 30;
+  constexpr int kJoint = 3;
+  const Vector place(0.4, -0.1, 0.2);
+  const FreeRobot free;
+  simulation::Machine machine = effects::machine_of(free.robot);
+  const Vector moment = kMass * place;
+  effects::find_law("link_mass", "lump")
+      ->apply({kMass, moment.x(), moment.y(), moment.z()}, kJoint, &machine);
+  simulation::JointValues q(6), rest = simulation::JointValues::Zero(6), acceleration(6);
+  q << 0.3, -0.9, 1.1, 0.4, -0.7, 0.2;
+  acceleration << 1, -2, 0.5, 3, -1, 2;
+  const simulation::JointValues change =
+      simulation::inverse_dynamics(machine.robot, q, rest, acceleration) -
+      simulation::inverse_dynamics(free.robot, q, rest, acceleration);
+  const Eigen::MatrixXd jacobian = jacobian_of(free.robot, q, kJoint - 1, place);
+  const Eigen::VectorXd expected = kMass * jacobian.transpose() * (jacobian * acceleration);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-6 * expected.norm(), 0, (change - expected).norm());
+}
+
 /// A robot on stiff joints that carries a spindle.
 struct CarryingRobot : test::MovingRobot {
   CarryingRobot() {
@@ -288,6 +328,7 @@ int main() {
   RUN_TEST(a_gain_scales_what_is_measured_of_one_joint);
   RUN_TEST(friction_under_load_is_a_share_of_the_torque_against_the_motion);
   RUN_TEST(a_robot_that_leans_carries_its_weight_as_if_gravity_leant_the_other_way);
+  RUN_TEST(a_lump_takes_the_torque_of_a_mass_at_its_place);
   RUN_TEST(the_payload_hangs_on_a_flange_that_gives);
   RUN_TEST(the_payload_does_not_hang_on_a_holder_that_gives);
   RUN_TEST(each_is_read_as_it_was_written);

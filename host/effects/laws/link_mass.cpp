@@ -47,10 +47,26 @@ void mount(double mass, const Vector3<double>& moment, std::size_t index, model:
   robot->link_inertia[index] = inertia - about_origin(link.mass, link.center_of_mass);
 }
 
+/// The same where the first moment is that of the mass at one place, which has an inertia about the
+/// link's origin. The place is no farther than `farthest` (m), however small the mass.
+void mount_lump(double mass, const Vector3<double>& moment, double farthest, std::size_t index,
+                model::Robot* robot) {
+  mount(mass, moment, index, robot);
+  const double place =
+      std::abs(mass) * farthest > moment.norm() ? moment.norm() / std::abs(mass) : farthest;
+  if (moment.norm() > 0) {
+    const Vector3<double> direction = moment.normalized();
+    robot->link_inertia[index] += std::copysign(moment.norm() * place, mass) *
+                                  (Matrix3<double>::Identity() - direction * direction.transpose());
+  }
+}
+
 }  // namespace
 
 // Mass of a link that differs from the model's: the same body heavier or lighter in all its parts,
-// or mass and first moment (link frame) of something mounted on it (rigid-body dynamics).
+// or mass and first moment (link frame) of something mounted on it (rigid-body dynamics). The form
+// `mounted` leaves out the inertia that a first moment brings, and is linear; `lump` has that of a
+// point mass.
 Forms laws::link_mass() {
   Law body;
   body.form = "body";
@@ -83,7 +99,18 @@ Forms laws::link_mass() {
         mount(values[0], {values[1], values[2], values[3]}, index_of(joint), robot);
       },
       &mounted);
-  return {{body, mounted},
+  Law lump = mounted;
+  lump.form = "lump";
+  lump.joints = all_but_the_last;  // whose lump is a payload
+  lump.traits.is_in_family = false;
+  lump.traits.is_curved = true;
+  alter_robot(
+      [](const Values& values, int joint, model::Robot* robot) {
+        mount_lump(values[0], {values[1], values[2], values[3]}, size_of(*robot).reach,
+                   index_of(joint), robot);
+      },
+      &lump);
+  return {{body, mounted, lump},
           {},
           {{"body", " mass ",
             [](const Subject& of) {
@@ -95,7 +122,17 @@ Forms laws::link_mass() {
               return Range{-kLostMass * of.joint().mass, largest_mounted(of)};
             },
             "no more is mounted on a link than twice its mass or what the flange could carry"},
+           {"lump", " mass ",
+            [](const Subject& of) {
+              return Range{-kLostMass * of.joint().mass, largest_mounted(of)};
+            },
+            "no more is mounted on a link than twice its mass or what the flange could carry"},
            {"mounted", " mx my mz ",
+            [](const Subject& of) {
+              return within((of.joint().mass + largest_mounted(of)) * of.size.reach);
+            },
+            "what is mounted on a link lies within the arm's reach"},
+           {"lump", " mx my mz ",
             [](const Subject& of) {
               return within((of.joint().mass + largest_mounted(of)) * of.size.reach);
             },
