@@ -67,8 +67,8 @@ Eigen::MatrixXd covariance_by(const Eigen::MatrixXd& errors, const NormalInverse
                               const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight) {
   const Eigen::MatrixXd shift =
       inverse.unit.asDiagonal() *
-      (inverse.inner * (inverse.unit.asDiagonal() *
-                        (derivative.transpose() * (weight.asDiagonal() * errors))));
+      (inverse.inner *
+       (inverse.unit.asDiagonal() * (derivative.transpose() * (weight.asDiagonal() * errors))));
   return shift * shift.transpose();
 }
 
