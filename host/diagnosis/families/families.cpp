@@ -18,7 +18,8 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr int kRoundsAnew = 5;  // of choosing the numbers about those that were fitted
+constexpr int kRoundsAnew = 5;     // of choosing the numbers about those that were fitted
+constexpr int kRoundsSmaller = 2;  // of these, in which they may be smaller and predict worse
 constexpr double kClearlyBetter =
     0.97;                            // of the held-out error, that bodies which cannot be are worth
 constexpr int kExtraSteps = 0;       // before the numbers are beside them
@@ -62,29 +63,24 @@ double size_of_numbers(const Observations& observations, const Fit& fit, std::si
   return sum;
 }
 
-/// How much less likely one fit is than another by the samples that both were fitted to, as squares
-/// of deviations; zero where it leaves no more.
-double refutation_of(const Observations& observations, const Fit& before, const Fit& after) {
-  return std::max(0.0, independent_samples(observations, before.remainder) *
-                           std::log(after.train_sum / before.train_sum));
+/// Do the samples that both fits were fitted to speak strongly against the second one, and more
+/// than what was held out speaks for it? Both are squares of deviations.
+bool is_refuted(const Observations& observations, const Fit& before, const Fit& after) {
+  const double against = independent_samples(observations, before.remainder) *
+                         std::log(after.train_sum / before.train_sum);
+  const double in_favour =
+      std::max(0.0, confirmation_of(observations, before.remainder, after.remainder));
+  return against > kStrongEvidence && against > in_favour * in_favour;
 }
 
-/// Does a fit predict better what was held out, by more than it leaves more where it was fitted?
-bool is_better(const Observations& observations, const Fit& before, const Fit& after) {
-  const double better = confirmation_of(observations, before.remainder, after.remainder);
-  return predicts_better(observations, before, after) &&
-         better * better > refutation_of(observations, before, after);
-}
-
-/// Do smaller numbers make up for a worse fit, and for a worse prediction of what was held out? All
-/// are squares of deviations: of the numbers from the model, and of the errors from chance.
+/// Do smaller numbers make up for a worse prediction of what was held out? Both are squares of
+/// deviations: of the numbers from the model, and of the change of the error from chance.
 bool is_likelier(const Observations& observations, const Fit& before, const Fit& after,
                  std::size_t findings) {
-  const double worse =
-      std::max(0.0, confirmation_of(observations, after.remainder, before.remainder));
+  const double worse = confirmation_of(observations, after.remainder, before.remainder);
   return size_of_numbers(observations, before, findings) -
              size_of_numbers(observations, after, findings) >
-         worse * worse + refutation_of(observations, before, after);
+         worse * std::max(worse, 0.0);
 }
 
 /// The fit made anew, as often as it predicts better or is likelier with smaller numbers.
@@ -92,7 +88,10 @@ Fit refined(const Observations& observations, Fit best, std::size_t findings,
             const std::vector<Hypothesis>& hypotheses) {
   for (int round = 0; round < kRoundsAnew; ++round) {
     Fit anew = fit_anew(observations, best, findings, hypotheses);
-    if (!is_better(observations, best, anew) && !is_likelier(observations, best, anew, findings)) {
+    const bool is_wanted =
+        predicts_better(observations, best, anew) ||
+        (round < kRoundsSmaller && is_likelier(observations, best, anew, findings));
+    if (!is_wanted || is_refuted(observations, best, anew)) {
       break;
     }
     best = std::move(anew);
