@@ -248,7 +248,7 @@ Eigen::MatrixXd jacobian_of(const model::Robot& robot, const simulation::JointVa
                             std::size_t link, const Vector& point) {
   constexpr double kStep = 1e-6;
   const auto place = [&](const simulation::JointValues& at) -> Vector {
-    const Pose<double>& frame = model::forward_kinematics(robot.elastic, at).links[link];
+    const Pose<double> frame = model::forward_kinematics(robot.elastic, at).links[link];
     return frame.position + frame.rotation * point;
   };
   Eigen::MatrixXd jacobian(3, q.size());
