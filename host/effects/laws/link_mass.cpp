@@ -61,6 +61,18 @@ void mount_lump(double mass, const Vector3<double>& moment, double farthest, std
   }
 }
 
+constexpr const char* kWhatIsMounted =
+    "no more is mounted on a link than twice its mass or what the flange could carry";
+constexpr const char* kWhereItIs = "what is mounted on a link lies within the arm's reach";
+
+Range mounted_mass(const Subject& of) {
+  return Range{-kLostMass * of.joint().mass, largest_mounted(of)};
+}
+
+Range mounted_moment(const Subject& of) {
+  return within((of.joint().mass + largest_mounted(of)) * of.size.reach);
+}
+
 }  // namespace
 
 // Mass of a link that differs from the model's: the same body heavier or lighter in all its parts,
@@ -117,26 +129,10 @@ Forms laws::link_mass() {
               return Range{-kLostMass * of.joint().mass, kAddedMass * of.joint().mass};
             },
             "models' masses are estimates to a half (Gaz et al. 2019); none is off fivefold"},
-           {"mounted", " mass ",
-            [](const Subject& of) {
-              return Range{-kLostMass * of.joint().mass, largest_mounted(of)};
-            },
-            "no more is mounted on a link than twice its mass or what the flange could carry"},
-           {"lump", " mass ",
-            [](const Subject& of) {
-              return Range{-kLostMass * of.joint().mass, largest_mounted(of)};
-            },
-            "no more is mounted on a link than twice its mass or what the flange could carry"},
-           {"mounted", " mx my mz ",
-            [](const Subject& of) {
-              return within((of.joint().mass + largest_mounted(of)) * of.size.reach);
-            },
-            "what is mounted on a link lies within the arm's reach"},
-           {"lump", " mx my mz ",
-            [](const Subject& of) {
-              return within((of.joint().mass + largest_mounted(of)) * of.size.reach);
-            },
-            "what is mounted on a link lies within the arm's reach"}}};
+           {"mounted", " mass ", mounted_mass, kWhatIsMounted},
+           {"lump", " mass ", mounted_mass, kWhatIsMounted},
+           {"mounted", " mx my mz ", mounted_moment, kWhereItIs},
+           {"lump", " mx my mz ", mounted_moment, kWhereItIs}}};
 }
 
 }  // namespace flexcomp::effects
