@@ -11,6 +11,7 @@
 #include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
 #include "diagnosis/rest.hpp"
+#include "diagnosis/select/confounders.hpp"
 #include "diagnosis/select/forms.hpp"
 #include "diagnosis/select/standards.hpp"
 
@@ -374,6 +375,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   }
   if (!diagnosis.is_weighed_whole) {
     settle_forms(inquiry, &diagnosis.choice);
+    widen_by_confounders(inquiry, &diagnosis.choice);
   }
   diagnosis.trials = weigh_trials(inquiry, diagnosis.choice);
   suggest(*observations, &diagnosis);

@@ -35,7 +35,7 @@ void move(const Machine& machine, const Scene& scene, Simulation* at) {
 /// The wrench behind what the sensor shows.
 void correct_wrench(const Machine& machine, const Scene& scene, Simulation* at) {
   at->wrench = machine.wrench_delay != 0 && !scene.is_static
-                   ? delayed(scene.time, scene.wrench, -machine.wrench_delay)
+                   ? delayed_smoothly(scene.time, scene.wrench, -machine.wrench_delay)
                    : scene.wrench;
   if (machine.sensor.empty()) {
     return;

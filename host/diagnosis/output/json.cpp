@@ -57,6 +57,15 @@ Json parameters_of(const Observations& observations, const Chosen& chosen,
   return parameters;
 }
 
+/// Parameters of a finding; `std_alone` were nothing off but what was found.
+Json parameters_of(const Observations& observations, const Finding& finding) {
+  Json parameters = parameters_of(observations, finding.chosen, finding.whole_covariance());
+  for (const Estimate& alone : estimates(observations, finding.chosen, finding.covariance)) {
+    parameters[alone.name]["std_alone"] = finite_or_null(alone.deviation);
+  }
+  return parameters;
+}
+
 /// Of effects that take several.
 Json form_or_null(const Hypothesis& hypothesis) {
   return hypothesis.law->form.empty() ? Json(nullptr) : Json(hypothesis.law->form);
@@ -79,6 +88,10 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
                             {"joint", joint_or_null(other.joint)},
                             {"delta_bic", other.delta_bic}});
   }
+  Json confounders = Json::array();
+  for (const Confounder& each : finding.confounders) {
+    confounders.push_back({{"effect", each.effect}, {"joint", joint_or_null(each.joint)}});
+  }
   const Channel channel = main_channel(observations, finding.without, diagnosis.weighed());
   Json json = {{"effect", hypothesis.effect()},
                {"form", form_or_null(hypothesis)},
@@ -87,7 +100,8 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
     json.update(formula_json(*hypothesis.law->written));
   }
   json.update(
-      {{"parameters", parameters_of(observations, finding.chosen, finding.covariance)},
+      {{"parameters", parameters_of(observations, finding)},
+       {"confounders", confounders},
        {"evidence",
         {{"delta_bic", finding.evidence.delta_bic},
          {"p_value", finding.evidence.p_value},

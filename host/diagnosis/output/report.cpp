@@ -43,10 +43,9 @@ std::string chance(double p_value) {
   return p_value > 1e-300 ? fmt::format("{:.1g}", p_value) : "&lt; 1e-300";
 }
 
-std::string parameters(const Observations& observations, const Chosen& chosen,
-                       const Eigen::MatrixXd& covariance) {
+std::string parameters(const std::vector<Estimate>& all) {
   std::string values;
-  for (const Estimate& each : estimates(observations, chosen, covariance)) {
+  for (const Estimate& each : all) {
     const bool is_told = std::isfinite(each.deviation);
     const auto [factor, unit] = readable_scale(
         is_told ? std::max(std::abs(each.value), kTold * each.deviation) : std::abs(each.value),
@@ -57,6 +56,24 @@ std::string parameters(const Observations& observations, const Chosen& chosen,
                           unit == "1" ? "" : " " + unit, is_told ? "" : ", ± not known");
   }
   return values;
+}
+
+/// A finding's parameters; where confounders make them less certain, what they would be without.
+std::string parameters(const Observations& observations, const Finding& finding) {
+  std::string html =
+      parameters(estimates(observations, finding.chosen, finding.whole_covariance()));
+  if (!finding.confounders.empty()) {
+    std::vector<std::string> names;
+    for (const Confounder& each : finding.confounders) {
+      names.push_back(place_in_words(each.effect, each.joint));
+    }
+    html += fmt::format(
+        "<small>These recordings do not rule out, beside it: {}. Were nothing else "
+        "off:<br>{}</small>",
+        fmt::join(names, ", "),
+        parameters(estimates(observations, finding.chosen, finding.covariance)));
+  }
+  return html;
 }
 
 /// "law of joint 5: a*sin(q4)"
@@ -84,10 +101,10 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
         others += fmt::format("{}: {:.0f} worse<br>", name, other.delta_bic);
       }
     }
-    rows += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n", named(hypothesis),
-        parameters(observations, finding.chosen, finding.covariance), finding.evidence.delta_bic,
-        chance(finding.evidence.p_value), others.empty() ? "none comes near" : others);
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
+                        named(hypothesis), parameters(observations, finding),
+                        finding.evidence.delta_bic, chance(finding.evidence.p_value),
+                        others.empty() ? "none comes near" : others);
   }
   if (rows.empty()) {
     return "<p>No effect is proved.</p>\n";
@@ -225,7 +242,7 @@ std::string retuned(const Observations& observations, const Diagnosis& diagnosis
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         place_in_words(hypothesis.effect(), hypothesis.joint),
-        parameters(observations, fit.chosen[i], fit.covariance_of(i)),
+        parameters(estimates(observations, fit.chosen[i], fit.covariance_of(i))),
         three_digits(scale.factor * (rms_without(observations, fit, i, channel) - with)));
   }
   return fmt::format(

@@ -8,6 +8,14 @@
 
 namespace flexcomp::diagnosis {
 
+Eigen::MatrixXd Finding::whole_covariance() const {
+  Eigen::MatrixXd whole = covariance;
+  if (hidden.size() > 0) {
+    whole.diagonal() += hidden;
+  }
+  return whole;
+}
+
 Evidence weigh_last(const Inquiry& inquiry, const Fit& before, const Fit& after) {
   return weigh(inquiry.observations, before, after,
                static_cast<double>(inquiry.dictionary.entries.size()));

@@ -12,13 +12,25 @@ struct Alternative {
   Chosen chosen;
 };
 
+/// An effect at a place that may be there beside a finding without being seen.
+struct Confounder {
+  std::string effect;
+  int joint = 0;
+};
+
 /// A finding: a law at a place with its values, the evidence for it, and its alternatives.
 struct Finding {
   Chosen chosen;
-  Eigen::MatrixXd covariance;  ///< of its values
+  Eigen::MatrixXd covariance;  ///< of its values, were nothing off but what was found
   Evidence evidence;
   Fit without;  ///< all other findings, fitted
   std::vector<Alternative> alternatives;
+  Eigen::VectorXd hidden =
+      {};  ///< variance of each value by confounders; empty where none was sought
+  std::vector<Confounder> confounders = {};  ///< that widen an interval most, the worst first
+
+  /// Covariance of the values, whatever hides beside them.
+  Eigen::MatrixXd whole_covariance() const;
 };
 
 /// A fit, and each of its choices weighed against all others.
