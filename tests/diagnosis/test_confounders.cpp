@@ -50,7 +50,8 @@ Finding found_beside(const char* name, Course course, double size) {
   const Fit given = fit(observations, {}, 0);
   Choice choice;
   choice.fit = fit(observations, {{cause, {kSize}}}, 20);
-  choice.findings.push_back({choice.fit.chosen[0], choice.fit.covariance_of(0), {}, {}, {}});
+  choice.findings.push_back(
+      {choice.fit.chosen[0], choice.fit.covariance_of(0), {}, {}, {}, {}, {}});
   widen_by_confounders({observations, dictionary, 0.01, given}, &choice);
   return choice.findings[0];
 }

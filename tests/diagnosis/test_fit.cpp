@@ -141,7 +141,7 @@ struct Shaped {
     fit.remainder = Eigen::VectorXd::Ones(observations.size());
     Fit without;
     without.remainder = 2 * fit.remainder;
-    diagnosis.choice.findings.push_back({fit.chosen[0], fit.covariance, {}, without, {}});
+    diagnosis.choice.findings.push_back({fit.chosen[0], fit.covariance, {}, without, {}, {}, {}});
   }
 
   const SwingingRobot swinging{1};

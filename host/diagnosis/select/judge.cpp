@@ -27,7 +27,7 @@ Finding judge(const Inquiry& inquiry, const Fit& whole, std::size_t index) {
   Fit last = whole;  // the same fit, its last hypothesis the one that is weighed
   std::rotate(last.chosen.begin() + at, last.chosen.begin() + at + 1, last.chosen.end());
   Evidence evidence = weigh_last(inquiry, without, last);
-  return {whole.chosen[index], {}, std::move(evidence), std::move(without), {}};
+  return {whole.chosen[index], {}, std::move(evidence), std::move(without), {}, {}, {}};
 }
 
 bool holds(const Inquiry& inquiry, const Evidence& evidence) {

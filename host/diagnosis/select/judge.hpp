@@ -25,9 +25,8 @@ struct Finding {
   Evidence evidence;
   Fit without;  ///< all other findings, fitted
   std::vector<Alternative> alternatives;
-  Eigen::VectorXd hidden =
-      {};  ///< variance of each value by confounders; empty where none was sought
-  std::vector<Confounder> confounders = {};  ///< that widen an interval most, the worst first
+  Eigen::VectorXd hidden;  ///< variance of each value by confounders; empty: none was sought
+  std::vector<Confounder> confounders;  ///< that widen an interval most, the worst first
 
   /// Covariance of the values, whatever hides beside them.
   Eigen::MatrixXd whole_covariance() const;

@@ -47,8 +47,13 @@ Finding judge_linearly(const Inquiry& inquiry, const Fit& whole, const Without& 
   Fit last = whole;  // the same fit, its last hypothesis the one that is weighed
   std::rotate(last.chosen.begin() + at, last.chosen.begin() + at + 1, last.chosen.end());
   Evidence evidence = weigh_last(inquiry, others, last);
-  return {
-      whole.chosen[index], whole.covariance_of(index), std::move(evidence), std::move(others), {}};
+  return {whole.chosen[index],
+          whole.covariance_of(index),
+          std::move(evidence),
+          std::move(others),
+          {},
+          {},
+          {}};
 }
 
 /// Does an effect show at the TCP alone, on a small path? Errors of geometry are smooth along it,
