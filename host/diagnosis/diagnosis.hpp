@@ -25,12 +25,6 @@ enum class Verdict {
 /// The verdict's name in `diagnosis.json`.
 const char* name_of(Verdict verdict);
 
-/// An effect at a place, as a person names it.
-struct Place {
-  std::string effect;
-  int joint = 0;
-};
-
 /// The mismatch between a model and its recordings, and its causes.
 struct Diagnosis {
   Verdict verdict = Verdict::unexplained;

@@ -77,6 +77,14 @@ Json formula_json(const model::WrittenLaw& law) {
           {"formula", law.formula}};
 }
 
+Json places(const std::vector<Place>& all) {
+  Json json = Json::array();
+  for (const Place& place : all) {
+    json.push_back({{"effect", place.effect}, {"joint", joint_or_null(place.joint)}});
+  }
+  return json;
+}
+
 Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
   const Choice& choice = diagnosis.choice;
   const Finding& finding = choice.findings[index];
@@ -88,10 +96,6 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
                             {"joint", joint_or_null(other.joint)},
                             {"delta_bic", other.delta_bic}});
   }
-  Json confounders = Json::array();
-  for (const Confounder& each : finding.confounders) {
-    confounders.push_back({{"effect", each.effect}, {"joint", joint_or_null(each.joint)}});
-  }
   const Channel channel = main_channel(observations, finding.without, diagnosis.weighed());
   Json json = {{"effect", hypothesis.effect()},
                {"form", form_or_null(hypothesis)},
@@ -101,7 +105,7 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
   }
   json.update(
       {{"parameters", parameters_of(observations, finding)},
-       {"confounders", confounders},
+       {"confounders", places(finding.confounders)},
        {"evidence",
         {{"delta_bic", finding.evidence.delta_bic},
          {"p_value", finding.evidence.p_value},
@@ -128,14 +132,6 @@ Json trial_json(const Observations& observations, const Trial& trial) {
                         {"explained", trial.evidence.explained}};
   }
   json["statement"] = statement_of_trial(observations, trial);
-  return json;
-}
-
-Json places(const std::vector<Place>& all) {
-  Json json = Json::array();
-  for (const Place& place : all) {
-    json.push_back({{"effect", place.effect}, {"joint", joint_or_null(place.joint)}});
-  }
   return json;
 }
 

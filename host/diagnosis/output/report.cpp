@@ -64,7 +64,7 @@ std::string parameters(const Observations& observations, const Finding& finding)
       parameters(estimates(observations, finding.chosen, finding.whole_covariance()));
   if (!finding.confounders.empty()) {
     std::vector<std::string> names;
-    for (const Confounder& each : finding.confounders) {
+    for (const Place& each : finding.confounders) {
       names.push_back(place_in_words(each.effect, each.joint));
     }
     html += fmt::format(

@@ -59,7 +59,7 @@ class Tangent {
 
 /// A confounder with what it does to the findings' numbers.
 struct Doubt {
-  Confounder of;
+  Place of;
   Eigen::VectorXd squares;
 };
 
@@ -85,8 +85,8 @@ std::vector<Doubt> doubts(const Inquiry& inquiry, const Fit& fit) {
 }
 
 /// Names the confounder, once, unless enough are named.
-void name(const Confounder& confounder, std::vector<Confounder>* named) {
-  const bool is_named = std::any_of(named->begin(), named->end(), [&](const Confounder& other) {
+void name(const Place& confounder, std::vector<Place>* named) {
+  const bool is_named = std::any_of(named->begin(), named->end(), [&](const Place& other) {
     return other.effect == confounder.effect && other.joint == confounder.joint;
   });
   if (!is_named && named->size() < kMostNamed) {

@@ -12,8 +12,8 @@ struct Alternative {
   Chosen chosen;
 };
 
-/// An effect at a place that may be there beside a finding without being seen.
-struct Confounder {
+/// An effect at a place, as a person names it.
+struct Place {
   std::string effect;
   int joint = 0;
 };
@@ -26,7 +26,7 @@ struct Finding {
   Fit without;  ///< all other findings, fitted
   std::vector<Alternative> alternatives;
   Eigen::VectorXd hidden;  ///< variance of each value by confounders; empty: none was sought
-  std::vector<Confounder> confounders;  ///< that widen an interval most, the worst first
+  std::vector<Place> confounders;  ///< that widen an interval most, the worst first
 
   /// Covariance of the values, whatever hides beside them.
   Eigen::MatrixXd whole_covariance() const;
