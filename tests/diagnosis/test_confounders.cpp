@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "diagnosis/driven_robot.hpp"
+#include "diagnosis/parameters.hpp"
 #include "diagnosis/select/confounders.hpp"
 #include "unity_main.hpp"
 
@@ -11,6 +12,7 @@ using diagnosis::Dictionary;
 using diagnosis::Finding;
 using diagnosis::Fit;
 using diagnosis::Hypothesis;
+using diagnosis::kTold;
 using diagnosis::Observations;
 using test::adding;
 using test::Course;
@@ -20,7 +22,6 @@ namespace {
 
 constexpr int kJoint = 2;
 constexpr double kSize = 10;  // N·m, of what is found
-constexpr double kTold = 1.96;
 
 double found(double time) { return std::cos(time); }
 double twin(double time) { return std::cos(time) + 0.01 * std::sin(7 * time); }
