@@ -317,6 +317,22 @@ void the_payload_hangs_on_a_flange_that_gives() { assert_gives("", 80); }
 
 void the_payload_does_not_hang_on_a_holder_that_gives() { assert_gives("holder", 0); }
 
+void a_late_force_sensor_follows_a_force_between_two_rows() {
+  constexpr double kForce = 500;   // N
+  constexpr double kPace = 30;     // rad/s: a straight line between rows is off by 5.6 N halfway
+  constexpr double kDelay = 5e-3;  // s, half a row
+  test::MovingRobot moving;
+  const Eigen::ArrayXd time = moving.recording.time.array();
+  moving.recording.wrench->col(0) = kForce * (kPace * time).cos();
+  const simulation::Scene scene = moving.scene();
+  simulation::Machine machine = effects::machine_of(moving.robot, {scene});
+  machine.wrench_delay = kDelay;
+  const Eigen::Index inside = time.size() - 4;  // at the ends a slope is known from one side alone
+  const Eigen::ArrayXd expected = kForce * (kPace * (time.segment(2, inside) + kDelay)).cos();
+  const Eigen::ArrayXd found = simulate(machine, scene).wrench.col(0).segment(2, inside).array();
+  TEST_ASSERT_DOUBLE_WITHIN(1, 0, (found - expected).abs().maxCoeff());
+}
+
 }  // namespace
 
 int main() {
@@ -331,6 +347,7 @@ int main() {
   RUN_TEST(a_lump_takes_the_torque_of_a_mass_at_its_place);
   RUN_TEST(the_payload_hangs_on_a_flange_that_gives);
   RUN_TEST(the_payload_does_not_hang_on_a_holder_that_gives);
+  RUN_TEST(a_late_force_sensor_follows_a_force_between_two_rows);
   RUN_TEST(each_is_read_as_it_was_written);
   return UNITY_END();
 }
