@@ -97,10 +97,34 @@ void Evaluator::halve_amplitudes() {
   }
 }
 
+std::vector<effects::Placed> Evaluator::placed_at(const Values& values) const {
+  std::vector<effects::Placed> placed;
+  placed.reserve(chosen_.size());
+  auto at = values.begin();
+  for (const Chosen& each : chosen_) {
+    const auto end = at + static_cast<std::ptrdiff_t>(each.values.size());
+    placed.push_back({each.hypothesis.law, each.hypothesis.joint, Values(at, end)});
+    at = end;
+  }
+  return placed;
+}
+
+Machine Evaluator::machine_at(const Values& values) const {
+  Machine machine = observations_.machine;
+  effects::add_effects(placed_at(values), &machine);
+  return machine;
+}
+
+/// Terms leave the robot as it is.
 model::Robot Evaluator::robot_with(const Values& values) const {
-  Evaluator moved(observations_, chosen_, nullptr);
-  moved.set(values);
-  return machine_with(observations_, moved.chosen_).robot;
+  std::vector<effects::Placed> placed = placed_at(values);
+  placed.erase(
+      std::remove_if(placed.begin(), placed.end(),
+                     [](const effects::Placed& each) { return !each.law->traits.alters_model; }),
+      placed.end());
+  Machine machine = observations_.machine;
+  effects::add_effects(placed, &machine);
+  return machine.robot;
 }
 
 bool Evaluator::alters_any() const {
@@ -160,11 +184,9 @@ Eigen::VectorXd Evaluator::prediction(const Scenes& scenes, const Machine& machi
 Eigen::VectorXd Evaluator::stepped(const Scenes& scenes, const Values& values, std::size_t index,
                                    double step, const std::vector<Simulation>& simulations,
                                    const std::vector<simulation::RigidTorque>& rigid) const {
-  Evaluator moved(observations_, chosen_, nullptr);
   Values other = values;
   other[index] += step;
-  moved.set(other);
-  const Machine changed = machine_with(observations_, moved.chosen_);
+  const Machine changed = machine_at(other);
   return alters_[index]
              ? prediction(scenes, changed, simulate_scenes(scenes, changed, rigid, simulations))
              : prediction(scenes, changed, simulations);
@@ -191,7 +213,7 @@ Eigen::VectorXd Evaluator::gains_over_dictionary(Eigen::Index count) const {
 Eigen::VectorXd Evaluator::evaluate_in(const Scenes& scenes, const Values& values,
                                        Eigen::MatrixXd* derivative) {
   set(values);
-  const Machine machine = machine_with(observations_, chosen_);
+  const Machine machine = machine_at(values);
   const std::vector<Simulation>& at = simulations(scenes, machine);
   Eigen::VectorXd base = prediction(scenes, machine, at);
   if (derivative == nullptr) {

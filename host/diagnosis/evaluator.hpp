@@ -35,6 +35,8 @@ class Evaluator {
   void halve_amplitudes();
 
   Bodies bodies() const { return Bodies(observations_, chosen_); }
+  /// Does a parameter alter the model?
+  bool alters(std::size_t index) const { return alters_[index]; }
   /// The robot with the chosen hypotheses at other values.
   model::Robot robot_with(const Values& values) const;
   /// Sets the values. Stacked prediction of the samples to fit to, and its derivative where wanted.
@@ -47,6 +49,9 @@ class Evaluator {
   Eigen::VectorXd evaluate_in(const Scenes& scenes, const Values& values,
                               Eigen::MatrixXd* derivative);
   Eigen::VectorXd gains_over_dictionary(Eigen::Index count) const;
+  /// The chosen hypotheses at other values, and the machine with them.
+  std::vector<effects::Placed> placed_at(const Values& values) const;
+  Machine machine_at(const Values& values) const;
   bool alters_any() const;
   const std::vector<simulation::RigidTorque>& rigid_torques(const Scenes& scenes,
                                                             const Machine& machine);

@@ -16,9 +16,6 @@ namespace {
 constexpr double kHuber = 3;
 /// Such a change moves the BIC of 10,000 samples by 0.001.
 constexpr double kLeastChange = 1e-7;
-/// Each shortening of a step takes a simulation of every number. A step that needs more of them is
-/// taken anew within a smaller trust region, which costs one simulation.
-constexpr int kMostShortenings = 2;
 
 /// The weighted remainder of the samples to fit to, simulated anew for every step.
 class WeightedRemainder : public HeldRemainder {
@@ -26,26 +23,24 @@ class WeightedRemainder : public HeldRemainder {
   /// `measured` over the noise, and `weight`: of the samples to fit to.
   WeightedRemainder(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight,
                     Evaluator* evaluator)
-      : HeldRemainder(measured.size(), evaluator), measured_(measured), root_(weight.cwiseSqrt()) {}
+      : HeldRemainder(evaluator), measured_(measured), root_(weight.cwiseSqrt()) {}
 
  protected:
-  bool leave(const Values& values, Eigen::Ref<Eigen::VectorXd> left,
-             Eigen::MatrixXd* slope) const override {
+  std::optional<Eigen::VectorXd> left(const Values& values, Eigen::MatrixXd* slope) const override {
     const Eigen::Index n = measured_.size();
     Eigen::VectorXd predicted;
     try {
       predicted = evaluator_->evaluate_to_fit(values, slope);
     } catch (const InputError&) {
-      return false;  // springs so soft that there is no rest
+      return std::nullopt;  // springs so soft that there is no rest
     }
     if (!predicted.allFinite()) {
-      return false;  // a formula has no value there
+      return std::nullopt;  // a formula has no value there
     }
-    left = root_.cwiseProduct(measured_ - predicted.head(n));
     if (slope != nullptr) {
       slope->topRows(n).array().colwise() *= -root_.array();
     }
-    return true;
+    return root_.cwiseProduct(measured_ - predicted.head(n));
   }
 
  private:
@@ -56,7 +51,7 @@ class WeightedRemainder : public HeldRemainder {
 void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int most_steps,
            Evaluator* evaluator) {
   WeightedRemainder cost(measured, weight, evaluator);
-  minimise(&cost, {most_steps, kLeastChange, kMostShortenings}, evaluator);
+  minimise(&cost, {most_steps, kLeastChange}, evaluator);
 }
 
 /// The prediction at the start, which is moved to where the machine comes to rest. An amplitude

@@ -54,9 +54,9 @@ Eigen::VectorXd clipped(const Eigen::VectorXd& remainder);
 /// The machine with hypotheses added to the observations' model.
 Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen);
 
-/// Fits parameters within their bounds by Ceres (Levenberg–Marquardt) from given values on, with
-/// weights by Huber's function (3 deviations) so that single samples do not decide. Predictions are
-/// simulated anew for every step, not linearised.
+/// Fits parameters within their bounds (least_squares.hpp) from given values on, with weights by
+/// Huber's function (3 deviations) so that single samples do not decide. Predictions are simulated
+/// anew for every step, not linearised.
 ///
 /// Parameters with a tolerance are held to zero by it, as by one sample more.
 ///

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <unordered_map>
 
 #include "effects/formula_law.hpp"
 #include "error.hpp"
@@ -154,17 +155,17 @@ void add_entry(model::LearnedEffect entry, const Placed& found, model::Robot* ro
 
 /// Place of a law among all forms of all effects; behind them for one that is not among them.
 std::size_t place_in_catalogue(const Law& law) {
-  static const std::vector<const Law*> kLaws = [] {
-    std::vector<const Law*> all;
+  static const std::unordered_map<const Law*, std::size_t> kLaws = [] {
+    std::unordered_map<const Law*, std::size_t> all;
     for (const Effect& effect : catalogue()) {
       for (const LawPointer& form : effect.forms) {
-        all.push_back(form.get());
+        all.emplace(form.get(), all.size());
       }
     }
     return all;
   }();
-  const auto at = std::find(kLaws.begin(), kLaws.end(), &law);
-  return static_cast<std::size_t>(at - kLaws.begin());
+  const auto at = kLaws.find(&law);
+  return at == kLaws.end() ? kLaws.size() : at->second;
 }
 
 }  // namespace

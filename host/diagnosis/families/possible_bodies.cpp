@@ -13,7 +13,6 @@ constexpr int kRounds = 20;              // of a tighter edge
 constexpr double kTighter = 0.3;         // times the edge before
 constexpr int kBodySteps = 50;           // of each round; one takes milliseconds
 constexpr double kTangentChange = 1e-9;  // of the sum of squares
-constexpr int kTangentShortenings = 20;  // they cost little beside a simulation
 
 /// The weighted squares of a fit about where it is, rotated into as many rows as there are numbers.
 struct Tangent {
@@ -47,18 +46,15 @@ struct Tangent {
 class TangentRemainder : public HeldRemainder {
  public:
   TangentRemainder(const Tangent& tangent, Evaluator* evaluator)
-      : HeldRemainder(tangent.begin.size(), evaluator), tangent_(tangent) {}
+      : HeldRemainder(evaluator), tangent_(tangent) {}
 
  protected:
-  bool leave(const Values& values, Eigen::Ref<Eigen::VectorXd> left,
-             Eigen::MatrixXd* slope) const override {
-    left = tangent_.left -
-           tangent_.slope *
-               (Eigen::Map<const Eigen::VectorXd>(values.data(), left.size()) - tangent_.begin);
+  std::optional<Eigen::VectorXd> left(const Values& values, Eigen::MatrixXd* slope) const override {
     if (slope != nullptr) {
       *slope = -tangent_.slope;
     }
-    return true;
+    const Eigen::Map<const Eigen::VectorXd> here(values.data(), tangent_.begin.size());
+    return tangent_.left - tangent_.slope * (here - tangent_.begin);
   }
 
  private:
@@ -99,7 +95,7 @@ std::vector<Chosen> with_possible_bodies(const Observations& observations, const
     }
     Evaluator evaluator(observations, chosen, nullptr);
     TangentRemainder cost(tangent, &evaluator);
-    minimise(&cost, {kBodySteps, kTangentChange, kTangentShortenings}, &evaluator);
+    minimise(&cost, {kBodySteps, kTangentChange}, &evaluator);
     chosen = evaluator.chosen();
     if (evaluator.bodies().can_be(evaluator.robot_with(evaluator.values()))) {
       break;
