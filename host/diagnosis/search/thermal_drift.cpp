@@ -19,7 +19,7 @@ bool prepare_thermal_drift(const Observations& observations, Hypothesis* hypothe
   const double step = (has_temperature ? 1e-5 : 1e-4) * (is_of_zero ? 0.1 : 1);
   std::vector<Bounds> bounds(hypothesis->linear, {-0.1, 0.1, step});
   if (!has_temperature) {
-    constexpr double kQuickest = 60;  // s, in which anything of an arm warms
+    constexpr double kQuickest = 10;  // s, in which anything of an arm warms
     const double duration = first.time[first.rows() - 1] - first.time[0];
     bounds.push_back({0.02 * duration, 20 * std::max(duration, kQuickest), 0.05 * duration});
     hypothesis->starts.clear();
