@@ -180,6 +180,17 @@ Part check_inside(const VerifyOptions& options, const Table& table,
   return inside;
 }
 
+/// What the certified bound is worth.
+const char* words_of(bool holds, bool is_on_chords, const VerifyOptions& options) {
+  if (!holds) {
+    return "DOES NOT HOLD";
+  }
+  if (!is_on_chords) {
+    return "holds";
+  }
+  return options.path.empty() ? "holds on the chords between its nodes" : "holds";
+}
+
 int run_verify(const VerifyOptions& options) {
   const bool is_signed = !options.key.empty();
   const std::uint32_t version = is_signed ? signed_version(options.table, options.key) : 0;
@@ -190,6 +201,7 @@ int run_verify(const VerifyOptions& options) {
   const Part gain = check_gain(options, robot, file.table);
   const Part inside = check_inside(options, file.table, certificate);
   const TableHeader& header = file.table.header();
+  const bool is_on_chords = file.table.chart() == Chart::path;
   const bool is_certified = certificate.holds && worst.position <= header.position_error &&
                             worst.orientation <= header.orientation_error;
   const bool holds = is_certified && gain.holds && inside.holds;
@@ -215,16 +227,15 @@ int run_verify(const VerifyOptions& options) {
       fmt::print("signed with this key, as version {}\n", version);
     }
     fmt::print(
-        "largest error found at {} places: {:.4g} µm, {:.4g} µrad\n"
-        "bound derived from its nodes:     {:.4g} µm, {:.4g} µrad\n"
+        "largest error found at {} places{}: {:.4g} µm, {:.4g} µrad\n"
+        "bound {} its nodes:    {:.4g} µm, {:.4g} µrad\n"
         "{}{}"
         "certified bound:                  {:.4g} µm, {:.4g} µrad: {}\n",
-        options.samples, 1e6 * worst.position, 1e6 * worst.orientation,
-        1e6 * certificate.error.position, 1e6 * certificate.error.orientation, inside.text,
-        gain.text, 1e6 * header.position_error, 1e6 * header.orientation_error,
-        !holds                 ? "DOES NOT HOLD"
-        : options.path.empty() ? "holds on the chords between its nodes"
-                               : "holds");
+        options.samples, options.path.empty() ? "" : " and at as many of the program",
+        1e6 * worst.position, 1e6 * worst.orientation,
+        is_on_chords ? "on the chords between" : "derived from", 1e6 * certificate.error.position,
+        1e6 * certificate.error.orientation, inside.text, gain.text, 1e6 * header.position_error,
+        1e6 * header.orientation_error, words_of(holds, is_on_chords, options));
   }
   return holds ? kDone : kDoesNotHold;
 }
