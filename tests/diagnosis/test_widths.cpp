@@ -82,6 +82,13 @@ void nothing_is_held_closer_than_a_hundredth_of_what_is_usual() {
   TEST_ASSERT_EQUAL_DOUBLE(10, width[0]);
 }
 
+void nothing_is_held_more_loosely_than_is_usual() {
+  const VectorXd numbers = 50 * drawn(kNumbers, 1);
+  const VectorXd width = learn_widths(measured(drawn(kSamples, kNumbers), numbers),
+                                      VectorXd::Ones(kNumbers), kOneKind);
+  TEST_ASSERT_EQUAL_DOUBLE(1, width[0]);
+}
+
 }  // namespace
 
 int main() {
@@ -91,5 +98,6 @@ int main() {
   RUN_TEST(the_ratios_within_a_kind_stay);
   RUN_TEST(two_numbers_that_only_their_sum_shows_do_not_become_large_against_each_other);
   RUN_TEST(nothing_is_held_closer_than_a_hundredth_of_what_is_usual);
+  RUN_TEST(nothing_is_held_more_loosely_than_is_usual);
   return UNITY_END();
 }

@@ -25,10 +25,7 @@ Eigen::Index part_of(const Observations& observations, const Sample& at) {
 
 /// Samples of a remainder for each that is independent.
 double repeats_of(const Observations& observations, const Eigen::VectorXd& remainder) {
-  return observations.has(simulation::joint_torque)
-             ? static_cast<double>(observations.train) /
-                   independent_samples(observations, remainder)
-             : 1;
+  return static_cast<double>(observations.train) / independent_samples(observations, remainder);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kLearningRounds =
     40;  // they approach the most likely widths slowly, and need no digit
-constexpr double kNarrowest = 1e-2, kWidest = 3;  // times the usual
+constexpr double kNarrowest = 1e-2;  // times the usual
 
 /// Second moments of the numbers, given what was measured.
 Eigen::VectorXd second_moments(const NormalEquations& equations, const Eigen::VectorXd& width) {
@@ -39,7 +39,7 @@ Eigen::VectorXd learn_widths(const NormalEquations& equations, const Eigen::Vect
     for (std::size_t i = 0; i < kind.size(); ++i) {
       const double scale = std::sqrt(sum[kind[i]] / count[kind[i]]);
       const auto at = static_cast<Eigen::Index>(i);
-      width[at] = usual[at] * std::clamp(scale, kNarrowest, kWidest);
+      width[at] = usual[at] * std::clamp(scale, kNarrowest, 1.0);
     }
   }
   return width;

@@ -17,8 +17,8 @@ struct NormalEquations {
 /// themselves how large they are: the ones that make the measurement the most likely (empirical
 /// Bayes: MacKay 1992, "Bayesian interpolation"), found by expectation and maximisation (Dempster,
 /// Laird and Rubin 1977). `usual`: what each is at first; those of a kind keep their ratios.
-/// `kind`: of each number, from 0 on. None becomes smaller than a hundredth, or larger than three
-/// times what it was.
+/// `kind`: of each number, from 0 on. None becomes smaller than a hundredth of what it was, or
+/// larger: numbers that take each other back would.
 Eigen::VectorXd learn_widths(const NormalEquations& equations, const Eigen::VectorXd& usual,
                              const std::vector<std::size_t>& kind);
 
