@@ -6,6 +6,7 @@
 
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/families/elimination.hpp"
+#include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp;
@@ -116,6 +117,23 @@ void what_was_left_out_makes_uncertain_what_stays_in_its_place() {
 }
 
 /// Two numbers that act alike but for a millionth: least squares makes them large and opposite.
+void tracked_positions_that_err_slowly_deviate_more_than_noise_of_their_size() {
+  const test::SwingingRobot swinging(5);
+  const Eigen::Index rows = swinging.rows();
+  const Observations observations = swinging.observed(Eigen::MatrixXd::Zero(rows, 3));
+  const Eigen::VectorXd noise = observations.residual;
+  Eigen::VectorXd slow(noise.size());
+  for (Eigen::Index i = 0; i < slow.size(); ++i) {
+    const auto row = static_cast<double>(observations.samples[static_cast<std::size_t>(i)].row);
+    slow[i] = std::sqrt(2) * std::sin(0.02 * row);
+  }
+  const double once = diagnosis::deviation_of(observations, noise);
+  TEST_ASSERT_DOUBLE_WITHIN(0.2, 1, once);
+  // A fortieth of a series, 75 rows, may hang together; the sine turns a quarter of its round in
+  // them.
+  TEST_ASSERT_TRUE(diagnosis::deviation_of(observations, slow) > 4 * once);
+}
+
 void numbers_that_cannot_be_told_apart_stay_near_the_model() {
   constexpr double kTrue = 10;
   const Hypothesis both = hypothesis_of("both", {hum, nearly_hum}, -1e9);
@@ -143,6 +161,7 @@ int main() {
   RUN_TEST(what_is_there_stays_and_what_is_not_goes);
   RUN_TEST(a_number_that_would_leave_its_bounds_is_held);
   RUN_TEST(what_was_left_out_makes_uncertain_what_stays_in_its_place);
+  RUN_TEST(tracked_positions_that_err_slowly_deviate_more_than_noise_of_their_size);
   RUN_TEST(numbers_that_cannot_be_told_apart_stay_near_the_model);
   return UNITY_END();
 }
