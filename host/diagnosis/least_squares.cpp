@@ -34,40 +34,51 @@ class Damping {
   double growth_ = 2;
 };
 
-/// The damped step. A number at its bound stays there if it would leave the box, and one that the
-/// step takes out of the box stops at the bound, with the others following.
-Eigen::VectorXd step_within(const Quadratic& at, double damping, const Box& room) {
-  const Eigen::VectorXd diagonal = at.curvature.diagonal();
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(diagonal.size());
+/// The numbers that change something, but for those at a bound that would leave the box.
+std::vector<Eigen::Index> free_numbers(const Quadratic& at, const Box& room) {
   std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
+  for (Eigen::Index i = 0; i < at.gradient.size(); ++i) {
     const bool leaves = at.gradient[i] > 0 ? room.lower[i] >= 0 : room.upper[i] <= 0;
-    if (diagonal[i] > 0 && !leaves) {
+    if (at.curvature(i, i) > 0 && !leaves) {
       free.push_back(i);
     }
   }
+  return free;
+}
+
+/// The damped step of the free numbers, where the others' step is given and their own is zero.
+Eigen::VectorXd free_step(const Quadratic& at, double damping,
+                          const std::vector<Eigen::Index>& free, const Eigen::VectorXd& others) {
+  const Eigen::VectorXd diagonal = at.curvature.diagonal();
+  const Eigen::VectorXd unit = diagonal(free).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd damped = unit.asDiagonal() * at.curvature(free, free) * unit.asDiagonal();
+  damped.diagonal().array() += damping;
+  const Eigen::VectorXd slope = at.gradient(free) + at.curvature(free, Eigen::all) * others;
+  return unit.cwiseProduct(damped.ldlt().solve(-unit.cwiseProduct(slope)));
+}
+
+/// The damped step that stays in the box: numbers that it would take out of it stop at their
+/// bounds, and the others follow.
+Eigen::VectorXd step_within(const Quadratic& at, double damping, const Box& room) {
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(at.gradient.size());
+  std::vector<Eigen::Index> free = free_numbers(at, room);
   while (!free.empty()) {
-    const Eigen::VectorXd unit = diagonal(free).cwiseSqrt().cwiseInverse();
-    Eigen::MatrixXd damped = unit.asDiagonal() * at.curvature(free, free) * unit.asDiagonal();
-    damped.diagonal().array() += damping;
-    const Eigen::VectorXd slope =
-        at.gradient(free) + at.curvature(free, Eigen::all) * step;  // free numbers are zero there
-    const Eigen::VectorXd own = unit.cwiseProduct(damped.ldlt().solve(-unit.cwiseProduct(slope)));
-    std::vector<Eigen::Index> staying;
+    const Eigen::VectorXd own = free_step(at, damping, free, step);
+    std::vector<Eigen::Index> inside;
     for (std::size_t k = 0; k < free.size(); ++k) {
       const double to = own[static_cast<Eigen::Index>(k)];
       const Eigen::Index i = free[k];
       if (to >= room.lower[i] && to <= room.upper[i]) {
-        staying.push_back(i);
+        inside.push_back(i);
       } else {
         step[i] = std::clamp(to, room.lower[i], room.upper[i]);
       }
     }
-    if (staying.size() == free.size()) {
+    if (inside.size() == free.size()) {
       step(free) = own;
       break;
     }
-    free = std::move(staying);
+    free = std::move(inside);
   }
   return step;
 }
