@@ -39,8 +39,9 @@ Hypothesis hypothesis_of(const char* name, Course course) {
   return hypothesis;
 }
 
-/// The finding of a cosine on a machine that has another cause besides, of such a size.
-Finding found_beside(const char* name, Course course, double size) {
+/// The finding of a cosine on a machine that has another cause besides, of such a size. About the
+/// fit the cosine's derivative is bent by a part of a strange course.
+Finding found_beside(const char* name, Course course, double size, double bent = 0) {
   const Hypothesis cause = hypothesis_of("cosine", found);
   const Hypothesis other = hypothesis_of(name, course);
   simulation::Machine truth = driven().machine();
@@ -51,6 +52,9 @@ Finding found_beside(const char* name, Course course, double size) {
   const Fit given = fit(observations, {}, 0);
   Choice choice;
   choice.fit = fit(observations, {{cause, {kSize}}}, 20);
+  const Dictionary bends(observations, {hypothesis_of("bend", stranger)},
+                         [](std::size_t, std::size_t) {});
+  choice.fit.derivative += bent * bends.columns;
   choice.findings.push_back(
       {choice.fit.chosen[0], choice.fit.covariance_of(0), {}, {}, {}, {}, {}});
   widen_by_confounders({observations, dictionary, 0.01, given}, &choice);
@@ -95,6 +99,12 @@ void a_cause_that_changes_other_samples_makes_nothing_uncertain() {
   TEST_ASSERT_EQUAL_INT(0, finding.confounders.size());
 }
 
+void a_twin_does_the_same_though_the_fit_is_bent() {
+  const Finding finding = found_beside("same", found, 2, 0.5);
+  TEST_ASSERT_TRUE(error_of(finding) < side_of(finding));
+  TEST_ASSERT_EQUAL_INT(1, finding.confounders.size());
+}
+
 }  // namespace
 
 int main() {
@@ -104,5 +114,6 @@ int main() {
   RUN_TEST(a_cause_that_would_show_and_does_not_changes_little);
   RUN_TEST(a_cause_that_shows_though_it_was_not_named_is_in_the_interval);
   RUN_TEST(a_cause_that_changes_other_samples_makes_nothing_uncertain);
+  RUN_TEST(a_twin_does_the_same_though_the_fit_is_bent);
   return UNITY_END();
 }

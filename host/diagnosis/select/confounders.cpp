@@ -15,12 +15,28 @@ constexpr double kLargestPart = 0.25;
 constexpr double kNoticeable = 3;      // times a variance: the interval becomes twice as wide
 constexpr std::size_t kMostNamed = 3;  // a person reads no more
 
+/// Derivatives of the samples by the findings' numbers, about the model where the dictionary has
+/// them: as what else there is has them. Of two that do the same, one about the model and one about
+/// the fit would differ by as much as the fit is bent.
+Eigen::MatrixXd derivative_of(const Dictionary& dictionary, const Fit& fit) {
+  Eigen::MatrixXd derivative = fit.derivative;
+  for (std::size_t i = 0; i < fit.chosen.size(); ++i) {
+    const Entry* entry = dictionary.find(fit.chosen[i].hypothesis);
+    if (entry != nullptr &&
+        entry->count == static_cast<Eigen::Index>(fit.chosen[i].values.size())) {
+      derivative.middleCols(fit.first_parameter(i), entry->count) =
+          dictionary.columns.middleCols(entry->first, entry->count).topRows(derivative.rows());
+    }
+  }
+  return derivative;
+}
+
 /// The tangent of the findings' fit: how its numbers shift by what else changes the samples.
 class Tangent {
  public:
-  Tangent(const Observations& observations, const Fit& fit)
+  Tangent(const Observations& observations, const Dictionary& dictionary, const Fit& fit)
       : root_(huber_weights(fit.remainder.head(observations.train)).cwiseSqrt()),
-        derivative_(weighted(fit.derivative)),
+        derivative_(weighted(derivative_of(dictionary, fit))),
         factors_(derivative_),
         remainder_(weighted(fit.remainder)),
         variance_(std::pow(deviation_of(observations, fit.remainder), 2)),
@@ -66,7 +82,7 @@ struct Doubt {
 std::vector<Doubt> doubts(const Inquiry& inquiry, const Fit& fit) {
   const Observations& observations = inquiry.observations;
   const Dictionary& dictionary = inquiry.dictionary;
-  const Tangent tangent(observations, fit);
+  const Tangent tangent(observations, dictionary, fit);
   const double largest = kLargestPart * tangent.size_of(observations.residual - fit.remainder);
   std::vector<Doubt> all;
   for (const Entry& entry : dictionary.entries) {
