@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/clusters.hpp"
+#include "linear_algebra/gram.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -82,9 +83,7 @@ std::vector<ClockCheck> check_clocks(const Observations& observations,
     length[i] = std::max(columns.col(i).norm(), 1e-300);
     columns.col(i) /= length[i];
   }
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(all, all);
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  gram = Eigen::MatrixXd(gram.selfadjointView<Eigen::Lower>());
+  Eigen::MatrixXd gram = linear_algebra::gram_of(columns);
   gram.diagonal().array() += 1e-9;
   const Eigen::MatrixXd inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(all, all));
   const Eigen::VectorXd target = known.remainder.head(n);

@@ -7,18 +7,12 @@
 #include <vector>
 
 #include "diagnosis/clusters.hpp"
+#include "linear_algebra/gram.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
 constexpr double kRidge = 1e-9;  // of a parameter's precision: keeps the rest solvable
-
-/// A matrix's transpose times itself.
-Eigen::MatrixXd squared(const Eigen::MatrixXd& matrix) {
-  Eigen::MatrixXd half = Eigen::MatrixXd::Zero(matrix.cols(), matrix.cols());
-  half.selfadjointView<Eigen::Lower>().rankUpdate(matrix.transpose());
-  return half.selfadjointView<Eigen::Lower>();
-}
 
 /// Variance of each parameter (in the inverse's units) by the scatter of the fits that leave out
 /// one cluster each. One that a cluster alone tells scatters
@@ -41,7 +35,7 @@ Eigen::VectorXd scatter_without_each(const Clusters& clusters, const NormalInver
                                   derivative(own, Eigen::all) * inverse.unit.asDiagonal();
     const Eigen::VectorXd score =
         slope.transpose() * weight(own).cwiseSqrt().cwiseProduct(remainder(own));
-    Eigen::MatrixXd rest = inverse.gram - squared(slope);
+    Eigen::MatrixXd rest = inverse.gram - linear_algebra::gram_of(slope);
     rest.diagonal().array() += kRidge;
     squares += rest.ldlt().solve(score).cwiseAbs2();
     used += 1;
@@ -83,7 +77,7 @@ Eigen::MatrixXd covariance_by(const Eigen::MatrixXd& errors, const NormalInverse
 
 NormalInverse inverse_of(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& weight,
                          const Eigen::VectorXd& precision) {
-  Eigen::MatrixXd gram = squared(weight.cwiseSqrt().asDiagonal() * derivative);
+  Eigen::MatrixXd gram = linear_algebra::gram_of(weight.cwiseSqrt().asDiagonal() * derivative);
   gram.diagonal() += precision;
   const Eigen::VectorXd unit = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   gram = unit.asDiagonal() * gram * unit.asDiagonal();

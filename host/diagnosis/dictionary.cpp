@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "error.hpp"
+#include "linear_algebra/gram.hpp"
 #include "linear_algebra/span.hpp"
 #include "parallel/in_parallel.hpp"
 
@@ -165,9 +166,7 @@ Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis>
       }
     }
   }
-  gram = Eigen::MatrixXd::Zero(count, count);
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.topRows(observations.train).transpose());
-  gram = Eigen::MatrixXd(gram.selfadjointView<Eigen::Lower>());
+  gram = linear_algebra::gram_of(columns.topRows(observations.train));
 }
 
 const Entry* Dictionary::find(const Hypothesis& hypothesis) const {

@@ -1,5 +1,7 @@
 #include "diagnosis/held_remainder.hpp"
 
+#include "linear_algebra/gram.hpp"
+
 namespace flexcomp::diagnosis {
 
 HeldRemainder::HeldRemainder(Evaluator* evaluator)
@@ -58,10 +60,8 @@ std::optional<Quadratic> HeldRemainder::quadratic(const Eigen::VectorXd& numbers
   const Eigen::VectorXd beyond = outside(values);
   const Eigen::MatrixXd beyond_slope = outside_slope(values, beyond);
   const auto rows = slope.topRows(remainder->size());
-  Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(step_.size(), step_.size());
-  curvature.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
-  curvature = curvature.selfadjointView<Eigen::Lower>();
-  curvature = step_.asDiagonal() * curvature * step_.asDiagonal();
+  Eigen::MatrixXd curvature =
+      step_.asDiagonal() * linear_algebra::gram_of(rows) * step_.asDiagonal();
   curvature += beyond_slope.transpose() * beyond_slope;
   curvature.diagonal() += hold_.cwiseAbs2();
   Quadratic all;

@@ -10,6 +10,7 @@
 #include "diagnosis/covariance.hpp"
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/families/candidates.hpp"
+#include "linear_algebra/gram.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -133,9 +134,7 @@ Elimination::Equations Elimination::equations_of(const std::vector<Eigen::Index>
   const Eigen::MatrixXd columns = root.asDiagonal() * columns_(rows, Eigen::all);
   const Eigen::VectorXd target = root.cwiseProduct(target_(rows));
   Equations equations;
-  equations.gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  equations.gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  equations.gram = Eigen::MatrixXd(equations.gram.selfadjointView<Eigen::Lower>());
+  equations.gram = linear_algebra::gram_of(columns);
   equations.moment = columns.transpose() * target;
   equations.square = target.squaredNorm();
   return equations;
