@@ -185,10 +185,7 @@ const char* words_of(bool holds, bool is_on_chords, const VerifyOptions& options
   if (!holds) {
     return "DOES NOT HOLD";
   }
-  if (!is_on_chords) {
-    return "holds";
-  }
-  return options.path.empty() ? "holds on the chords between its nodes" : "holds";
+  return is_on_chords && options.path.empty() ? "holds on the chords between its nodes" : "holds";
 }
 
 int run_verify(const VerifyOptions& options) {

@@ -68,11 +68,10 @@ void find_groups(Diagnosis* diagnosis) {
     const Hypothesis& chosen = diagnosis->choice.findings[i].chosen.hypothesis;
     std::vector<Place> group = {{chosen.effect(), chosen.joint}};
     for (const Alternative& other : diagnosis->choice.findings[i].alternatives) {
-      const bool is_in = std::any_of(group.begin(), group.end(), [&](const Place& place) {
-        return place.effect == other.effect && place.joint == other.joint;
-      });
+      const Place place{other.effect, other.joint};
+      const bool is_in = std::find(group.begin(), group.end(), place) != group.end();
       if (other.delta_bic < kSameEvidence && !is_in) {
-        group.push_back({other.effect, other.joint});
+        group.push_back(place);
       }
     }
     if (group.size() > 1) {

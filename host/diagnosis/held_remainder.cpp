@@ -40,14 +40,19 @@ Eigen::MatrixXd HeldRemainder::outside_slope(const Values& values,
   return slope;
 }
 
+double HeldRemainder::half_of(const Eigen::VectorXd& remainder, const Eigen::VectorXd& numbers,
+                              const Eigen::VectorXd& beyond) const {
+  return 0.5 * (remainder.squaredNorm() + numbers.cwiseProduct(hold_).squaredNorm() +
+                beyond.squaredNorm());
+}
+
 std::optional<double> HeldRemainder::half(const Eigen::VectorXd& numbers) {
   const Values values = values_of(numbers);
   const std::optional<Eigen::VectorXd> remainder = left(values, nullptr);
   if (!remainder) {
     return std::nullopt;
   }
-  return 0.5 * (remainder->squaredNorm() + numbers.cwiseProduct(hold_).squaredNorm() +
-                outside(values).squaredNorm());
+  return half_of(*remainder, numbers, outside(values));
 }
 
 std::optional<Quadratic> HeldRemainder::quadratic(const Eigen::VectorXd& numbers) {
@@ -65,8 +70,7 @@ std::optional<Quadratic> HeldRemainder::quadratic(const Eigen::VectorXd& numbers
   curvature += beyond_slope.transpose() * beyond_slope;
   curvature.diagonal() += hold_.cwiseAbs2();
   Quadratic all;
-  all.half = 0.5 * (remainder->squaredNorm() + numbers.cwiseProduct(hold_).squaredNorm() +
-                    beyond.squaredNorm());
+  all.half = half_of(*remainder, numbers, beyond);
   all.gradient = step_.cwiseProduct(rows.transpose() * *remainder) +
                  numbers.cwiseProduct(hold_.cwiseAbs2()) + beyond_slope.transpose() * beyond;
   all.curvature = std::move(curvature);
@@ -86,11 +90,7 @@ void minimise(HeldRemainder* cost, const Steps& steps, Evaluator* evaluator) {
     numbers[i] = begin[at] / bounds.step;
   }
   numbers = least_squares(cost, box, box.nearest(numbers), steps);
-  Values values(begin.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = numbers[static_cast<Eigen::Index>(i)] * evaluator->parameter(i).step;
-  }
-  evaluator->set(values);
+  evaluator->set(cost->values_of(numbers));
   evaluator->keep_within_bounds();
 }
 

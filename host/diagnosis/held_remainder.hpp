@@ -16,6 +16,8 @@ class HeldRemainder : public SumOfSquares {
 
   std::optional<double> half(const Eigen::VectorXd& numbers) override;
   std::optional<Quadratic> quadratic(const Eigen::VectorXd& numbers) override;
+  /// The values that numbers over their steps are.
+  Values values_of(const Eigen::VectorXd& numbers) const;
 
  protected:
   /// The remainder of values; none where they cannot be simulated. Its slope by them where it is
@@ -26,7 +28,8 @@ class HeldRemainder : public SumOfSquares {
   Evaluator* evaluator_;
 
  private:
-  Values values_of(const Eigen::VectorXd& numbers) const;
+  double half_of(const Eigen::VectorXd& remainder, const Eigen::VectorXd& numbers,
+                 const Eigen::VectorXd& beyond) const;
   /// How far the bodies are beyond their edges.
   Eigen::VectorXd outside(const Values& values) const;
   /// Bodies × numbers, given how far they are beyond their edges here.

@@ -116,7 +116,6 @@ void what_was_left_out_makes_uncertain_what_stays_in_its_place() {
   TEST_ASSERT_TRUE(best.front().hypothesis.parameters[0].widening * certain > 0.45 * kTrue);
 }
 
-/// Two numbers that act alike but for a millionth: least squares makes them large and opposite.
 void tracked_positions_that_err_slowly_deviate_more_than_noise_of_their_size() {
   const test::SwingingRobot swinging(5);
   const Eigen::Index rows = swinging.rows();
@@ -134,6 +133,7 @@ void tracked_positions_that_err_slowly_deviate_more_than_noise_of_their_size() {
   TEST_ASSERT_TRUE(diagnosis::deviation_of(observations, slow) > 4 * once);
 }
 
+/// Two numbers that act alike but for a millionth: least squares makes them large and opposite.
 void numbers_that_cannot_be_told_apart_stay_near_the_model() {
   constexpr double kTrue = 10;
   const Hypothesis both = hypothesis_of("both", {hum, nearly_hum}, -1e9);

@@ -102,9 +102,7 @@ std::vector<Doubt> doubts(const Inquiry& inquiry, const Fit& fit) {
 
 /// Names the confounder, once, unless enough are named.
 void name(const Place& confounder, std::vector<Place>* named) {
-  const bool is_named = std::any_of(named->begin(), named->end(), [&](const Place& other) {
-    return other.effect == confounder.effect && other.joint == confounder.joint;
-  });
+  const bool is_named = std::find(named->begin(), named->end(), confounder) != named->end();
   if (!is_named && named->size() < kMostNamed) {
     named->push_back(confounder);
   }

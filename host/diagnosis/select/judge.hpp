@@ -16,6 +16,10 @@ struct Alternative {
 struct Place {
   std::string effect;
   int joint = 0;
+
+  bool operator==(const Place& other) const {
+    return effect == other.effect && joint == other.joint;
+  }
 };
 
 /// A finding: a law at a place with its values, the evidence for it, and its alternatives.
