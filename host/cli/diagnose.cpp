@@ -105,11 +105,11 @@ check::Checks check_input(const model::Robot& robot,
   return checks;
 }
 
-/// Did the checks find nothing wrong? A fault of the input is to be mended: no law is composed for
-/// it.
-bool is_in_order(const check::Checks& checks) {
+/// Did the checks find nothing wrong with the recordings? Such a fault is to be mended: no law is
+/// composed for millimetres in the place of metres. What is odd about a model may be meant so.
+bool are_in_order(const check::Checks& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const check::Check& each) {
-    return each.severity == check::Severity::note;
+    return each.severity == check::Severity::note || each.about == "model";
   });
 }
 
@@ -239,8 +239,10 @@ int run(const DiagnoseOptions& options) {
   if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
     throw InputError("--false-discovery: expected a number between 0 and 1");
   }
-  const double law_seconds = options.law_seconds.value_or(0);
-  if (!(law_seconds >= 0 && std::isfinite(law_seconds))) {
+  diagnosis::Settings settings;
+  settings.false_discovery = options.false_discovery;
+  settings.law_seconds = options.law_seconds.value_or(settings.law_seconds);
+  if (!(settings.law_seconds >= 0 && std::isfinite(settings.law_seconds))) {
     throw InputError("--law-seconds: expected a number of seconds, or 0");
   }
   const model::Robot robot = load_robot(options.model);
@@ -259,10 +261,7 @@ int run(const DiagnoseOptions& options) {
   for (const std::string& file : options.laws) {
     hypotheses.push_back(diagnosis::read_tried_law(file, observations));
   }
-  diagnosis::Settings settings;
-  settings.false_discovery = options.false_discovery;
-  settings.law_seconds = options.law_seconds;
-  if (!settings.law_seconds && !is_in_order(origin.checks)) {
+  if (!options.law_seconds && !are_in_order(origin.checks)) {
     settings.law_seconds = 0;
   }
   const diagnosis::Diagnosis result = diagnosed(hypotheses, settings, &observations);
@@ -305,8 +304,8 @@ void add_diagnose(CLI::App* app, Action* action) {
       ->take_all();
   command->add_option(
       "--law-seconds", options->law_seconds,
-      "processor time (s) for composing laws that nobody listed, beside what is found "
-      "and in its place;\n0 for none; unless given, 40 where nothing is found and the input is in "
+      "processor time (s) for composing laws that nobody listed where something is left, beside "
+      "what\nis found and in its place; 0 for none; unless given, 40 where the recordings are in "
       "order");
   command
       ->add_option("--without", options->without,

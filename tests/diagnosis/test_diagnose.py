@@ -133,8 +133,8 @@ class Diagnose(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads((self.out / "diagnosis.json").read_text())
 
-    def only_finding(self, recording, effect, joint, model=ROBOT):
-        found = self.diagnosis(recording, model)
+    def only_finding(self, recording, effect, joint, model=ROBOT, options=()):
+        found = self.diagnosis(recording, model, options)
         self.assertEqual([(f["effect"], f["joint"]) for f in found["findings"]], [(effect, joint)],
                          found["unexplained"])
         return found["findings"][0]
@@ -391,7 +391,7 @@ class Diagnose(unittest.TestCase):
             return friction
 
         finding = self.only_finding(self.torques(joint, comes_and_goes(4 * noise)),
-                                    "coulomb_friction", joint)
+                                    "coulomb_friction", joint, options=["--law-seconds", "0"])
         self.assertAlmostEqual(finding["parameters"]["torque"]["value"], 4 * noise, delta=0.1 * noise)
         large = self.diagnosis(self.torques(joint, comes_and_goes(12 * noise)), options=["--law-seconds", "0"])
         self.assertEqual(large["verdict"], "unexplained")
@@ -437,7 +437,7 @@ class Diagnose(unittest.TestCase):
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_what_shows_at_another_joint_is_no_alternative(self):
         recording = self.torques(3, lambda angles: [math.copysign(80, step) for step in steps(angles)])
-        # At joint 5 a friction that comes and goes, too much so for any law to stand.
+        # At joint 5 a friction that comes and goes, too much so for any effect to stand.
         pace = iter(enumerate(steps([swing(i * PERIOD)[4] for i in range(2500)])))
 
         def comes_and_goes(torque):
@@ -445,7 +445,7 @@ class Diagnose(unittest.TestCase):
             return (torque + math.copysign(150 * (1 + 0.9 * math.sin(0.05 * i)), step),)
 
         replace_columns(recording, ("tau_5",), comes_and_goes)
-        finding = self.only_finding(recording, "coulomb_friction", 3)
+        finding = self.only_finding(recording, "coulomb_friction", 3, options=["--law-seconds", "0"])
         self.assertEqual({3}, {other["joint"] for other in finding["alternatives"]})
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)

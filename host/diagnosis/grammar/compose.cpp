@@ -1,6 +1,7 @@
 #include "diagnosis/grammar/compose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -17,6 +18,9 @@ constexpr double kMostHalves = 0.8;          // in which a richer law must predi
                                              // that say nothing one in two does
 constexpr std::size_t kModulated = 3;        // leads of which a second driver is sought
 constexpr std::size_t kMostModulations = 3;  // of each that are weighed
+constexpr std::size_t kProved = 4;           // laws worth a fit, of those that are proved on halves
+constexpr std::size_t kForeseeing = 4;       // and of the others that predict best
+constexpr std::size_t kMostTerms = 6;        // of a law with a second driver: more is no physics
 constexpr double kWorthwhile = 6;  // squares over the noise that it must gain for each number more
 
 /// A form of a lead along all rows, by its parameters.
@@ -161,16 +165,31 @@ bool is_redundant(const Lead& lead, const Shape& shape) {
   return lead.is_of_itself() && shape.parameters.empty();
 }
 
+/// Is a factor by itself an effect of the catalogue, as dry friction is the direction of motion?
+/// Then it is no law's to say.
+bool is_known(const Material& material, const Lead& lead, const std::set<std::string>& effects) {
+  const Driver* driver = find_driver(material.drivers, lead.factor.signal);
+  if (driver == nullptr) {
+    return false;
+  }
+  const std::string wanted = lead.factor.text == lead.factor.signal ? "line" : "sign";
+  const auto shape = std::find_if(shapes().begin(), shapes().end(),
+                                  [&](const Shape& each) { return each.name == wanted; });
+  return effects.count(known_as({lead.seat, driver, {}, 0, 0}, *shape)) > 0;
+}
+
 /// A lead with each of its shapes, those with a name in the catalogue among them.
-std::vector<Composed> laws_of(const Material& material, const Lead& lead) {
+std::vector<Composed> laws_of(const Material& material, const Lead& lead,
+                              const std::set<std::string>& effects) {
+  const bool may_have_constant = !is_known(material, lead, effects);
   std::vector<Composed> laws;
   for (const Shape& shape : shapes()) {
     if (!shape.fits(*lead.seat, *lead.driver) || is_redundant(lead, shape)) {
       continue;
     }
-    const Values parameters = Fitted(material, lead, {&shape, true, {}}).best();
-    for (const bool has_constant : {false, true}) {
-      Composed law = composed_of(material, lead, {&shape, has_constant, {}}, parameters);
+    const Values parameters = Fitted(material, lead, {&shape, may_have_constant, {}}).best();
+    for (int constants = 0; constants <= (may_have_constant ? 1 : 0); ++constants) {
+      Composed law = composed_of(material, lead, {&shape, constants > 0, {}}, parameters);
       if (law.gain > 0) {
         laws.push_back(std::move(law));
       }
@@ -179,15 +198,20 @@ std::vector<Composed> laws_of(const Material& material, const Lead& lead) {
   return laws;
 }
 
-/// The law with each of the second drivers that gain most.
+/// The law with each of the second drivers that gain most. What is no function of what was recorded
+/// has none.
 std::vector<Composed> modulated(const Material& material, const Composed& law) {
-  constexpr double kMore = 1.2;  // times the law's own gain: any second driver gains a little
+  if (law.lead.driver->kind == effects::SignalKind::time) {
+    return {};
+  }
+  constexpr double kMore = 1.02;  // times the law's own gain: any second driver gains a little
   std::vector<std::pair<double, Modulation>> by_gain;
   for (const Driver& driver : material.drivers) {
     for (const Shape& shape : modulations()) {
       const Modulation by{&driver, &shape};
       const bool is_able = !driver.is_power && driver.kind != effects::SignalKind::time &&
-                           driver.name != law.lead.driver->name && shape.suits(driver);
+                           driver.name != law.lead.driver->name && shape.suits(driver) &&
+                           law.form.shape->terms.size() * shape.terms.size() <= kMostTerms;
       if (is_able) {
         const Fitted fitted(material, law.lead, {law.form.shape, false, by});
         const double gain = fitted.gain(law.parameters);
@@ -207,14 +231,33 @@ std::vector<Composed> modulated(const Material& material, const Composed& law) {
   return laws;
 }
 
-/// All laws of a lead that have no name in the catalogue, the best first.
+/// Laws that are worth a fit: the best that is proved, and the one that predicts best, where that
+/// is another. The second may follow what only a few stretches show.
+std::vector<Composed> worth_fitting(std::vector<Composed> laws) {
+  best_first(&laws);
+  const auto foreseeing = std::max_element(
+      laws.begin(), laws.end(),
+      [](const Composed& a, const Composed& b) { return mean(a.unseen) < mean(b.unseen); });
+  std::vector<Composed> chosen;
+  if (foreseeing != laws.begin() && foreseeing != laws.end()) {
+    chosen.push_back(std::move(*foreseeing));
+  }
+  if (!laws.empty()) {
+    chosen.insert(chosen.begin(), std::move(laws.front()));
+  }
+  return chosen;
+}
+
+/// Laws of a lead that have no name in the catalogue and are worth a fit.
 std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bool modulates,
                                   const std::set<std::string>& effects) {
-  std::vector<Composed> laws = laws_of(material, lead);
+  std::vector<Composed> laws = laws_of(material, lead, effects);
   std::vector<Composed> more;
-  if (modulates && !laws.empty()) {
-    best_first(&laws);
-    more = modulated(material, laws.front());
+  if (modulates) {
+    for (const Composed& plain : worth_fitting(laws)) {
+      std::vector<Composed> by_second = modulated(material, plain);
+      std::move(by_second.begin(), by_second.end(), std::back_inserter(more));
+    }
   }
   laws.erase(std::remove_if(laws.begin(), laws.end(),
                             [&](const Composed& each) {
@@ -222,8 +265,7 @@ std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bo
                             }),
              laws.end());
   std::move(more.begin(), more.end(), std::back_inserter(laws));
-  best_first(&laws);
-  return laws;
+  return worth_fitting(std::move(laws));
 }
 
 /// Appends a factor to a product, unless it is 1.
@@ -257,10 +299,10 @@ std::vector<std::string> products_of(const Composed& law) {
 
 /// The formula's text, and its parameters: the amplitudes, then those of the shape.
 std::string formula_of(const Composed& law, std::vector<std::string>* names) {
-  constexpr const char* kAmplitudes[] = {"a", "b", "c", "e", "f", "g", "h", "l", "m"};
+  constexpr std::array<const char*, kMostTerms> kAmplitudes = {"a", "b", "c", "e", "f", "g"};
   std::string text;
   for (const std::string& product : products_of(law)) {
-    names->emplace_back(kAmplitudes[names->size()]);
+    names->emplace_back(kAmplitudes.at(names->size()));
     text += (text.empty() ? "" : " + ") + names->back() + product;
   }
   for (const ShapeParameter& each : law.form.shape->parameters) {
@@ -301,17 +343,20 @@ std::vector<Composed> compose(const Material& material, const std::vector<Lead>&
   std::vector<Composed> all;
   for (std::vector<Composed>& each : by_lead) {
     *looked_at += each.size();
-    if (!each.empty()) {
-      all.push_back(std::move(each.front()));
-    }
+    std::move(each.begin(), each.end(), std::back_inserter(all));
   }
-  std::vector<Composed> sorted;
-  while (!all.empty()) {
+  std::vector<Composed> chosen;
+  for (std::size_t i = 0; i < kProved && !all.empty(); ++i) {
     best_first(&all);
-    sorted.push_back(std::move(all.front()));
+    chosen.push_back(std::move(all.front()));
     all.erase(all.begin());
   }
-  return sorted;
+  std::stable_sort(all.begin(), all.end(), [](const Composed& a, const Composed& b) {
+    return mean(a.unseen) > mean(b.unseen);
+  });
+  all.resize(std::min(all.size(), kForeseeing));
+  std::move(all.begin(), all.end(), std::back_inserter(chosen));
+  return chosen;
 }
 
 Chosen chosen_of(const Observations& observations, const Composed& composed) {

@@ -45,9 +45,10 @@ struct Composed {
 };
 
 /// Fits every shape to each lead, except shapes that have the name of one of these effects of the
-/// catalogue, and second drivers to the best shape of the first leads. Returns one law a lead, with
-/// its best shape, the best law first. A richer law stands before a simpler one only if it predicts
-/// better in most of the halves.
+/// catalogue, and second drivers to the best shape of the first leads. Returns the laws that are
+/// worth a fit by simulation: of each lead its best at most, and the one that predicts best. First
+/// come those that are proved, the best first: a richer law stands before a simpler one only if it
+/// predicts better in most of the halves. Then come those of the others that predict best.
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at);
 

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kMostLaws = 3;    // beside each other: more take minutes
 constexpr double kLeastLawShare = 0.3;  // of the power beyond the noise where it shows
-constexpr std::size_t kTried = 4;       // composed laws that are fitted before the best is taken
 
 /// The effects of the catalogue that are sought.
 std::set<std::string> effects_of(const Inquiry& inquiry) {
@@ -29,10 +28,9 @@ Fit with_law(const Inquiry& inquiry, const Material& material, const Fit& before
   const std::vector<Seat> seats = seats_of(observations, material.rows, before);
   std::size_t looked_at = inquiry.dictionary.entries.size();
   const std::vector<Lead> leads = screen(material, seats, &looked_at);
-  const std::vector<Composed> laws = compose(material, leads, effects_of(inquiry), &looked_at);
   Fit best;
-  for (std::size_t i = 0; i < std::min(laws.size(), kTried); ++i) {
-    Fit grown = fit_with(inquiry, before, chosen_of(observations, laws[i]), kSteps);
+  for (const Composed& law : compose(material, leads, effects_of(inquiry), &looked_at)) {
+    Fit grown = fit_with(inquiry, before, chosen_of(observations, law), kSteps);
     const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
     if (holds(inquiry, evidence) && evidence.share > kLeastLawShare &&
         (best.chosen.empty() || bic_gain(observations, best, grown) > kStrongEvidence)) {
@@ -63,21 +61,36 @@ Fit with_one(const Inquiry& inquiry, const Material& material, const Fit& before
                    with_effect(inquiry, before));
 }
 
-/// Chooses anew what was chosen, each beside all others: what was chosen early had to say what
-/// others say by now.
-Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget* budget) {
+/// A choice anew in the place of one of a fit, if it does better; else nothing chosen.
+Fit chosen_anew(const Inquiry& inquiry, const Material& material, const Fit& grown,
+                std::size_t index) {
   const Observations& observations = inquiry.observations;
-  const std::size_t first = inquiry.given.chosen.size();
-  for (std::size_t i = first; i + 1 < grown.chosen.size() && !budget->is_spent(); ++i) {
-    if (!meet(directions(observations, grown, i),
-              directions(observations, grown, grown.chosen.size() - 1))) {
-      continue;
-    }
-    Fit again = with_one(inquiry, material, fit_without(inquiry, grown, i));
-    const bool is_simpler = again.parameters() < grown.parameters();
-    if (!again.chosen.empty() &&
-        bic_gain(observations, grown, again) > (is_simpler ? 0 : kStrongEvidence)) {
-      grown = std::move(again);
+  if (!meet(directions(observations, grown, index),
+            directions(observations, grown, grown.chosen.size() - 1))) {
+    return {};
+  }
+  Fit again = with_one(inquiry, material, fit_without(inquiry, grown, index));
+  const bool is_simpler = again.parameters() < grown.parameters();
+  const bool is_better = !again.chosen.empty() &&
+                         bic_gain(observations, grown, again) > (is_simpler ? 0 : kStrongEvidence);
+  return is_better ? again : Fit{};
+}
+
+/// Chooses anew what was chosen before the last, each beside all others: what was chosen early had
+/// to say what others say by now. What comes anew is the last then, and the others are seen to once
+/// more.
+Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget* budget) {
+  constexpr int kRounds = 3;  // time: none took more
+  bool has_changed = true;
+  for (int round = 0; round < kRounds && has_changed; ++round) {
+    has_changed = false;
+    for (std::size_t i = inquiry.given.chosen.size();
+         i + 1 < grown.chosen.size() && !budget->is_spent(); ++i) {
+      Fit again = chosen_anew(inquiry, material, grown, i);
+      if (!again.chosen.empty()) {
+        grown = std::move(again);
+        has_changed = true;
+      }
     }
   }
   return grown;

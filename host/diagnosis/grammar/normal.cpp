@@ -53,10 +53,18 @@ double Normal::gain(const Eigen::VectorXd& amplitude) const {
   return 2 * moment.dot(amplitude) - amplitude.dot(gram * amplitude);
 }
 
+Normal beside(Eigen::MatrixXd gram, const Eigen::MatrixXd& shown, Eigen::VectorXd moment) {
+  constexpr double kApart = 1e-4;  // of a square: a hundredth of the course, less is rounding
+  const Eigen::VectorXd least = kApart * gram.diagonal();
+  gram -= shown.transpose() * shown;
+  gram.diagonal() += least;
+  return {std::move(gram), std::move(moment)};
+}
+
 Normal normal_of(const Seat& seat, const Eigen::MatrixXd& courses) {
   const Eigen::MatrixXd shown = seat.fitted.transpose() * courses;
-  return {courses.transpose() * seat.weight.asDiagonal() * courses - shown.transpose() * shown,
-          courses.transpose() * seat.product};
+  return beside(courses.transpose() * seat.weight.asDiagonal() * courses, shown,
+                courses.transpose() * seat.product);
 }
 
 std::vector<Normal> normals_by_stretch(const Seat& seat, const Rows& rows,

@@ -17,6 +17,11 @@ struct Normal {
   double gain(const Eigen::VectorXd& amplitude) const;
 };
 
+/// Normal equations of courses beside what is fitted: `gram` and `moment` by themselves, `shown`
+/// the products of an orthonormal base of the fit with the courses. Courses that the fit makes up
+/// have next to no gain.
+Normal beside(Eigen::MatrixXd gram, const Eigen::MatrixXd& shown, Eigen::VectorXd moment);
+
 /// Normal equations of all samples to fit to, beside the fit that there is.
 Normal normal_of(const Seat& seat, const Eigen::MatrixXd& courses);
 

@@ -85,8 +85,7 @@ class Hats {
         shown.col(at_[row] + i) += values[i] * seat.fitted.row(row).transpose();
       }
     }
-    sum.gram -= shown.transpose() * shown;
-    return sum;
+    return beside(std::move(sum.gram), shown, std::move(sum.moment));
   }
 
  private:

@@ -113,8 +113,10 @@ Eigen::VectorXd levers_of(const Observations& observations, const effects::LawPl
 
 std::vector<Seat> seats_of(const Observations& observations, const Rows& rows, const Fit& fit) {
   const Eigen::Index train = observations.train;
-  const Eigen::VectorXd left = clipped(fit.remainder.head(train));
   const Eigen::MatrixXd base = linear_algebra::orthonormal_basis(fit.derivative.topRows(train));
+  Eigen::VectorXd left = clipped(fit.remainder.head(train));
+  // What a few more steps of the fit would take away is no law's.
+  left -= base * (base.transpose() * left);
   std::vector<Seat> seats;
   for (const Words& words : places_of(observations)) {
     Seat seat{effects::read_place(words.name, words.axis, words.joint),

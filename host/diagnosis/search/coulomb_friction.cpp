@@ -22,7 +22,8 @@ Search search::coulomb_friction() {
           {{{PlaceKind::joint_torque},
             "",
             {SignalKind::speed},
-            {"sign", "saturation", "slow saturation", "limit", "step", "soft step"}}}};
+            {"sign", "saturation", "slow saturation", "limit", "step", "soft step"}},
+           {{PlaceKind::joint_torque}, "sign(v", {SignalKind::speed}, {"step", "soft step"}}}};
 }
 
 }  // namespace flexcomp::diagnosis

@@ -36,6 +36,9 @@ def _parse(words):
                         metavar="FILE", help="default: build/release/bin/flexcomp")
     parser.add_argument("--limit", type=float, default=300.0, metavar="S",
                         help="seconds after which a diagnosis counts as failed (default 300)")
+    parser.add_argument("--law-seconds", type=float, metavar="S",
+                        help="given to the tool: laws beside findings too, up to S (default: as the "
+                        "tool does unasked)")
     parser.add_argument("--no-rivals", action="store_true", help="leave the plain refit out")
     parser.add_argument("--again", type=pathlib.Path, metavar="DIR",
                         help="diagnose the first --cases opened cases of an earlier run in DIR with "
@@ -67,8 +70,8 @@ def _write(task):
 
 
 def _diagnose(task):
-    tool, limit, case, answers = task
-    trial.diagnose(tool, workers.box(), limit, case, answers)
+    tool, options, limit, case, answers = task
+    trial.diagnose(tool, options, workers.box(), limit, case, answers)
 
 
 def _measure(task):
@@ -100,8 +103,9 @@ def main(words=None):
     tried = sandbox.Sandbox(*box)
     if not tried.isolated:
         print(f"No sandbox: {tried.why_not}.")
+    asked = [] if options.law_seconds is None else ["--law-seconds", f"{options.law_seconds:g}"]
     workers.each(options.jobs, _diagnose, [
-        (options.tool, options.limit, source / "cases" / name, options.out / "answers" / name)
+        (options.tool, asked, options.limit, source / "cases" / name, options.out / "answers" / name)
         for name in names], "diagnosed", box)
     if sealed:
         truths = sealed.open()

@@ -15,7 +15,6 @@ from . import cases
 
 KEPT = "diagnosis.json", "updated_model.yaml", "report.html"
 JUDGED = "holdout", "untrained"
-LAW_SECONDS = "40"
 
 
 def _processor():
@@ -23,8 +22,9 @@ def _processor():
     return used.ru_utime + used.ru_stime
 
 
-def diagnose(tool, box, limit, case, answers):
-    """Leaves in the folder answers what the tool wrote, and run.json: how it ended."""
+def diagnose(tool, options, box, limit, case, answers):
+    """Leaves in the folder answers what the tool wrote, and run.json: how it ended. options: of
+    `flexcomp diagnose`, beside the files."""
     with tempfile.TemporaryDirectory(prefix="foreign-") as folder:
         work = pathlib.Path(folder)
         shutil.copytree(case / "model", work / "model")
@@ -32,8 +32,8 @@ def diagnose(tool, box, limit, case, answers):
             shutil.copyfile(case / f"{part}.csv", work / f"{part}.csv")
         before = _processor()
         done = box.run([str(tool), "diagnose", "--model", "model/robot.yaml", "--recording",
-                        "train.csv", "--holdout", "holdout.csv", "--out", "out",
-                        "--law-seconds", LAW_SECONDS], work, limit)
+                        "train.csv", "--holdout", "holdout.csv", "--out", "out", *options],
+                       work, limit)
         answers.mkdir(parents=True, exist_ok=True)
         for name in KEPT:
             path = work / "out" / name

@@ -57,9 +57,9 @@ def arguments():
                         metavar="FILE", help="what is scored (default: build/release/bin/flexcomp)")
     parser.add_argument("--limit", type=float, default=300.0, metavar="S",
                         help="seconds after which a run counts as failed (default 300)")
-    parser.add_argument("--without", choices=list(CATALOGUE), metavar="EFFECT",
+    parser.add_argument("--without", choices=[*CATALOGUE, without.ALL], metavar="EFFECT",
                         help="leave an effect out of the catalogue, and compare with it on --single "
-                        "cases that conceal it")
+                        "cases that conceal it; all: each effect in turn, --single cases of each")
     options = parser.parse_args()
     if not os.access(options.tool, os.X_OK):
         parser.error(f"{options.tool} is not there; run tools/build first")

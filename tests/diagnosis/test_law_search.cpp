@@ -1,0 +1,123 @@
+// Laws that nobody listed within a whole diagnosis: beside effects of the catalogue, in their
+// place, and at joints that carry little.
+#include <random>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/driven_robot.hpp"
+#include "unity_main.hpp"
+
+using flexcomp::diagnosis::Diagnosis;
+using flexcomp::diagnosis::Finding;
+using flexcomp::diagnosis::Observations;
+using flexcomp::test::DrivenRobot;
+namespace diagnosis = flexcomp::diagnosis;
+namespace simulation = flexcomp::simulation;
+
+namespace {
+
+/// Adds torques (N·m, a column a joint) by what the machine does.
+using Torques = std::function<Eigen::MatrixXd(const simulation::Simulation& at)>;
+
+simulation::Term adding(Torques torques) {
+  return {simulation::Term::output, [=](const simulation::Scene&, const simulation::Simulation& at,
+                                        simulation::Prediction* prediction) {
+            prediction->channel[simulation::joint_torque] += torques(at);
+          }};
+}
+
+Diagnosis diagnosed(Observations* observations) {
+  diagnosis::Settings settings;
+  settings.law_seconds = 600;
+  settings.simulating = [](std::size_t, std::size_t) {};
+  settings.choosing = [](const std::string&) {};
+  return diagnose(observations, all_hypotheses(*observations), settings);
+}
+
+/// The formula of the only law; empty unless there is one, at this joint.
+std::string law_at(const Diagnosis& found, int joint) {
+  std::string formula;
+  for (const Finding& finding : found.choice.findings) {
+    const diagnosis::Hypothesis& hypothesis = finding.chosen.hypothesis;
+    if (hypothesis.law->written != nullptr) {
+      formula =
+          formula.empty() && hypothesis.joint == joint ? hypothesis.law->written->formula : "";
+    }
+  }
+  return formula;
+}
+
+bool has(const Diagnosis& found, const std::string& effect, int joint) {
+  return std::any_of(
+      found.choice.findings.begin(), found.choice.findings.end(), [&](const Finding& each) {
+        return each.chosen.hypothesis.effect() == effect && each.chosen.hypothesis.joint == joint;
+      });
+}
+
+Eigen::VectorXd hose(const simulation::Simulation& at) {
+  return 30 * (3 * at.q.col(3).array() + 0.7).sin();
+}
+
+/// What a law takes away is a thousandth of the torques' noise in all, and five times its own
+/// joint's.
+void a_law_at_a_quiet_joint_is_kept_beside_a_loud_one() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> noise(-2100, 2100);
+    torques.col(0) = torques.col(0).unaryExpr([&](double) { return noise(random); });
+    torques.col(4) = hose(at);
+    return torques;
+  }));
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_EQUAL_STRING("a*sin(3*q4) + b*cos(3*q4)", law_at(found, 5).c_str());
+}
+
+void a_law_is_found_beside_an_effect() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    torques.col(1) = 25 * at.velocity.col(1).cwiseSign();
+    torques.col(4) = hose(at);
+    return torques;
+  }));
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_EQUAL_UINT64(2, found.choice.findings.size());
+  TEST_ASSERT_TRUE(has(found, "coulomb_friction", 2));
+  TEST_ASSERT_EQUAL_STRING("a*sin(3*q4) + b*cos(3*q4)", law_at(found, 5).c_str());
+}
+
+/// Ripple of the catalogue accounts for most of a ripple that another joint swells a little, and is
+/// chosen while a load hides the rest.
+void an_effect_that_stands_for_a_law_gives_way_to_it() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.robot.elastic.payload_mass += 30;
+  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    torques.col(3) = 120 * (13 * at.q.col(3).array()).sin() * (at.q.col(1).array() + 0.4).cos();
+    return torques;
+  }));
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_TRUE(has(found, "payload", 0));
+  const std::string formula = law_at(found, 4);
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q4)*") != std::string::npos, formula.c_str());
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(a_law_at_a_quiet_joint_is_kept_beside_a_loud_one);
+  RUN_TEST(a_law_is_found_beside_an_effect);
+  RUN_TEST(an_effect_that_stands_for_a_law_gives_way_to_it);
+  return UNITY_END();
+}
