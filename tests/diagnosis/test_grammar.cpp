@@ -203,6 +203,20 @@ void a_tone_is_told_in_time() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-3, 2 * std::acos(-1.0) * 1.7, found.values[2]);
 }
 
+void what_a_fit_makes_up_has_next_to_no_gain() {
+  // A course of square 100 that leans on what is fitted by nothing, by half of its square, and
+  // whole, where only rounding is left of it.
+  const auto gain_of = [](double shown) {
+    const grammar::Normal normal =
+        grammar::beside(Eigen::MatrixXd::Constant(1, 1, 100.0),
+                        Eigen::MatrixXd::Constant(1, 1, shown), Eigen::VectorXd::Constant(1, 10.0));
+    return normal.gain(normal.amplitude());
+  };
+  TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1, gain_of(0));
+  TEST_ASSERT_DOUBLE_WITHIN(1e-3, 2, gain_of(std::sqrt(50)));
+  TEST_ASSERT_TRUE(gain_of(std::sqrt(100 - 1e-9)) < 1.01e4);  // of its square a ten thousandth
+}
+
 void gains_are_told_where_nothing_was_fitted() {
   // Four stretches whose least squares alone are 1, 1, 1 and 3: whatever the halves, what two of
   // them say gains on the others what the sums over these give by hand.
@@ -233,6 +247,7 @@ int main() {
   RUN_TEST(what_the_catalogue_has_keeps_its_name);
   RUN_TEST(an_effect_has_a_name_for_shapes_that_are_composed_only);
   RUN_TEST(a_tone_is_told_in_time);
+  RUN_TEST(what_a_fit_makes_up_has_next_to_no_gain);
   RUN_TEST(gains_are_told_where_nothing_was_fitted);
   return UNITY_END();
 }

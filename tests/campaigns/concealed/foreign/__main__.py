@@ -17,7 +17,7 @@ import sys
 from campaign import case as campaign
 from protocol import sandbox, seal, workers
 
-from . import cases, judge, table, trial
+from . import cases, judge, milled, table, trial
 
 SOURCE = pathlib.Path(__file__).resolve().parents[4]
 OURS = ("cases", "floors", "answers", "summary.json", seal.SEALED, seal.HASH, seal.OPENED, seal.KEY)
@@ -39,6 +39,8 @@ def _parse(words):
     parser.add_argument("--law-seconds", type=float, metavar="S",
                         help="given to the tool: laws beside findings too, up to S (default: as the "
                         "tool does unasked)")
+    parser.add_argument("--no-loop", action="store_true",
+                        help="mill no circles with the diagnosed models")
     parser.add_argument("--no-rivals", action="store_true", help="leave the plain refit out")
     parser.add_argument("--again", type=pathlib.Path, metavar="DIR",
                         help="diagnose the first --cases opened cases of an earlier run in DIR with "
@@ -78,6 +80,12 @@ def _measure(task):
     trial.measure(*task)
 
 
+def _mill(task):
+    tool, truth, model, answers = task
+    said = milled.mill(tool, truth, model, answers / "updated_model.yaml")
+    (answers / "loop.json").write_text(json.dumps(said) + "\n")
+
+
 def _drawn(options):
     """Writes the cases and seals their truth; returns the SealedTruth and the cases' names."""
     tasks = [(f"{number:03d}", case, options.out)
@@ -113,6 +121,11 @@ def main(words=None):
         (options.tool, source / "cases" / name, source / "floors" / name,
          options.out / "answers" / name, truths[name], not options.no_rivals)
         for name in names], "measured")
+    if not options.no_loop:
+        workers.each(options.jobs, _mill, [
+            (options.tool, truths[name], source / "cases" / name / "model" / "robot.yaml",
+             options.out / "answers" / name)
+            for name in names if milled.is_asked(truths[name])], "milled")
     rows = [judge.judged(name, truths[name], options.out / "answers" / name) for name in names]
     found = judge.figures(rows)
     (options.out / "summary.json").write_text(json.dumps(

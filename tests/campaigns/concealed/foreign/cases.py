@@ -32,6 +32,12 @@ class Case:
     seed: tuple
 
 
+def told(truth):
+    """The Case of a truth."""
+    foreign, known = (truth[key] and truth[key]["effect"] for key in ("foreign", "known"))
+    return Case(truth["family"], truth["kind"], foreign, known, tuple(truth["seed"]))
+
+
 def draw(seed, count):
     """`count` cases in the mix above; all kinds of physics about as often."""
     rng = np.random.default_rng([seed, 3])
@@ -88,9 +94,9 @@ class Work:
                    or rng.random() < campaign.WEIGHTY)
         self.robot, self.rated = cell.write_model(rng, folder / "model", gravity)
         self.description = descriptions.load(folder / "model" / "robot.yaml")
-        center = paths.posture(rng)
+        self.center = paths.posture(rng)
         self.courses = {part: self._course(paths.far_from if part == "untrained" else paths.nearby,
-                                           center) for part in PARTS}
+                                           self.center) for part in PARTS}
         self.groups = GROUPS[case.kind]
         clean, course = self.run((), "train"), self.courses["train"]
         scale = campaign.scale_of(case.kind, self.description, course, clean)
@@ -167,23 +173,37 @@ def _truth(work, concealed):
                 for group in strength.CHANNELS if group in work.groups}}
 
 
-def write(case, folder, floors):
-    """Writes model/ and the recordings of a case, and into the folder floors what the machine would
-    have shown without what is concealed. Returns the truth. Raises campaign.Unsuitable."""
+def _recorded(work, effects):
+    """({part: signals}, {part: the same without what is concealed})"""
+    return ({part: work.run(effects, part) for part in PARTS},
+            {part: work.run((), part) for part in PARTS[1:]})
+
+
+def _fair(case, folder):
+    """(Work, [(effect, over the noise)], recorded) of the first draw that comes to a fair size; its model is
+    in folder/model. Raises campaign.Unsuitable."""
     for attempt in range(campaign.ATTEMPTS):
         try:
             work = Work(case, folder, attempt)
             concealed = [work.conceal(entry) for entry in work.entries]
-            effects = tuple(effect for effect, _ in concealed)
-            signals = {part: work.run(effects, part) for part in PARTS}
-            clean = {part: work.run((), part) for part in PARTS[1:]}
-            break
+            return work, concealed, _recorded(work, tuple(effect for effect, _ in concealed))
         except (campaign.Unsuitable, FloatingPointError) as error:
             for left in (folder / "model").iterdir():
                 left.unlink()
             last = error
-    else:
-        raise campaign.Unsuitable(f"nothing fair came of {campaign.ATTEMPTS} draws: {last}")
+    raise campaign.Unsuitable(f"nothing fair came of {campaign.ATTEMPTS} draws: {last}")
+
+
+def rebuild(case, folder):
+    """(Work, effects) of a case that was written before."""
+    work, concealed, _ = _fair(case, folder)
+    return work, [effect for effect, _ in concealed]
+
+
+def write(case, folder, floors):
+    """Writes model/ and the recordings of a case, and into the folder floors what the machine would
+    have shown without what is concealed. Returns the truth. Raises campaign.Unsuitable."""
+    work, concealed, (signals, clean) = _fair(case, folder)
     floors.mkdir(parents=True, exist_ok=True)
     for part in PARTS:
         work.write(folder / f"{part}.csv", signals[part], part)

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from . import milled
 from .trial import JUDGED
 
 SHOWS = 1.0  # excess from which what is concealed counts as shown by a recording
@@ -81,6 +82,7 @@ def judged(name, truth, answers):
     answer = json.loads(path.read_text()) if path.is_file() else {}
     findings = answer.get("findings", [])
     foreign = truth["foreign"] or {}
+    loop = answers / "loop.json"
     laws = [finding for finding in findings if finding["effect"] == "law"]
     wrong = [finding for finding in findings if finding["effect"] != "law"
              and not _is_known(finding, truth) and not _is_kin(finding, truth)]
@@ -99,6 +101,7 @@ def judged(name, truth, answers):
         "right_law": any(_is_right_law(finding, truth) for finding in findings),
         "kin": any(_is_kin(finding, truth) for finding in findings),
         "known_found": any(_is_known(finding, truth) for finding in findings),
+        "loop": json.loads(loop.read_text()) if loop.is_file() else {},
         "excess": errors, "failures": measured["failures"],
         "worse": {method: [part for part in JUDGED if _is_worse(errors, method, part)]
                   for method in ("flexcomp", "refit")},
@@ -144,6 +147,7 @@ def figures(rows):
     clean = [row for row in rows if row["family"] == "clean"]
     unseen = [row for row in rows if row["exists"] is False]
     seconds = [row["seconds"] for row in rows]
+    circles = [row["loop"] for row in rows if milled.is_judged(row["loop"])]
     return {
         "cases": len(rows), "answered": sum(row["code"] == 0 for row in rows),
         "fall": {part: _fell(law, part) for part in JUDGED},
@@ -156,6 +160,7 @@ def figures(rows):
         "no_law_and_wrong_name": _share(bool(row["wrong"]) for row in unseen),
         "made_worse": {method: _share(bool(row["worse"][method]) for row in rows)
                        for method in ("flexcomp", "refit")},
+        "circles": _share(milled.left(circle) <= milled.GOAL for circle in circles),
         "laws_on_clean": _share(row["laws"] > 0 for row in clean),
         "findings_on_clean": _share(bool(row["named"]) for row in clean),
         "seconds": {"median": float(np.median(seconds)), "max": max(seconds)},

@@ -23,7 +23,7 @@ class Seen:
 
 
 class Foreign(Effect):
-    """Physics outside the catalogue. Besides `begin` and `sense`, it may act as the three hooks below,
+    """Physics outside the catalogue. Besides `begin` and `sense`, it may act as the four hooks below,
     which do nothing unless they are overridden.
 
     exists  whether it is a law of signals that are recorded
@@ -34,6 +34,10 @@ class Foreign(Effect):
     exists = True
     undone = False
     kin = ()
+
+    def driven(self, motion):
+        """The Motion that a commanded one becomes: servos follow what their encoders show."""
+        return motion
 
     def extra(self, seen):
         """(n,) N·m that the joint's drive gives besides."""

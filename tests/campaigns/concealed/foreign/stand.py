@@ -1,5 +1,7 @@
 """Things that stand elsewhere than the model says."""
 
+import dataclasses
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -41,6 +43,11 @@ class EccentricEncoder(JointAngle):
         own = self.parameters
         return (own["first"] * np.sin(q + own["first_phase"])
                 + own["second"] * np.sin(2 * q + own["second_phase"]))
+
+    def driven(self, motion):
+        q = motion.q.copy()
+        q[:, self.joint - 1] += self.error(q[:, self.joint - 1])
+        return dataclasses.replace(motion, q=q)
 
     def sense(self, signals, description):
         column = signals.q_meas[:, self.joint - 1]

@@ -1,5 +1,6 @@
 """The figures of a campaign for a person: goals, a row a kind of physics, a row a case."""
 
+from . import milled
 from .judge import GOAL, MOST_WRONG, SHARE
 
 
@@ -35,6 +36,17 @@ def _case(row):
           + (f" ({row['verdict']})" if row["verdict"] else f" ({row['last_words']})"))
 
 
+def _circles(rows):
+    print("\nCircularity of a milled circle, mm: corrected by the nominal model, by the diagnosed one, and of "
+          "the machine without what is concealed, corrected by the nominal model.\n")
+    for row in (row for row in rows if row["loop"]):
+        loop = row["loop"]
+        what = f"{row['case']} {row['foreign']}" + (f" + {row['known']}" if row["known"] else "")
+        print(f"{what:<44}" + (loop["failed"] if "failed" in loop else "".join(
+            f"{1e3 * loop[key]:>9.4f}" for key in ("nominal", "diagnosed", "without"))
+            + ("" if milled.is_judged(loop) else "  hardly matters")))
+
+
 def show(rows, found):
     """Prints them."""
     print("\nBy which share the error beyond the noise falls: held out, then in the untrained "
@@ -44,6 +56,8 @@ def show(rows, found):
           + "".join(f"{word:>8}" for word in ("untr.", "refit", "true")) + "     s  named")
     for row in sorted(rows, key=lambda row: (row["family"], row["foreign"] or "", row["case"])):
         _case(row)
+    if any(row["loop"] for row in rows):
+        _circles(rows)
     print()
     for part, words in (("holdout", "held out"), ("untrained", "untrained region")):
         entry = found["fall"][part]
@@ -56,6 +70,8 @@ def show(rows, found):
     _goal("a law exists: one is given, at the right place", found["right_law"], SHARE)
     _goal("beside a catalogue effect: both found", found["both_found"], SHARE)
     print(f"       the catalogue effect by itself: {_of(found['known_found'])}")
+    _goal(f"in the loop: circularity at most {_percent(milled.GOAL)} of that with the nominal model, of "
+          "circles that a command can mend", found["circles"], milled.SHARE)
     _goal("a wrong known name", found["wrong_known_name"], MOST_WRONG, at_least=False)
     print(f"       of these where no law exists: {_of(found['no_law_and_wrong_name'])}")
     _goal("clean: a law all the same", found["laws_on_clean"], 0.01, at_least=False)

@@ -49,9 +49,11 @@ def _beside_model(nominal, diagnosed, folder):
     return Path(shutil.copy(diagnosed, folder / "answer"))
 
 
-class _Loop:
-    def __init__(self, tool, circle, work, folder):
-        self.tool, self.circle, self.work, self.folder = tool, circle, work, folder
+class Loop:
+    """A circle on a plant of a description, corrected by models. folder: for its files."""
+
+    def __init__(self, tool, circle, description, folder):
+        self.tool, self.circle, self.description, self.folder = tool, circle, description, folder
 
     def circularity(self, signals):
         """m, minimum zone, of where the TCP went."""
@@ -72,31 +74,35 @@ class _Loop:
         _call(self.tool, "compensate", "--model", model, "--table", table, "--path", program,
               "--out", corrected)
         correction = read(corrected).groups["q_cmd"] - read(program).groups["q_cmd"]
-        return self.circularity(self.circle.run(self.work.description, effects, correction))
+        return self.circularity(self.circle.run(self.description, effects, correction))
+
+
+def measured(loop, effects, nominal, diagnosed):
+    """Circularities (m) of a Loop's circle: uncorrected, nominal, diagnosed; without: of the plant
+    without effects, corrected by the nominal model. nominal, diagnosed: paths of models, the second
+    may be missing, then nothing was learnt. Raises Failed."""
+    clean = loop.circle.run(loop.description, [])
+    signals = loop.circle.run(loop.description, effects)
+    result = {"uncorrected": loop.circularity(signals),
+              "without": loop.corrected([], clean, nominal),
+              "nominal": loop.corrected(effects, signals, nominal)}
+    result["diagnosed"] = result["nominal"]
+    if diagnosed.is_file():
+        learned = _beside_model(nominal, diagnosed, loop.folder)
+        result["diagnosed"] = loop.corrected(effects, signals, learned)
+    return result
 
 
 def close(tool, drawn, nominal, diagnosed):
-    """drawn: the campaign's case; nominal, diagnosed: paths of models, the second may be missing,
-    then nothing was learnt. Returns circularities (m) of a milled circle of the plant: uncorrected,
-    nominal, diagnosed; without: of the plant without what is concealed, corrected by the nominal
-    model; or {"failed": why}."""
+    """What `measured` says of the plant of a drawn case of the campaign; or {"failed": why}."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         try:
             work = campaign_case.rebuild(drawn, folder / "case")
             circle = milling.draw(np.random.default_rng([*drawn.seed, 7]), work.description,
                                   work.center, work.rated, drawn.seed[0])
-            loop = _Loop(tool, circle, work, folder)
-            clean = circle.run(work.description, [])
-            signals = circle.run(work.description, work.effects)
-            result = {"uncorrected": loop.circularity(signals),
-                      "without": loop.corrected([], clean, nominal),
-                      "nominal": loop.corrected(work.effects, signals, nominal)}
-            result["diagnosed"] = result["nominal"]
-            if diagnosed.is_file():
-                learned = _beside_model(nominal, diagnosed, folder)
-                result["diagnosed"] = loop.corrected(work.effects, signals, learned)
+            return measured(Loop(tool, circle, work.description, folder), work.effects, nominal,
+                            diagnosed)
         except (Failed, campaign_case.Unsuitable, FloatingPointError,
                 subprocess.TimeoutExpired) as error:
             return {"failed": str(error)}
-    return result

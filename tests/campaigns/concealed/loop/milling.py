@@ -59,9 +59,12 @@ class Circle:
         motion, rows = self.program, _recorded(self.program)
         smooth = gaussian_filter1d(correction, SMOOTHED / PERIOD, axis=0, mode="nearest")
         ends = [motion.time[0], motion.time[rows[0]] - motion.run_in / 2]
+        # It begins at rest; at the end it goes on as it was for the part of a period that is left: to be
+        # brought to rest there would take the accelerations of a blow.
         course = CubicSpline(np.concatenate([ends, motion.time[rows]]),
-                             np.concatenate([np.zeros((2, 6)), smooth]), bc_type="clamped")
-        time = np.minimum(motion.time, motion.time[rows[-1]])
+                             np.concatenate([np.zeros((2, 6)), smooth]),
+                             bc_type=((1, np.zeros(6)), (2, np.zeros(6))))
+        time = motion.time
         return dataclasses.replace(motion, q=motion.q + course(time),
                                    velocity=motion.velocity + course(time, 1),
                                    acceleration=motion.acceleration + course(time, 2))
