@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "diagnosis/grammar/causes.hpp"
 #include "diagnosis/grammar/known.hpp"
@@ -188,8 +189,11 @@ std::vector<Composed> laws_of(const Material& material, const Lead& lead,
       continue;
     }
     const Values parameters = Fitted(material, lead, {&shape, may_have_constant, {}}).best();
-    for (int constants = 0; constants <= (may_have_constant ? 1 : 0); ++constants) {
-      Composed law = composed_of(material, lead, {&shape, constants > 0, {}}, parameters);
+    for (const bool has_constant : {false, true}) {
+      if (has_constant && !may_have_constant) {
+        continue;
+      }
+      Composed law = composed_of(material, lead, {&shape, has_constant, {}}, parameters);
       if (law.gain > 0) {
         laws.push_back(std::move(law));
       }
@@ -248,9 +252,10 @@ std::vector<Composed> worth_fitting(std::vector<Composed> laws) {
   return chosen;
 }
 
-/// Laws of a lead that have no name in the catalogue and are worth a fit.
+/// Laws of a lead that have no name in the catalogue and are worth a fit; `count`: of all that have
+/// none.
 std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bool modulates,
-                                  const std::set<std::string>& effects) {
+                                  const std::set<std::string>& effects, std::size_t* count) {
   std::vector<Composed> laws = laws_of(material, lead, effects);
   std::vector<Composed> more;
   if (modulates) {
@@ -265,6 +270,7 @@ std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bo
                             }),
              laws.end());
   std::move(more.begin(), more.end(), std::back_inserter(laws));
+  *count = laws.size();
   return worth_fitting(std::move(laws));
 }
 
@@ -335,14 +341,15 @@ effects::LawPointer with_cause(const effects::LawPointer& law, const std::string
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at) {
   std::vector<std::vector<Composed>> by_lead(leads.size());
+  std::vector<std::size_t> counts(leads.size());
   in_parallel(
       leads.size(), [](std::size_t, std::size_t) {},
       [&](std::size_t i) {
-        by_lead[i] = nameless_of(material, leads[i], i < kModulated, effects);
+        by_lead[i] = nameless_of(material, leads[i], i < kModulated, effects, &counts[i]);
       });
   std::vector<Composed> all;
+  *looked_at += std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   for (std::vector<Composed>& each : by_lead) {
-    *looked_at += each.size();
     std::move(each.begin(), each.end(), std::back_inserter(all));
   }
   std::vector<Composed> chosen;

@@ -104,17 +104,21 @@ bool means_something(const Seat& seat, const Driver& driver, const Factor& facto
 }
 
 /// Gain of the best shape with a memory, which a conditional mean does not show: of what a joint
-/// carries, at that joint.
+/// carries, and of its angle, at that joint.
 double gain_of_memory(const Material& material, const Seat& seat, const Driver& driver,
                       const Factor& factor) {
-  const bool is_carried = driver.kind == SignalKind::torque || driver.kind == SignalKind::load;
-  if (!is_carried || driver.is_power || driver.joint != seat.place.joint ||
-      material.observations.is_static) {
+  const bool is_own = !driver.is_power && driver.joint != 0 && driver.joint == seat.place.joint;
+  const bool is_held = driver.kind == SignalKind::torque || driver.kind == SignalKind::load ||
+                       (driver.kind == SignalKind::angle && factor.text.empty());
+  if (!is_own || !is_held) {
     return 0;
   }
   double most = 0;
   for (const Shape& shape : shapes()) {
-    if (!shape.remembers() || !shape.fits(seat, driver)) {
+    const bool lags =
+        !shape.parameters.empty() && shape.parameters.front().sought == Sought::constant;
+    if (!shape.remembers() || !shape.fits(seat, driver) ||
+        (lags && material.observations.is_static)) {
       continue;
     }
     for (const Values& start : starts_of(shape, driver, material.observations, 1)) {

@@ -17,6 +17,7 @@ const std::vector<SignalKind> kAngles = {SignalKind::angle};
 const std::vector<SignalKind> kSlow = {SignalKind::time};
 const std::vector<SignalKind> kForces = {SignalKind::torque, SignalKind::load, SignalKind::wrench,
                                          SignalKind::tool_wrench, SignalKind::temperature};
+const std::vector<SignalKind> kHolding = {SignalKind::angle, SignalKind::torque, SignalKind::load};
 const std::vector<SignalKind> kStates = {
     SignalKind::angle,       SignalKind::speed,    SignalKind::acceleration,
     SignalKind::torque,      SignalKind::load,     SignalKind::wrench,
@@ -59,6 +60,8 @@ std::vector<Shape> all_shapes() {
       {"odd cubic", {"$", "$^3"}, {}, kSigned},
       {"approach", {"exp(-$/T)"}, {{"T", Sought::constant}}, kSlow},
       {"lag", {"lag($, T)"}, {{"T", Sought::constant}}, kStates},
+      {"play", {"play($, w)"}, {width}, kHolding},
+      {"loop", {"($ - play($, w))"}, {width}, kHolding},
       {"heat",
        {"lag($^2, T)"},
        {{"T", Sought::constant}},
@@ -194,7 +197,7 @@ bool Shape::suits(const Driver& driver) const {
 
 bool Shape::remembers() const {
   return std::any_of(terms.begin(), terms.end(), [](const std::string& term) {
-    return term.find("lag(") != std::string::npos;
+    return term.find("lag(") != std::string::npos || term.find("play(") != std::string::npos;
   });
 }
 

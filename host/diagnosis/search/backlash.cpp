@@ -24,6 +24,9 @@ bool prepare_backlash(const Observations& observations, Hypothesis* hypothesis) 
 
 }  // namespace
 
-Search search::backlash() { return {prepare_backlash}; }
+Search search::backlash() {
+  return {
+      prepare_backlash, nullptr, {{{PlaceKind::joint_angle}, "", {SignalKind::angle}, {"loop"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

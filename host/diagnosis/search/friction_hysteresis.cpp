@@ -37,6 +37,10 @@ bool prepare_friction_hysteresis(const Observations& observations, Hypothesis* h
 
 }  // namespace
 
-Search search::friction_hysteresis() { return {prepare_friction_hysteresis}; }
+Search search::friction_hysteresis() {
+  return {prepare_friction_hysteresis,
+          nullptr,
+          {{{PlaceKind::joint_torque}, "", {SignalKind::angle}, {"loop"}}}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -23,6 +23,11 @@ bool prepare_hysteresis(const Observations& observations, Hypothesis* hypothesis
 
 }  // namespace
 
-Search search::hysteresis() { return {prepare_hysteresis}; }
+Search search::hysteresis() {
+  return {
+      prepare_hysteresis,
+      nullptr,
+      {{{PlaceKind::joint_angle}, "", {SignalKind::load, SignalKind::torque}, {"loop", "play"}}}};
+}
 
 }  // namespace flexcomp::diagnosis
