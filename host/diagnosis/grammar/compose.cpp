@@ -1,14 +1,11 @@
 #include "diagnosis/grammar/compose.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
-#include "diagnosis/grammar/causes.hpp"
 #include "diagnosis/grammar/known.hpp"
-#include "effects/formula_law.hpp"
 #include "parallel/in_parallel.hpp"
 
 namespace flexcomp::diagnosis::grammar {
@@ -21,7 +18,6 @@ constexpr std::size_t kModulated = 3;        // leads of which a second driver i
 constexpr std::size_t kMostModulations = 3;  // of each that are weighed
 constexpr std::size_t kProved = 4;           // laws worth a fit, of those that are proved on halves
 constexpr std::size_t kForeseeing = 4;       // and of the others that predict best
-constexpr std::size_t kMostTerms = 6;        // of a law with a second driver: more is no physics
 constexpr double kWorthwhile = 6;  // squares over the noise that it must gain for each number more
 
 /// A form of a lead along all rows, by its parameters.
@@ -274,68 +270,6 @@ std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bo
   return worth_fitting(std::move(laws));
 }
 
-/// Appends a factor to a product, unless it is 1.
-void multiply(const std::string& factor, std::string* product) {
-  if (!factor.empty() && factor != "1") {
-    *product += "*" + factor;
-  }
-}
-
-/// The terms of a law without their amplitudes, each empty or beginning with a sign of
-/// multiplication.
-std::vector<std::string> products_of(const Composed& law) {
-  std::vector<std::string> terms = terms_of(*law.form.shape, *law.lead.driver);
-  if (law.form.has_constant) {
-    terms.emplace_back();
-  }
-  const Modulation& by = law.form.modulation;
-  const std::vector<std::string> times =
-      by.driver == nullptr ? std::vector<std::string>{""} : terms_of(*by.shape, *by.driver);
-  std::vector<std::string> products;
-  for (const std::string& term : terms) {
-    for (const std::string& other : times) {
-      products.emplace_back();
-      multiply(term, &products.back());
-      multiply(law.lead.factor.text, &products.back());
-      multiply(other, &products.back());
-    }
-  }
-  return products;
-}
-
-/// The formula's text, and its parameters: the amplitudes, then those of the shape.
-std::string formula_of(const Composed& law, std::vector<std::string>* names) {
-  constexpr std::array<const char*, kMostTerms> kAmplitudes = {"a", "b", "c", "e", "f", "g"};
-  std::string text;
-  for (const std::string& product : products_of(law)) {
-    names->emplace_back(kAmplitudes.at(names->size()));
-    text += (text.empty() ? "" : " + ") + names->back() + product;
-  }
-  for (const ShapeParameter& each : law.form.shape->parameters) {
-    names->emplace_back(each.name);
-  }
-  return text;
-}
-
-/// An amplitude is sought through zero, and far beyond its reach: other numbers of the law may turn
-/// one term into another.
-Bounds bounds_of_amplitude(double reach) {
-  constexpr double kFar = 50;     // times the reach: no bound that a fit would rest on
-  constexpr double kStep = 0.05;  // of the reach
-  const double size = std::max(reach, 1e-12);
-  return {-kFar * size, kFar * size, kStep * size};
-}
-
-/// A law that says besides what usually causes it.
-effects::LawPointer with_cause(const effects::LawPointer& law, const std::string& cause) {
-  if (cause.empty()) {
-    return law;
-  }
-  effects::Law told = *law;
-  told.statement = [law, cause](int joint) { return law->statement(joint) + ", " + cause; };
-  return std::make_shared<const effects::Law>(std::move(told));
-}
-
 }  // namespace
 
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
@@ -364,41 +298,6 @@ std::vector<Composed> compose(const Material& material, const std::vector<Lead>&
   all.resize(std::min(all.size(), kForeseeing));
   std::move(all.begin(), all.end(), std::back_inserter(chosen));
   return chosen;
-}
-
-Chosen chosen_of(const Observations& observations, const Composed& composed) {
-  std::vector<std::string> names;
-  model::WrittenLaw written;
-  written.place = composed.lead.seat->name;
-  written.axis = composed.lead.seat->axis;
-  written.formula = formula_of(composed, &names);
-  const model::Robot& robot = observations.machine.robot;
-  const int joint = composed.lead.seat->place.joint;
-  const auto bound = std::make_shared<const effects::BoundFormula>(
-      effects::bind_law(written, robot, joint, names));
-  Hypothesis hypothesis(with_cause(effects::formula_law(bound, effects::Unvalued::not_a_number),
-                                   usual_cause(composed.lead, *composed.form.shape)),
-                        joint, robot);
-  std::vector<Bounds> bounds;
-  for (const double reach : composed.reach) {
-    bounds.push_back(bounds_of_amplitude(reach));
-  }
-  for (const Bounds& each : bounds_of(*composed.form.shape, *composed.lead.driver, observations)) {
-    bounds.push_back(each);
-  }
-  Values values(composed.amplitude.data(), composed.amplitude.data() + composed.amplitude.size());
-  values.insert(values.end(), composed.parameters.begin(), composed.parameters.end());
-  std::vector<Bounds> ordered;
-  Values begun;
-  for (const Parameter& each : hypothesis.parameters) {
-    const auto at = std::find(names.begin(), names.end(), each.name) - names.begin();
-    ordered.push_back(bounds[static_cast<std::size_t>(at)]);
-    begun.push_back(values[static_cast<std::size_t>(at)]);
-  }
-  hypothesis.set_bounds(ordered);
-  hypothesis.starts = {
-      Values(begun.begin() + static_cast<std::ptrdiff_t>(hypothesis.linear), begun.end())};
-  return {std::move(hypothesis), std::move(begun)};
 }
 
 }  // namespace flexcomp::diagnosis::grammar

@@ -10,6 +10,8 @@
 
 namespace flexcomp::diagnosis::grammar {
 
+constexpr std::size_t kMostTerms = 6;  ///< of a law with a second driver: more is no physics
+
 /// A second driver, and the shape by which it multiplies each term of a law; null where there is
 /// none.
 struct Modulation {
@@ -51,8 +53,5 @@ struct Composed {
 /// predicts better in most of the halves. Then come those of the others that predict best.
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at);
-
-/// The law as a hypothesis like any other, with its values.
-Chosen chosen_of(const Observations& observations, const Composed& composed);
 
 }  // namespace flexcomp::diagnosis::grammar

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "diagnosis/grammar/compose.hpp"
+#include "diagnosis/grammar/written.hpp"
 #include "diagnosis/rest.hpp"
 #include "diagnosis/select/grow.hpp"
 #include "diagnosis/select/standards.hpp"
