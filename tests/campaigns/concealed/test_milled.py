@@ -48,7 +48,8 @@ class Milled(unittest.TestCase):
 class Judged(unittest.TestCase):
     def test_a_circle_counts_from_four_times_what_it_is_without(self):
         for nominal, counts in ((3.9e-5, False), (4.1e-5, True)):
-            self.assertEqual(counts, milled.is_judged({"nominal": nominal, "without": 1e-5}))
+            self.assertEqual(counts, milled.is_judged({
+                "uncorrected": 1e-3, "without": 1e-5, "nominal": nominal, "diagnosed": nominal}))
 
     def test_a_circle_that_failed_does_not(self):
         self.assertFalse(milled.is_judged({"failed": "out of reach"}) or milled.is_judged({}))

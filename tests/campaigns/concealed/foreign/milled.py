@@ -11,13 +11,13 @@ import numpy as np
 
 from campaign import case as campaign, paths
 from loop import closing, milling
+from protocol.loops import Loop
 
 from . import cases, steady
 from .law import Foreign
 
 GOAL = 0.35  # of the circularity with the nominal model
 SHARE = 0.9  # of the circles that what is concealed spoils
-SPOILT = 4.0  # times the circularity of the machine without it: from there on a circle is judged
 CIRCLE = 11  # of the random numbers that draw it
 
 
@@ -57,9 +57,9 @@ def is_asked(truth):
 
 def is_judged(row):
     """Whether what is concealed spoils a circle enough that correcting it tells something."""
-    return "nominal" in row and row["nominal"] >= SPOILT * row["without"]
+    return "nominal" in row and Loop(**row).is_spoiled
 
 
 def left(row):
     """Which share of the circularity with the nominal model is left with the diagnosed one."""
-    return row["diagnosed"] / row["nominal"]
+    return Loop(**row).ratio

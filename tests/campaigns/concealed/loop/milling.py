@@ -64,10 +64,9 @@ class Circle:
         course = CubicSpline(np.concatenate([ends, motion.time[rows]]),
                              np.concatenate([np.zeros((2, 6)), smooth]),
                              bc_type=((1, np.zeros(6)), (2, np.zeros(6))))
-        time = motion.time
-        return dataclasses.replace(motion, q=motion.q + course(time),
-                                   velocity=motion.velocity + course(time, 1),
-                                   acceleration=motion.acceleration + course(time, 2))
+        return dataclasses.replace(motion, q=motion.q + course(motion.time),
+                                   velocity=motion.velocity + course(motion.time, 1),
+                                   acceleration=motion.acceleration + course(motion.time, 2))
 
     def write_program(self, signals, path):
         """The controller's view: commands, and the wrench as its sensor reads it."""

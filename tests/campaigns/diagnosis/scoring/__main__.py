@@ -7,7 +7,6 @@ import json
 import multiprocessing
 import os
 import pathlib
-import signal
 import sys
 import time
 
@@ -77,10 +76,6 @@ def _progress(done, total, begin):
         sys.stderr.flush()
 
 
-def _ignore_interrupts():
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 def collect(options, folder):
     """Results of all cases, in their order; raises KeyboardInterrupt where the user interrupts."""
     digest = trial.generator_digest()
@@ -91,7 +86,8 @@ def collect(options, folder):
                           bool(options.keep))
               for family in case.FAMILIES for k in range(numbers[family])]
     results, begin = [], time.monotonic()
-    with multiprocessing.Pool(options.jobs, _ignore_interrupts) as pool:  # leaving it ends the workers
+    # Leaving the pool ends the workers.
+    with multiprocessing.Pool(options.jobs, trial.leave_interrupts_to_the_parent) as pool:
         for wanted, result in zip(trials, pool.imap(trial.run, trials)):
             if result is None:
                 print(f"left out: {wanted.family} {wanted.seed} gives no case", file=sys.stderr)
@@ -142,9 +138,9 @@ def main():
     options = arguments()
     folder = (options.keep or SOURCE / "build/diagnosis-trials").resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    if options.without:
-        return without.score(options, folder)
     try:
+        if options.without:
+            return without.score(options, folder)
         results = collect(options, folder)
     except KeyboardInterrupt:
         print("\ninterrupted; nothing is scored", file=sys.stderr)

@@ -5,6 +5,7 @@ import hashlib
 import json
 import pathlib
 import shutil
+import signal
 import subprocess
 import time
 
@@ -23,6 +24,11 @@ def generator_digest():
         digest.update(path.name.encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
+
+
+def leave_interrupts_to_the_parent():
+    """For worker processes: Ctrl-C ends the parent, and with it them."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def prepare(family, seed, folder, digest):

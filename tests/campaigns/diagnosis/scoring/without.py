@@ -6,7 +6,6 @@ import dataclasses
 import json
 import multiprocessing
 import shutil
-import signal
 import subprocess
 
 from generator import case
@@ -146,10 +145,6 @@ def _summary(pairs):
     return len(made_up & asked) >= SHARE * len(asked) and sum(placed) >= PLACED * len(placed)
 
 
-def _ignore_interrupts():
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 def score(options, folder):
     """Prints a row a case; exit code 1 where too little is made up for, or at wrong places."""
     digest = trial.generator_digest()
@@ -158,7 +153,7 @@ def score(options, folder):
                           options.limit, True), effect)
              for effect in effects for seed in seeds(effect, options.seed, options.single)]
     pairs = []
-    with multiprocessing.Pool(options.jobs, _ignore_interrupts) as pool:
+    with multiprocessing.Pool(options.jobs, trial.leave_interrupts_to_the_parent) as pool:
         for pair in pool.imap(compare, tasks):
             if pair:
                 _show(pair)
