@@ -304,7 +304,7 @@ void add_diagnose(CLI::App* app, Action* action) {
       ->take_all();
   command->add_option(
       "--law-seconds", options->law_seconds,
-      "processor time (s) for composing laws that nobody listed where something is left, beside "
+      "processor time (s) for composing laws that nobody listed where there is a mismatch, beside "
       "what\nis found and in its place; 0 for none; unless given, 40 where the recordings are in "
       "order");
   command

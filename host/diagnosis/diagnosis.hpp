@@ -53,7 +53,7 @@ struct Diagnosis {
 
 struct Settings {
   double false_discovery = 0.01;
-  /// Processor time (s) in which laws are composed (grammar/laws.hpp) where something is left:
+  /// Processor time (s) in which laws are composed (grammar/laws.hpp) where there is a mismatch:
   /// beside what was found and in its place; none are for 0.
   double law_seconds = 40;  // tests/campaigns/concealed: more found no more laws
   std::function<void(std::size_t done, std::size_t count)> simulating;  ///< told of hypotheses

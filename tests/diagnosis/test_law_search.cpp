@@ -112,6 +112,38 @@ void an_effect_that_stands_for_a_law_gives_way_to_it() {
   TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q4)*") != std::string::npos, formula.c_str());
 }
 
+/// Ripple that another joint swells so little that ripple of the catalogue leaves hardly more than
+/// noise.
+void an_effect_that_hides_a_law_gives_way_to_it() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    torques.col(3) = 24 * (13 * at.q.col(3).array()).sin() * (1 + 0.3 * at.q.col(0).array());
+    return torques;
+  }));
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
+  const std::string formula = law_at(found, 4);
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q4)*q1") != std::string::npos, formula.c_str());
+}
+
+/// Friction bends by a little of the noise, of which it is several hundred times as much.
+void an_effect_stays_where_a_law_gains_next_to_nothing() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    torques.col(4) = 16000 * (at.velocity.col(4).array() / 8).tanh();
+    return torques;
+  }));
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
+  TEST_ASSERT_TRUE(has(found, "viscous_friction", 5));
+}
+
 }  // namespace
 
 int main() {
@@ -119,5 +151,7 @@ int main() {
   RUN_TEST(a_law_at_a_quiet_joint_is_kept_beside_a_loud_one);
   RUN_TEST(a_law_is_found_beside_an_effect);
   RUN_TEST(an_effect_that_stands_for_a_law_gives_way_to_it);
+  RUN_TEST(an_effect_that_hides_a_law_gives_way_to_it);
+  RUN_TEST(an_effect_stays_where_a_law_gains_next_to_nothing);
   return UNITY_END();
 }

@@ -198,13 +198,14 @@ std::vector<Composed> laws_of(const Material& material, const Lead& lead,
   return laws;
 }
 
-/// The law with each of the second drivers that gain most. What is no function of what was recorded
-/// has none.
+/// The law with each of the second drivers that gain most, and a good share of what the law leaves
+/// beyond the noise. What is no function of what was recorded has none.
 std::vector<Composed> modulated(const Material& material, const Composed& law) {
   if (law.lead.driver->kind == effects::SignalKind::time) {
     return {};
   }
-  constexpr double kMore = 1.02;  // times the law's own gain: any second driver gains a little
+  constexpr double kLeastOfRest = 0.1;
+  const double rest = law.lead.seat->beyond_noise() - law.gain;
   std::vector<std::pair<double, Modulation>> by_gain;
   for (const Driver& driver : material.drivers) {
     for (const Shape& shape : modulations()) {
@@ -215,7 +216,9 @@ std::vector<Composed> modulated(const Material& material, const Composed& law) {
       if (is_able) {
         const Fitted fitted(material, law.lead, {law.form.shape, false, by});
         const double gain = fitted.gain(law.parameters);
-        if (gain > kMore * law.gain) {
+        const auto numbers = static_cast<double>(law.form.shape->terms.size()) *
+                             static_cast<double>(shape.terms.size() - 1);
+        if (gain > law.gain + std::max(kWorthwhile * numbers, kLeastOfRest * rest)) {
           by_gain.emplace_back(gain, by);
         }
       }
@@ -248,6 +251,10 @@ std::vector<Composed> worth_fitting(std::vector<Composed> laws) {
   return chosen;
 }
 
+bool has_name(const Composed& law, const std::set<std::string>& effects) {
+  return effects.count(known_as(law.lead, *law.form.shape)) > 0;
+}
+
 /// Laws of a lead that have no name in the catalogue and are worth a fit; `count`: of all that have
 /// none.
 std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bool modulates,
@@ -261,13 +268,25 @@ std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bo
     }
   }
   laws.erase(std::remove_if(laws.begin(), laws.end(),
-                            [&](const Composed& each) {
-                              return effects.count(known_as(lead, *each.form.shape)) > 0;
-                            }),
+                            [&](const Composed& each) { return has_name(each, effects); }),
              laws.end());
   std::move(more.begin(), more.end(), std::back_inserter(laws));
   *count = laws.size();
   return worth_fitting(std::move(laws));
+}
+
+/// Before each law with a second driver the law without: what a second driver gains by these rough
+/// values, the whole fit may give to better ones.
+std::vector<Composed> after_plain(const Material& material, std::vector<Composed> laws,
+                                  const std::set<std::string>& effects) {
+  std::vector<Composed> all;
+  for (Composed& law : laws) {
+    if (law.form.modulation.driver != nullptr && !has_name(law, effects)) {
+      all.push_back(composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters));
+    }
+    all.push_back(std::move(law));
+  }
+  return all;
 }
 
 }  // namespace
@@ -297,7 +316,7 @@ std::vector<Composed> compose(const Material& material, const std::vector<Lead>&
   });
   all.resize(std::min(all.size(), kForeseeing));
   std::move(all.begin(), all.end(), std::back_inserter(chosen));
-  return chosen;
+  return after_plain(material, std::move(chosen), effects);
 }
 
 }  // namespace flexcomp::diagnosis::grammar

@@ -96,6 +96,11 @@ Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget*
   return grown;
 }
 
+bool has_law(const Choice& choice) {
+  return std::any_of(choice.findings.begin(), choice.findings.end(),
+                     [](const Finding& each) { return is_law(each.chosen.hypothesis); });
+}
+
 }  // namespace
 
 bool is_law(const Hypothesis& hypothesis) { return hypothesis.law->written != nullptr; }
@@ -103,23 +108,26 @@ bool is_law(const Hypothesis& hypothesis) { return hypothesis.law->written != nu
 Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget,
                    const TellStage& tell) {
   const Material material(inquiry.observations);
-  Fit grown = begun;
-  for (std::size_t i = 0; i < kMostLaws && !budget->is_spent(); ++i) {
+  std::vector<Fit> stages = {begun};
+  while (stages.size() <= kMostLaws && !budget->is_spent()) {
     tell("composing laws");
-    Fit next = with_one(inquiry, material, grown);
+    Fit next = with_one(inquiry, material, stages.back());
     if (next.chosen.empty()) {
       break;
     }
-    grown = revised(inquiry, material, std::move(next), budget);
-    if (more_than_noise(inquiry.observations, grown.remainder).empty()) {
+    stages.push_back(revised(inquiry, material, std::move(next), budget));
+    if (more_than_noise(inquiry.observations, stages.back().remainder).empty()) {
       break;
     }
   }
-  Choice choice = conclude(inquiry, {grown, seek(inquiry, grown)});
-  const bool has_law =
-      std::any_of(choice.findings.begin(), choice.findings.end(),
-                  [](const Finding& each) { return is_law(each.chosen.hypothesis); });
-  return has_law ? choice : Choice{};
+  // What came last may take away what the law before it stood on.
+  for (; stages.size() > 1; stages.pop_back()) {
+    Choice choice = conclude(inquiry, {stages.back(), seek(inquiry, stages.back())});
+    if (has_law(choice)) {
+      return choice;
+    }
+  }
+  return {};
 }
 
 }  // namespace flexcomp::diagnosis::grammar

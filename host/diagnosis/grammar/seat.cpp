@@ -12,6 +12,8 @@ namespace {
 /// Times the noise: below it time would go into what is noise.
 constexpr double kMoreThanNoise = 1.1;
 
+constexpr double kTiny = 1e-300;  // against a division by zero
+
 /// A place by its words in robot.yaml.
 struct Words {
   const char* name;
@@ -55,11 +57,17 @@ std::vector<Words> places_of(const Observations& observations) {
 
 bool Seat::is_sensor() const { return !effects::moves_the_robot(place); }
 
-double Seat::left() const {
-  const auto shown = (weight.array() > 0);
+Eigen::Index Seat::rows_shown() const { return (weight.array() > 0).count(); }
+
+double Seat::beyond_noise() const {
   const double squares =
-      shown.select(product.array().square() / weight.array().max(1e-300), 0.0).sum();
-  return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(shown.count(), 1)));
+      (weight.array() > 0).select(product.array().square() / weight.array().max(kTiny), 0.0).sum();
+  return squares - static_cast<double>(rows_shown());
+}
+
+double Seat::left() const {
+  const auto rows = static_cast<double>(std::max<Eigen::Index>(rows_shown(), 1));
+  return std::sqrt(beyond_noise() / rows + 1);
 }
 
 Rows::Rows(const Observations& observations) {

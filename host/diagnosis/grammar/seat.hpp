@@ -45,6 +45,9 @@ struct Seat {
   bool is_sensor() const;
   /// Root mean square of the remainder there, over the noise.
   double left() const;
+  /// Squares of the remainder there beyond those of the noise.
+  double beyond_noise() const;
+  Eigen::Index rows_shown() const;
 };
 
 /// Change of each sample (over the noise) by a law at a place whose value is one.

@@ -1,0 +1,96 @@
+#include "diagnosis/seek_laws.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnosis/grammar/laws.hpp"
+#include "diagnosis/select/standards.hpp"
+#include "diagnosis/verdict.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+/// What laws must gain over findings. Where these leave no more than noise, what they leave by a
+/// two-hundredth of themselves is how far a simulation goes with filtered angles, and no physics.
+double least_gain_of_laws(const Inquiry& inquiry, const Diagnosis& before) {
+  constexpr double kOfItself = 0.005;
+  const double own = bic_gain(inquiry.observations, inquiry.given, before.choice.fit);
+  return is_open(before) ? kFarMoreEvidence : std::max(kFarMoreEvidence, kOfItself * own);
+}
+
+/// Do known effects account for more of what was fitted to, which were withdrawn because the
+/// recording that was held out is unlike? A law is not for what one recording alone has.
+bool are_outdone_by_withdrawn(const Inquiry& inquiry, const Choice& choice, const Fit& laws) {
+  if (!choice.mispredicts || choice.withdrawn.empty()) {
+    return false;
+  }
+  std::vector<Chosen> all = choice.fit.chosen;
+  all.insert(all.end(), choice.withdrawn.begin(), choice.withdrawn.end());
+  return bic_gain(inquiry.observations, laws, fit(inquiry.observations, std::move(all), kSteps)) >
+         0;
+}
+
+/// The diagnosis with laws that nobody listed in the place of its findings, if these leave much
+/// less; else as it was.
+Diagnosis with_laws(const Inquiry& inquiry, const Diagnosis& before, Choice laws) {
+  const Observations& observations = inquiry.observations;
+  const Fit& found = before.choice.fit;
+  if (laws.findings.empty() ||
+      bic_gain(observations, found, laws.fit) < least_gain_of_laws(inquiry, before) ||
+      !is_confirmed(inquiry, found, laws.fit) ||
+      are_outdone_by_withdrawn(inquiry, before.choice, laws.fit)) {
+    return before;
+  }
+  laws.ranking = before.choice.ranking;
+  Diagnosis diagnosis = before;
+  diagnosis.choice = std::move(laws);
+  diagnosis.nearest.clear();
+  diagnosis.indistinguishable.clear();
+  diagnosis.proposal.clear();
+  judge(observations, &diagnosis);
+  return diagnosis.verdict == Verdict::unexplained ? before : diagnosis;
+}
+
+/// Which of two diagnoses with laws: the second only by strong evidence, or with fewer numbers that
+/// none speaks against.
+Diagnosis better_of(const Observations& observations, Diagnosis one, Diagnosis other) {
+  const Fit& a = one.choice.fit;
+  const Fit& b = other.choice.fit;
+  const double gain = bic_gain(observations, a, b);
+  const bool is_other = gain > kStrongEvidence || (gain > 0 && b.parameters() < a.parameters());
+  return is_other ? std::move(other) : std::move(one);
+}
+
+/// May a law be missing? Any finding may stand for one that looks like it. Where a machine is off
+/// in many numbers, no law accounts for all, and looking for it takes long.
+bool asks_for_laws(const Diagnosis& diagnosis) {
+  constexpr std::size_t kMany = 8;  // findings: one law or two never looked like so many
+  const bool is_of_many =
+      !diagnosis.choice.begun.chosen.empty() && diagnosis.choice.findings.size() > kMany;
+  return !is_of_many && (is_open(diagnosis) || !diagnosis.choice.findings.empty());
+}
+
+}  // namespace
+
+void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diagnosis) {
+  if (settings.law_seconds <= 0 || !asks_for_laws(*diagnosis)) {
+    return;
+  }
+  const Observations& observations = inquiry.observations;
+  grammar::Budget budget(settings.law_seconds);
+  const bool is_of_families = !diagnosis->choice.begun.chosen.empty();
+  const Diagnosis afresh =
+      with_laws(inquiry, *diagnosis,
+                grammar::choose_laws(inquiry, inquiry.given, &budget, settings.choosing));
+  if (is_open(afresh) && !is_of_families && !diagnosis->choice.findings.empty()) {
+    *diagnosis =
+        with_laws(inquiry, *diagnosis,
+                  grammar::choose_laws(inquiry, diagnosis->choice.fit, &budget, settings.choosing));
+  }
+  if (!is_of_families || !is_open(afresh)) {
+    *diagnosis = better_of(observations, *diagnosis, afresh);
+  }
+  diagnosis->laws_stopped = budget.has_stopped();
+}
+
+}  // namespace flexcomp::diagnosis
