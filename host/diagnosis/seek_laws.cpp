@@ -10,14 +10,6 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// What laws must gain over findings. Where these leave no more than noise, what they leave by a
-/// two-hundredth of themselves is how far a simulation goes with filtered angles, and no physics.
-double least_gain_of_laws(const Inquiry& inquiry, const Diagnosis& before) {
-  constexpr double kOfItself = 0.005;
-  const double own = bic_gain(inquiry.observations, inquiry.given, before.choice.fit);
-  return is_open(before) ? kFarMoreEvidence : std::max(kFarMoreEvidence, kOfItself * own);
-}
-
 /// Do known effects account for more of what was fitted to, which were withdrawn because the
 /// recording that was held out is unlike? A law is not for what one recording alone has.
 bool are_outdone_by_withdrawn(const Inquiry& inquiry, const Choice& choice, const Fit& laws) {
@@ -35,8 +27,7 @@ bool are_outdone_by_withdrawn(const Inquiry& inquiry, const Choice& choice, cons
 Diagnosis with_laws(const Inquiry& inquiry, const Diagnosis& before, Choice laws) {
   const Observations& observations = inquiry.observations;
   const Fit& found = before.choice.fit;
-  if (laws.findings.empty() ||
-      bic_gain(observations, found, laws.fit) < least_gain_of_laws(inquiry, before) ||
+  if (laws.findings.empty() || bic_gain(observations, found, laws.fit) < kFarMoreEvidence ||
       !is_confirmed(inquiry, found, laws.fit) ||
       are_outdone_by_withdrawn(inquiry, before.choice, laws.fit)) {
     return before;

@@ -65,6 +65,7 @@ struct Traits {
   bool is_friction = false;     ///< one of the forms of a joint's friction: over little of a speed
                                 ///< or load they share what they explain
   bool is_gain = false;         ///< it multiplies what all other laws do at its joint
+  bool is_of_few = false;       ///< few machines are built so that they can have it
   bool couples_drives = false;  ///< a motor turns with another joint, so that the friction and the
                                 ///< rotor that a fit has at its joint act otherwise
   bool can_be_undone =

@@ -47,17 +47,20 @@ Fit with_effect(const Inquiry& inquiry, const Fit& before) {
                                                                                      : Fit{};
 }
 
-/// The better of a law and an effect, by strong evidence for the law.
-Fit better_of(const Observations& observations, Fit law, Fit effect) {
+/// The better of a law and an effect, by strong evidence for the law that is a share of the
+/// effect's.
+Fit better_of(const Observations& observations, const Fit& before, Fit law, Fit effect) {
   if (law.chosen.empty() || effect.chosen.empty()) {
     return effect.chosen.empty() ? law : effect;
   }
-  return bic_gain(observations, effect, law) > kStrongEvidence ? law : effect;
+  const double needed =
+      std::max(kStrongEvidence, kUnusual * bic_gain(observations, before, effect));
+  return bic_gain(observations, effect, law) > needed ? law : effect;
 }
 
 /// A fit with one law or effect more; nothing chosen where none holds.
 Fit with_one(const Inquiry& inquiry, const Material& material, const Fit& before) {
-  return better_of(inquiry.observations, with_law(inquiry, material, before),
+  return better_of(inquiry.observations, before, with_law(inquiry, material, before),
                    with_effect(inquiry, before));
 }
 

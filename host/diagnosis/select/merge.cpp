@@ -48,6 +48,19 @@ double same_evidence(const Chosen& one, const Finding& finding) {
   return std::max(kSameEvidence, negligible);
 }
 
+bool is_unusual(const Hypothesis& hypothesis) {
+  return hypothesis.law->written != nullptr || hypothesis.traits().is_of_few;
+}
+
+/// Is an alternative an effect that machines have more often, at the same joint, and does the
+/// finding do hardly better?
+bool is_more_usual(const Alternative& one, const Finding& finding) {
+  const Chosen& other = finding.chosen;
+  return is_unusual(other.hypothesis) && !is_unusual(one.chosen.hypothesis) &&
+         one.joint == other.hypothesis.joint && one.chosen.values.size() <= other.values.size() &&
+         one.delta_bic < std::max(kSameEvidence, kUnusual * finding.evidence.delta_bic);
+}
+
 /// Is an alternative plainer than the finding? Three cases:
 /// - it has fewer parameters, and no evidence speaks for the finding;
 /// - it has as many, acts on the whole machine instead of one joint (the payload, not the last
@@ -122,11 +135,12 @@ std::optional<Selection> plainer(const Inquiry& inquiry, const Selection& select
   for (std::size_t i = 0; i < selection.findings.size(); ++i) {
     const Finding& finding = selection.findings[i];
     for (const Alternative& other : finding.alternatives) {
-      if (is_plainer(other, finding) || is_the_law(other, finding)) {
+      const bool is_usual = is_more_usual(other, finding);
+      if (is_usual || is_plainer(other, finding) || is_the_law(other, finding)) {
         std::vector<Chosen> chosen = selection.fit.chosen;
         chosen[i] = other.chosen;
         Fit plain = fit(inquiry.observations, std::move(chosen), kLastSteps);
-        if (!is_confirmed(inquiry, plain, selection.fit)) {
+        if (is_usual || !is_confirmed(inquiry, plain, selection.fit)) {
           return prune(inquiry, std::move(plain));
         }
       }

@@ -56,6 +56,7 @@ Forms laws::gravity_compensator() {
   Law spring;
   spring.joints = every_joint;
   spring.traits.linear_in = 2;
+  spring.traits.is_of_few = true;
   spring.words = "gravity compensator";
   spring.statement = says("a balancer acts on joint {}");
   spring.impossible = [](const model::Robot& robot, int joint) {
