@@ -10,6 +10,15 @@
 namespace flexcomp::diagnosis {
 namespace {
 
+/// Numbers that are off: one law or two never looked like more.
+constexpr std::size_t kMostNumbers = 8;
+
+/// Do laws of many numbers stand where nothing else was found? They imitate a machine that is off
+/// in many numbers, of which none shows by itself.
+bool imitate_many(const Choice& choice, const Fit& laws) {
+  return choice.findings.empty() && laws.parameters() > choice.fit.parameters() + kMostNumbers;
+}
+
 /// Do known effects account for more of what was fitted to, which were withdrawn because the
 /// recording that was held out is unlike? A law is not for what one recording alone has.
 bool are_outdone_by_withdrawn(const Inquiry& inquiry, const Choice& choice, const Fit& laws) {
@@ -27,7 +36,8 @@ bool are_outdone_by_withdrawn(const Inquiry& inquiry, const Choice& choice, cons
 Diagnosis with_laws(const Inquiry& inquiry, const Diagnosis& before, Choice laws) {
   const Observations& observations = inquiry.observations;
   const Fit& found = before.choice.fit;
-  if (laws.findings.empty() || bic_gain(observations, found, laws.fit) < kFarMoreEvidence ||
+  if (laws.findings.empty() || imitate_many(before.choice, laws.fit) ||
+      bic_gain(observations, found, laws.fit) < kFarMoreEvidence ||
       !is_confirmed(inquiry, found, laws.fit) ||
       are_outdone_by_withdrawn(inquiry, before.choice, laws.fit)) {
     return before;
@@ -55,9 +65,8 @@ Diagnosis better_of(const Observations& observations, Diagnosis one, Diagnosis o
 /// May a law be missing? Any finding may stand for one that looks like it. Where a machine is off
 /// in many numbers, no law accounts for all, and looking for it takes long.
 bool asks_for_laws(const Diagnosis& diagnosis) {
-  constexpr std::size_t kMany = 8;  // findings: one law or two never looked like so many
   const bool is_of_many =
-      !diagnosis.choice.begun.chosen.empty() && diagnosis.choice.findings.size() > kMany;
+      !diagnosis.choice.begun.chosen.empty() && diagnosis.choice.findings.size() > kMostNumbers;
   return !is_of_many && (is_open(diagnosis) || !diagnosis.choice.findings.empty());
 }
 
