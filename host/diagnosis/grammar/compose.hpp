@@ -50,7 +50,8 @@ struct Composed {
 /// catalogue, and second drivers to the best shape of the first leads. Returns the laws that are
 /// worth a fit by simulation: of each lead its best at most, and the one that predicts best. First
 /// come those that are proved, the best first: a richer law stands before a simpler one only if it
-/// predicts better in most of the halves. Then come those of the others that predict best.
+/// predicts better in most of the halves. Then come those of the others that predict best. Before
+/// each that has a second driver stands the same without.
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at);
 

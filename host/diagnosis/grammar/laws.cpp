@@ -47,8 +47,8 @@ Fit with_effect(const Inquiry& inquiry, const Fit& before) {
                                                                                      : Fit{};
 }
 
-/// The better of a law and an effect, by strong evidence for the law that is a share of the
-/// effect's.
+/// The better of a law and an effect. For the law there must be strong evidence, and a share of
+/// what there is for the effect.
 Fit better_of(const Observations& observations, const Fit& before, Fit law, Fit effect) {
   if (law.chosen.empty() || effect.chosen.empty()) {
     return effect.chosen.empty() ? law : effect;
