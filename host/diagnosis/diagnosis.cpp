@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/grammar/causes.hpp"
+#include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
 #include "diagnosis/seek_laws.hpp"
@@ -151,7 +152,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     choose_anew();
   }
   settle(inquiry, settings, &diagnosis);
-  for (int round = 0; round < kNoiseRounds && has_law(diagnosis) &&
+  for (int round = 0; round < kNoiseRounds && grammar::has_law(diagnosis.choice) &&
                       lower_noise(observations, diagnosis.choice.fit);
        ++round) {
     choose_anew();

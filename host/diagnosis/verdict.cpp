@@ -104,12 +104,6 @@ bool is_open(const Diagnosis& diagnosis) {
          diagnosis.verdict == Verdict::partly_explained;
 }
 
-bool has_law(const Diagnosis& diagnosis) {
-  const std::vector<Finding>& findings = diagnosis.choice.findings;
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const Finding& each) { return grammar::is_law(each.chosen.hypothesis); });
-}
-
 void withdraw(const Observations& observations, const std::string& reason, Diagnosis* diagnosis) {
   add_nearest(diagnosis->choice.fit.chosen, diagnosis);
   diagnosis->choice.findings.clear();
@@ -139,7 +133,7 @@ void judge(const Observations& observations, Diagnosis* diagnosis) {
     diagnosis->verdict = is_noise ? Verdict::explained : Verdict::partly_explained;
     diagnosis->reason = more;
     // A law is such a form itself, with proof.
-    if (found.chosen.size() > 1 && after > kNearNoise && !has_law(*diagnosis)) {
+    if (found.chosen.size() > 1 && after > kNearNoise && !grammar::has_law(diagnosis->choice)) {
       withdraw_outdone(observations, diagnosis);
     }
   }

@@ -4,9 +4,6 @@
 
 namespace flexcomp::diagnosis {
 
-/// Of BIC: twice what proves a finding takes it back.
-constexpr double kFarMoreEvidence = 20;
-
 /// Judges what was chosen: sets groups that cannot be told apart, the verdict and its reason.
 ///
 /// Findings are withdrawn where large effects only cancel each other, or where a form without
@@ -18,8 +15,5 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
 
 /// Is something left that no finding accounts for?
 bool is_open(const Diagnosis& diagnosis);
-
-/// Is a law among the findings that nobody listed?
-bool has_law(const Diagnosis& diagnosis);
 
 }  // namespace flexcomp::diagnosis

@@ -38,7 +38,7 @@ std::string law_at(const Diagnosis& found, int joint) {
   std::string formula;
   for (const Finding& finding : found.choice.findings) {
     const diagnosis::Hypothesis& hypothesis = finding.chosen.hypothesis;
-    if (hypothesis.law->written != nullptr) {
+    if (hypothesis.is_law()) {
       formula =
           formula.empty() && hypothesis.joint == joint ? hypothesis.law->written->formula : "";
     }

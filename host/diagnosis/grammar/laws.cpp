@@ -99,14 +99,12 @@ Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget*
   return grown;
 }
 
-bool has_law(const Choice& choice) {
-  return std::any_of(choice.findings.begin(), choice.findings.end(),
-                     [](const Finding& each) { return is_law(each.chosen.hypothesis); });
-}
-
 }  // namespace
 
-bool is_law(const Hypothesis& hypothesis) { return hypothesis.law->written != nullptr; }
+bool has_law(const Choice& choice) {
+  return std::any_of(choice.findings.begin(), choice.findings.end(),
+                     [](const Finding& each) { return each.chosen.hypothesis.is_law(); });
+}
 
 Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget,
                    const TellStage& tell) {

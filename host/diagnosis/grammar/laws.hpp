@@ -14,7 +14,7 @@ namespace flexcomp::diagnosis::grammar {
 /// begun.
 Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget, const TellStage& tell);
 
-/// Is a hypothesis a law that was composed or written, and not one of the catalogue?
-bool is_law(const Hypothesis& hypothesis);
+/// Is a law among the findings that nobody listed?
+bool has_law(const Choice& choice);
 
 }  // namespace flexcomp::diagnosis::grammar

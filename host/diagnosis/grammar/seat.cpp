@@ -12,8 +12,6 @@ namespace {
 /// Times the noise: below it time would go into what is noise.
 constexpr double kMoreThanNoise = 1.1;
 
-constexpr double kTiny = 1e-300;  // against a division by zero
-
 /// A place by its words in robot.yaml.
 struct Words {
   const char* name;
@@ -53,22 +51,26 @@ std::vector<Words> places_of(const Observations& observations) {
   return all;
 }
 
+double rows_shown(const Seat& seat) {
+  return static_cast<double>((seat.weight.array() > 0).count());
+}
+
+/// Squares of the remainder, over the noise.
+double squares_of(const Seat& seat) {
+  constexpr double kTiny = 1e-300;  // against a division by zero
+  const auto shown = seat.weight.array() > 0;
+  return shown.select(seat.product.array().square() / seat.weight.array().max(kTiny), 0.0).sum();
+}
+
 }  // namespace
 
 bool Seat::is_sensor() const { return !effects::moves_the_robot(place); }
 
-Eigen::Index Seat::rows_shown() const { return (weight.array() > 0).count(); }
-
-double Seat::beyond_noise() const {
-  const double squares =
-      (weight.array() > 0).select(product.array().square() / weight.array().max(kTiny), 0.0).sum();
-  return squares - static_cast<double>(rows_shown());
-}
-
 double Seat::left() const {
-  const auto rows = static_cast<double>(std::max<Eigen::Index>(rows_shown(), 1));
-  return std::sqrt(beyond_noise() / rows + 1);
+  return std::sqrt(squares_of(*this) / std::max(rows_shown(*this), 1.0));
 }
+
+double Seat::beyond_noise() const { return squares_of(*this) - rows_shown(*this); }
 
 Rows::Rows(const Observations& observations) {
   constexpr Eigen::Index kMostRows = 3000;  // time: every shape of every driver is computed on them

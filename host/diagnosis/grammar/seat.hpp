@@ -47,7 +47,6 @@ struct Seat {
   double left() const;
   /// Squares of the remainder there beyond those of the noise.
   double beyond_noise() const;
-  Eigen::Index rows_shown() const;
 };
 
 /// Change of each sample (over the noise) by a law at a place whose value is one.

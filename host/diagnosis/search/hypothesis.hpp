@@ -60,6 +60,8 @@ struct Hypothesis {
 
   const std::string& effect() const { return law->effect; }
   const effects::Traits& traits() const { return law->traits; }
+  /// Was the law composed or written by a person, and is none of the catalogue?
+  bool is_law() const { return law->written != nullptr; }
   void apply(const Values& values, Machine* machine) const { law->apply(values, joint, machine); }
   /// One plain clause: what the machine has that the model lacks.
   std::string statement() const { return law->statement(joint); }

@@ -49,7 +49,7 @@ double same_evidence(const Chosen& one, const Finding& finding) {
 }
 
 bool is_unusual(const Hypothesis& hypothesis) {
-  return hypothesis.law->written != nullptr || hypothesis.traits().is_of_few;
+  return hypothesis.is_law() || hypothesis.traits().is_of_few;
 }
 
 /// Is an alternative an effect that machines have more often, at the same joint, and does the

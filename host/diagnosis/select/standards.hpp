@@ -78,9 +78,12 @@ constexpr double kMeeting = 0.03;
 constexpr double kIdentical = 0.1;
 /// Share of a finding's gain in BIC: no simplified body is told from another by less (0f27f02).
 constexpr double kNegligible = 1e-3;
+/// BIC: twice what proves a finding takes it back.
+constexpr double kFarMoreEvidence = 20;
 /// Share of a finding's gain in BIC: no law that nobody listed, and no effect that few machines
-/// have, is told from a usual effect by less. What a real machine has besides, far above the noise,
-/// bends comparisons by as much (effects planted into real recordings, tests/campaigns/machines).
+/// have, is told from a usual effect by less. A real machine has errors besides, far above the
+/// noise, which change comparisons by as much (effects planted into real recordings,
+/// tests/campaigns/machines).
 constexpr double kUnusual = 0.02;
 /// Times the squares: a form of the same law that leaves no more may be the machine's (measured on
 /// loops of MuJoCo's sliders, tools/concealed, seeds 771203 and 828101: Prandtl and Ishlinskii's
