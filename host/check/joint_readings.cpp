@@ -6,6 +6,7 @@
 #include "check/arm.hpp"
 #include "check/readings.hpp"
 #include "check/turns.hpp"
+#include "controller/kuka_axes.hpp"
 
 namespace flexcomp::check {
 namespace {
@@ -131,6 +132,27 @@ void try_zeros(const model::Robot& robot, JointReadings* readings) {
   }
 }
 
+/// Angles off a KUKA's panel, of a robot whose URDF counts otherwise.
+void try_kuka(const model::Robot& robot, JointReadings* readings) {
+  const std::optional<RobotModel<double, 6>> model = model::six_axis_model(robot.elastic);
+  const std::optional<AxisConvention> axes = model ? controller::kuka_axes(*model) : std::nullopt;
+  if (!axes) {
+    return;
+  }
+  readings->try_out(
+      1,
+      said("joint.zero", "the joint angles are counted as a KUKA counts its axes, not as the URDF",
+           fmt::format("give sign · (shown − zero) of each joint: signs {}, zeros {} degrees; "
+                       "flexcomp convert --map does, as in q_meas_2=A2:deg*-1-90",
+                       controller::list_of(axes->sign), controller::list_of(axes->zero))),
+      [axes](Eigen::MatrixXd* q) {
+        for (Eigen::Index joint = 0; joint < q->cols(); ++joint) {
+          const auto at = static_cast<std::size_t>(joint);
+          q->col(joint) = axes->sign[at] * (q->col(joint).array() - axes->zero[at] * kDegree);
+        }
+      });
+}
+
 }  // namespace
 
 Readings joint_readings(const model::Robot& robot, const PoseRows& rows) {
@@ -139,6 +161,7 @@ Readings joint_readings(const model::Robot& robot, const PoseRows& rows) {
   try_signs(joint_count(robot), &readings);
   try_orders(joint_count(robot), &readings);
   try_zeros(robot, &readings);
+  try_kuka(robot, &readings);
   return readings.readings;
 }
 

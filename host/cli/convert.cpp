@@ -241,8 +241,8 @@ void add_convert(CLI::App* app, Action* action) {
   command
       ->add_option(
           "--map", options->rules,
-          "COLUMN=NAME:UNIT, a column of the recording from one of the table; :UNIT*FACTOR "
-          "scales; no unit is SI")
+          "COLUMN=NAME:UNIT, a column of the recording from one of the table; no unit is SI; "
+          ":UNIT*FACTOR scales; :UNIT*-1-90 turns round and moves the zero")
       ->allow_extra_args(false);
   command->add_option("--header-line", options->layout.header_line, "line of the table's names")
       ->check(CLI::PositiveNumber);

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 #include <vector>
 
@@ -106,15 +107,40 @@ Scale scale_of_unit(const std::string& unit, Quantity quantity) {
   refuse(unit, quantity);
 }
 
-double factor_of(std::string_view text) {
-  double factor = 0;
-  const auto [read, error] = std::from_chars(text.data(), text.data() + text.size(), factor);
-  if (error != std::errc{} || read != text.data() + text.size() || !std::isfinite(factor) ||
-      factor == 0) {
-    throw InputError(
-        fmt::format("factor '{}': expected a number that is not zero", files::one_line(text)));
+/// Takes a number from the front of `text`; NaN, and nothing taken, where there is none.
+double take_number(std::string_view* text) {
+  double number = 0;
+  const auto [read, error] = std::from_chars(text->data(), text->data() + text->size(), number);
+  if (error != std::errc{}) {
+    return std::numeric_limits<double>::quiet_NaN();
   }
-  return factor;
+  text->remove_prefix(static_cast<std::size_t>(read - text->data()));
+  return number;
+}
+
+/// Reads what follows a unit: `*FACTOR`, then `+OFFSET` or `-OFFSET`, each only if it is there.
+Scale scale_after_unit(std::string_view text) {
+  Scale scale;
+  if (!text.empty() && text[0] == '*') {
+    std::string_view rest = text.substr(1);
+    scale.factor = take_number(&rest);
+    const bool ends_well = rest.empty() || rest[0] == '+' || rest[0] == '-';
+    if (!std::isfinite(scale.factor) || scale.factor == 0 || !ends_well) {
+      throw InputError(fmt::format("factor '{}': expected a number that is not zero",
+                                   files::one_line(text.substr(1))));
+    }
+    text = rest;
+  }
+  if (!text.empty()) {
+    std::string_view rest = text.substr(1);
+    const double size = !rest.empty() && rest[0] == '-' ? std::numeric_limits<double>::quiet_NaN()
+                                                        : take_number(&rest);
+    if (!std::isfinite(size) || !rest.empty()) {
+      throw InputError(fmt::format("offset '{}': expected a number", files::one_line(text)));
+    }
+    scale.offset = text[0] == '-' ? -size : size;
+  }
+  return scale;
 }
 
 }  // namespace
@@ -153,20 +179,16 @@ std::optional<Quantity> quantity_of(std::string_view column) {
 }
 
 Scale scale_of(const std::string& text, Quantity quantity) {
-  const std::size_t star = text.find('*');
-  const std::string unit = text.substr(0, star);
-  if (star == std::string::npos) {
-    if (unit == "%") {
+  const std::string unit = text.substr(0, text.find_first_of("*+-"));
+  const Scale own = scale_after_unit(std::string_view(text).substr(unit.size()));
+  if (unit == "%") {
+    if (text.find('*') == std::string::npos) {
       throw InputError("unit '%': percent of what? Say what 100 % is: %*250");
     }
-    return scale_of_unit(unit, quantity);
-  }
-  const double factor = factor_of(std::string_view(text).substr(star + 1));
-  if (unit == "%") {
-    return {factor / 100, 0};
+    return {own.factor / 100, own.offset};
   }
   const Scale scale = scale_of_unit(unit, quantity);
-  return {factor * scale.factor, scale.offset};
+  return {own.factor * scale.factor, own.offset * scale.factor + scale.offset};
 }
 
 }  // namespace flexcomp::recording

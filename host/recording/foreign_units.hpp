@@ -19,12 +19,13 @@ struct Scale {
   double offset = 0;
 };
 
-/// Reads `UNIT`, `UNIT*FACTOR` or `*FACTOR`; nothing is SI. Units are s, ms, us, ns; rad, mrad,
+/// Reads `UNIT`, with `*FACTOR`, `+OFFSET` or `-OFFSET` or both after it: (factor · number +
+/// offset) in that unit, as in `deg*-1-90`. No unit is SI. Units are s, ms, us, ns; rad, mrad,
 /// urad, deg, turn; m, mm, um, in; N, kN, lbf; Nm, mNm, kNm, Nmm, lbfin; C, K, F; and `%`, which is
-/// nothing without the factor: the value that is 100 %.
+/// nothing without the factor: the value that is 100 %; its offset is SI.
 ///
-/// Throws InputError for a unit that is unknown or none of this quantity, and for a factor that is
-/// zero or no number.
+/// Throws InputError for a unit that is unknown or none of this quantity, for a factor that is zero
+/// or no number, and for an offset that is no number.
 Scale scale_of(const std::string& text, Quantity quantity);
 
 }  // namespace flexcomp::recording

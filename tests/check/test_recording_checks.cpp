@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <cstring>
 #include <random>
+#include <utility>
 
 #include "check/recording_checks.hpp"
 #include "check/times.hpp"
@@ -153,6 +154,34 @@ void test_a_joint_whose_angle_is_turned() {
   }
 }
 
+/// The URDF counts joint 2 from the upright arm and joint 3 from the level forearm, and joints 1, 4
+/// and 6 the other way; the recording is what a KUKA's panel shows.
+void test_angles_counted_as_a_kuka_counts_them() {
+  Measured measured;
+  model::Robot& robot = measured.moving.robot;
+  constexpr double kQuarterTurn = 1.5707963267948966;
+  for (const unsigned joint : {1U, 2U}) {
+    const double angle = joint == 1 ? -kQuarterTurn : kQuarterTurn;
+    auto& changed = robot.elastic.joints[joint];
+    changed.origin.rotation =
+        changed.origin.rotation * Eigen::AngleAxisd(angle, changed.axis).toRotationMatrix();
+    changed.lower -= angle;
+    changed.upper -= angle;
+  }
+  for (const unsigned joint : {0U, 3U, 5U}) {
+    auto& changed = robot.elastic.joints[joint];
+    changed.axis = -changed.axis;
+    changed.lower = -std::exchange(changed.upper, -changed.lower);
+  }
+  measured.recording.tau.reset();
+  measured.recording.q_link.reset();
+  const Checks said = flexcomp::check::check_recording(&robot, measured.recording);
+  assert_named("joint.zero", measured);
+  TEST_ASSERT_NOT_NULL(std::strstr(said.front().what.c_str(), "as a KUKA counts"));
+  TEST_ASSERT_NOT_NULL(std::strstr(said.front().fix.c_str(),
+                                   "signs -1, 1, 1, -1, 1, -1, zeros 0, -90, 90, 0, 0, 0"));
+}
+
 void test_two_joints_that_are_swapped() {
   Measured measured;
   measured.change_angles([](Samples* q) { q->col(3).swap(q->col(4)); });
@@ -270,6 +299,7 @@ int main() {
   RUN_TEST(test_another_base_frame_is_told_by_its_turn_and_place);
   RUN_TEST(test_a_point_elsewhere_on_the_tool);
   RUN_TEST(test_a_joint_whose_angle_is_turned);
+  RUN_TEST(test_angles_counted_as_a_kuka_counts_them);
   RUN_TEST(test_two_joints_that_are_swapped);
   RUN_TEST(test_a_force_of_the_tool_on_the_work);
   RUN_TEST(test_a_force_in_the_frame_of_the_tool);

@@ -115,6 +115,20 @@ void units_are_those_of_the_standards() {
   close(-3.2, (*recording("t,current\n0,4\n", {"t=t", "tau_1=current:*-0.8"}).tau)(0, 0));
 }
 
+void an_offset_is_added_in_the_unit_after_the_factor() {
+  const double degree = std::acos(-1.0) / 180;
+  const auto angle = [](const std::string& rule) {
+    return (*recording("t,A2\n0,-100\n", {"t=t", "q_cmd_1=A2" + rule}).q_cmd)(0, 0);
+  };
+  close(10 * degree, angle(":deg*-1-90"));
+  close(-10 * degree, angle(":deg+90"));
+  close(-99.5, angle(":+0.5"));
+  close(-49, angle(":*0.5+1"));
+  close(-0.09, angle(":*1e-3+1e-2"));
+  close(-17.77777777777778 + 5.0 / 9,
+        (*recording("t,T\n0,0\n", {"t=t", "temp_c=T:F+1"}).temperature)(0, 0));
+}
+
 void stamps_since_an_epoch_count_from_the_first_row() {
   const std::string text = "sec,nsec,m1\n1700000000,999000001,1\n1700000001,1,2\n";
   const Recording rows = recording(text, {"t=sec", "t=nsec:ns", "tau_1=m1"});
@@ -182,6 +196,12 @@ void units_that_do_not_fit_are_refused() {
                  {"tau_1=m:*0"});
   expect_refusal("--map tau_1=m:*1x: factor '1x': expected a number that is not zero", text,
                  {"tau_1=m:*1x"});
+  for (const char* offset : {"+", "-", "+x", "--1", "+1x", "+1+1", "+inf"}) {
+    expect_refusal(
+        (std::string("--map tau_1=m:Nm") + offset + ": offset '" + offset + "': expected a number")
+            .c_str(),
+        text, {std::string("tau_1=m:Nm") + offset});
+  }
 }
 
 void what_is_no_recording_is_refused_with_its_line() {
@@ -206,6 +226,7 @@ int main() {
   RUN_TEST(a_star_stands_for_the_joint_from_one_or_from_zero);
   RUN_TEST(a_name_may_have_a_colon);
   RUN_TEST(units_are_those_of_the_standards);
+  RUN_TEST(an_offset_is_added_in_the_unit_after_the_factor);
   RUN_TEST(stamps_since_an_epoch_count_from_the_first_row);
   RUN_TEST(missing_cells_stay_missing);
   RUN_TEST(what_is_no_number_is_refused_with_its_place);
