@@ -42,6 +42,14 @@ std::string module_name(const std::filesystem::path& file) {
   return name.substr(0, kLongest);
 }
 
+std::string correction_line(const ExportOptions& options,
+                            const programs::CorrectedProgram& program) {
+  return program.largest_correction > 0
+             ? fmt::format("largest correction {:.3g} mm\n", 1e3 * program.largest_correction)
+             : fmt::format("nothing is corrected: {} has the angles of {}\n", options.corrected,
+                           options.path);
+}
+
 int run(const ExportOptions& options) {
   if (!(options.tolerance > 0)) {
     throw InputError("--tolerance: expected a length above zero");
@@ -61,12 +69,15 @@ int run(const ExportOptions& options) {
   const std::size_t own = corrected.source.motions.size();
   const std::array<double, 6> frame = frame_numbers(corrected.frame);
   if (options.json) {
-    const nlohmann::ordered_json json = {
-        {"motions", own}, {"added", points - own}, {"frame", frame}};
+    const nlohmann::ordered_json json = {{"motions", own},
+                                         {"added", points - own},
+                                         {"largest_correction", corrected.largest_correction},
+                                         {"frame", frame}};
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}: {} motions, {} points added where the correction bends\nwork frame {:.6g}\n",
-               options.out, own, points - own, fmt::join(frame, ","));
+    fmt::print("{}: {} motions, {} points added where the correction bends\n{}work frame {:.6g}\n",
+               options.out, own, points - own, correction_line(options, corrected),
+               fmt::join(frame, ","));
   }
   return kDone;
 }

@@ -123,8 +123,10 @@ programs::CorrectedProgram correct_program(const RobotModel<double, 6>& model,
   refuse_another_program(program, rows, poses, result.frame, path);
   const Pose<double> back = inverse(result.frame);
   Poses ways = poses_of(model, moved);
-  for (Pose<double>& pose : ways) {
-    pose = back * pose;
+  for (std::size_t row = 0; row < ways.size(); ++row) {
+    const double correction = (ways[row].position - poses[row].position).norm();
+    result.largest_correction = std::max(result.largest_correction, correction);
+    ways[row] = back * ways[row];
   }
   std::size_t at = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -12,6 +12,7 @@ struct CorrectedProgram {
   Pose<double> frame;  ///< the work frame in the robot base frame
   /// A motion or more for each of the source's, one after the other; ends in the work frame.
   std::vector<std::vector<Motion>> in_place;
+  double largest_correction = 0;  ///< m, at the TCP; zero where the program is only written anew
 };
 
 /// The program in a format: in the source's own with all that does not move left as it is, in

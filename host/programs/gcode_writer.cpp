@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "files/one_line.hpp"
 #include "programs/gcode_words.hpp"
 #include "programs/krl_point.hpp"
 #include "programs/rewriting.hpp"
@@ -43,9 +42,10 @@ class GcodeWriter {
   }
 
   std::string new_text() {
-    std::string text = fmt::format(
-        "(From {}, corrected for the deflection of the robot by flexcomp.)\nG21 G90 G94 G17\n",
-        files::one_line(source_.file, 200));
+    std::string origin = origin_of(program_);  // a file's name may have what ends a comment
+    std::replace(origin.begin(), origin.end(), '(', '[');
+    std::replace(origin.begin(), origin.end(), ')', ']');
+    std::string text = fmt::format("({})\nG21 G90 G94 G17\n", origin);
     for (std::size_t i = 0; i < source_.motions.size(); ++i) {
       text += lines_of(i, "\n") + "\n";
     }

@@ -146,11 +146,11 @@ constexpr double kNearness = 0.3;
 std::string new_program(const CorrectedProgram& program, const std::string& name) {
   const Program& source = program.source;
   std::string text = fmt::format(
-      "&ACCESS RVP\nDEF {} ( )\n; From {}, corrected for the robot's deflection by flexcomp.\n"
+      "&ACCESS RVP\nDEF {} ( )\n; {}\n"
       "; The points are of the TCP of the robot's model; $TOOL and load data must be the same.\n"
       "; Come to the first point by a PTP of your own, with S and T or by the axes' angles.\n"
       "$BASE={}\n$APO.CDIS={} ; mm: points that need no stop are passed as near\n",
-      name, files::one_line(source.file, 200), krl_pose(program.frame), kNearness);
+      name, origin_of(program), krl_pose(program.frame), kNearness);
   double feed = 0;
   for (std::size_t i = 0; i < source.motions.size(); ++i) {
     text += comments_before(source, i, "; ");

@@ -159,11 +159,11 @@ class Rewriter {
 std::string new_module(const CorrectedProgram& program, const std::string& name) {
   const Program& source = program.source;
   std::string text = fmt::format(
-      "MODULE {0}\n! From {1}, corrected for the robot's deflection by flexcomp.\n"
+      "MODULE {0}\n! {1}\n"
       "! The points are of the TCP of the robot's model: tool0 stands for a tooldata with that "
       "TCP.\n"
       "PERS wobjdata {0}_work:=[FALSE,TRUE,\"\",[{2}],[[0,0,0],[1,0,0,0]]];\nPROC {0}_run()\n",
-      name, files::one_line(source.file, 200), rapid_pose(program.frame));
+      name, origin_of(program), rapid_pose(program.frame));
   for (std::size_t i = 0; i < source.motions.size(); ++i) {
     text += comments_before(source, i, "  ! ");
     const double feed = source.motions[i].feed;

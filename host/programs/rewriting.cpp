@@ -38,6 +38,13 @@ bool has_text_in(Format format, const Program& source) {
   return source.format == format && !source.text.empty();
 }
 
+std::string origin_of(const CorrectedProgram& program) {
+  constexpr std::size_t kLongest = 200;
+  return fmt::format("From {}, {} by flexcomp.", files::one_line(program.source.file, kLongest),
+                     program.largest_correction > 0 ? "corrected for the deflection of the robot"
+                                                    : "written without a correction");
+}
+
 std::string rewritten(const Program& source,
                       const std::function<std::string(std::size_t)>& statement) {
   std::string text;

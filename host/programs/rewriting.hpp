@@ -19,6 +19,10 @@ bool has_text_in(Format format, const Program& source);
 std::string rewritten(const Program& source,
                       const std::function<std::string(std::size_t)>& statement);
 
+/// "From pocket.nc, corrected for the deflection of the robot by flexcomp.", or what holds where
+/// nothing is corrected. The first line of a program that is not in its source's format.
+std::string origin_of(const CorrectedProgram& program);
+
 /// How the source's lines end.
 std::string_view line_end(const Program& source);
 

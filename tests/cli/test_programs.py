@@ -49,6 +49,8 @@ class Programs(Command):
                 out, back = self.folder / name, self.folder / "back.csv"
                 self.run_well("export", "--model", KR270, "--program", program, "--path", path,
                               "--corrected", corrected, "--out", out)
+                if out.suffix != ".csv" and out.suffix != program.suffix:
+                    self.assertIn("pocket.nc, corrected for the deflection of the robot by flexcomp.", out.read_text())
                 frame = () if name in ("out.src", "out.mod") else ("--frame", "1.6,0.1,0.9")
                 self.run_well("plan", "program", out, "--model", KR270, "--along", corrected, "--out", back, *frame)
                 if out.suffix == ".src":  # by the controller's default, nothing, every point would be a stop
@@ -65,6 +67,8 @@ class Programs(Command):
                       "0.3")
         said = json.loads(self.run_well("export", "--model", KR270, "--program", program, "--path", placed,
                                         "--corrected", placed, "--out", out, "--json"))
+        self.assertEqual(0, said["largest_correction"])
+        self.assertIn("pocket.nc, written without a correction by flexcomp.", out.read_text())
         self.assertEqual(0, said["added"] - sum("CIRC" in line for line in out.read_text().splitlines()) + 2)
         self.run_well("plan", "program", out, "--model", KR270, "--along", placed, "--out", back)
         stiff = self.folder / "stiff.csv"
@@ -84,6 +88,15 @@ class Programs(Command):
         self.assertTrue(any(line.startswith("N30 G90 G0 X") for line in lines))
         self.assertEqual(1, sum("(PLUNGE)" in line for line in lines))
         self.assertEqual(1, sum("; to the wall" in line for line in lines))
+
+    def test_a_name_with_parentheses_does_not_end_a_comment_of_g_code(self):
+        program = self.file("pocket (2).csv", "x,y,z\n0,0,0\n0.04,0,0\n0.04,0.02,0\n")
+        path, corrected = self.correct(program, "--frame", "1.6,0.1,0.9", *RADIAL_FREE)
+        out = self.folder / "out.nc"
+        said = self.run_well("export", "--model", KR270, "--program", program, "--path", path, "--corrected", corrected,
+                             "--out", out)
+        self.assertIn("pocket [2].csv, corrected for", out.read_text().splitlines()[0])
+        self.assertRegex(said, "largest correction [0-9.]+ mm")
 
     def test_pockets_and_lines_are_planned(self):
         path = self.folder / "path.csv"
