@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/effects_help.hpp"
 #include "error.hpp"
 
 namespace flexcomp::cli {
@@ -49,6 +50,10 @@ const CLI::App* find_command(const CLI::App* app, const std::vector<std::string>
 }
 
 int show(const CLI::App* app, const std::vector<std::string>& words) {
+  if (words == std::vector<std::string>{"effects"}) {
+    fmt::print("{}", effects_help());
+    return kDone;
+  }
   std::string before;
   const CLI::App* command = find_command(app, words, &before);
   const std::string name = before + (before.empty() ? "" : " ") + command->get_name();
@@ -86,7 +91,9 @@ void require_without_subcommand(CLI::App* command, const std::vector<CLI::Option
 void add_help(CLI::App* app, Action* action) {
   CLI::App* command = app->add_subcommand(
       "help",
-      "What a command does and takes, as --help after it says too.\nExample: flexcomp help table");
+      "What a command does and takes, as --help after it says too. `help effects` lists the "
+      "effects\n"
+      "that a robot.yaml may have, with their parameters.\nExample: flexcomp help table");
   auto words = std::make_shared<std::vector<std::string>>();
   command->add_option("command", *words, "and its subcommand")->type_name("COMMAND");
   command->callback([=] { *action = [=] { return show(app, *words); }; });

@@ -65,6 +65,7 @@ int run(const Action& action) {
 constexpr const char* kOverview =
     "flexcomp corrects the path of industrial robots that bend under cutting forces.\n\n"
     "  flexcomp help COMMAND    what a command does and takes\n"
+    "  flexcomp help effects    what else a robot.yaml may say of a machine\n"
     "  flexcomp check …         what is wrong or suspicious in model, path, table or "
     "recording\n\n"
     "From model to corrected path:\n"

@@ -337,6 +337,36 @@ class Manners(PathCommand):
         self.assert_refused("help", "fly", saying="'flexcomp' has no command 'fly' (see flexcomp --help)")
         self.assert_refused("help", "table", "fly", saying="'flexcomp table' has no command 'fly'")
 
+    def test_help_lists_effects_as_a_robot_takes_them(self):
+        robot = pathlib.Path(KR270).read_text()
+        urdf = pathlib.Path(KR270).parent / "kr270.urdf"
+        path = self.folder / "path.csv"
+        self.run_well("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--points", "20", "--out", path)
+        rows = path.read_text().splitlines()
+        path.write_text("\n".join([rows[0] + ",temp_c", *(row + ",20" for row in rows[1:])]) + "\n")
+        robot = re.sub(r"gravity: .*", "gravity: [0, 0, -9.81]", robot)
+        shown = self.run_well("help", "effects").split("\n\n")
+        effects = [block for block in shown if re.match(r"[a-z_]+: ", block)]
+        self.assertGreater(len(effects), 35)
+        for block in effects:
+            said, *forms = block.splitlines()
+            name = said.split(":")[0]
+            if name == "link_offset":
+                continue  # its keys are of the axes across the link, which goes elsewhere here
+            for form in forms:
+                keys = {"effect": name}
+                for part in form.strip().split("; "):
+                    if part == "joint":  # joint 1 turns about z, as the page's does; no motor turns it beside another
+                        keys["joint"] = 2 if name == "transmission" else 1
+                    elif part.startswith("form: "):
+                        keys["form"] = part[6:]
+                    else:
+                        keys.update({each.split(" ")[0]: 1e-15 for each in part.split(", ")})
+                with self.subTest(keys):
+                    text = re.sub(r"urdf: .*", f"urdf: {urdf}", robot)
+                    model = self.file("robot.yaml", text + "effects:\n  - " + json.dumps(keys) + "\n")
+                    self.run_well("simulate", "--model", model, "--path", path, "--out", self.folder / "s.csv")
+
     def test_help_shows_values_as_words_and_marks_what_is_required(self):
         shown = self.run_well("help", "table")
         self.assertRegex(shown, r"--material TEXT:\{outside,inside\}=outside\s")
