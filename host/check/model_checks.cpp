@@ -93,12 +93,30 @@ Checks check_gravity(const model::Robot& robot) {
   return checks;
 }
 
+/// A tool axis as of ROS-Industrial's frame `flange`, whose x points out of the flange; `tool0`
+/// stands there too, with z out. A spindle may be mounted so on purpose.
+Checks check_tool_axis(const model::Robot& robot) {
+  constexpr double kAlong = 0.99;
+  const auto& last = robot.elastic.joints.back();
+  const Vector3<double> in_tool = robot.elastic.tool.rotation.transpose() * last.axis;
+  if (robot.tool || last.slides() || std::abs(in_tool.x()) < kAlong) {
+    return {};
+  }
+  return {said_of_model(
+      Severity::note, "tool.axis", robot,
+      fmt::format("tool_link: x of '{}' points along the last joint's axis, and z across it; "
+                  "programs take z for the direction out of the tool into the work",
+                  robot.tool_link),
+      "take tool0 in the place of flange, or turn the frame by `tool: {xyz: …, rpy: …}`")};
+}
+
 }  // namespace
 
 Checks check_model(const model::Robot& robot) {
   Checks checks = check_springs(robot);
   add(check_structure(robot), &checks);
   add(check_gravity(robot), &checks);
+  add(check_tool_axis(robot), &checks);
   const effects::MachineSize size = effects::size_of(robot);
   if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
     checks.push_back(

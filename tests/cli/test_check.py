@@ -77,6 +77,16 @@ class Check(Command):
         heavy = self.file("heavy.yaml", text.replace("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]"))
         self.assertEqual(["masses.missing"], self.wrong("--model", heavy))
 
+    def test_a_tool_frame_whose_x_points_out_of_the_flange_is_noted(self):
+        urdf = (KR270.parent / "kr270.urdf").read_text()
+        before = re.search(r'<child link="tool0"/>.*?</joint>', urdf, re.DOTALL).group()
+        bare = self.file("bare.urdf", urdf.replace(before, re.sub(r'rpy="[^"]*"', 'rpy="0 0 0"', before)))
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {bare}")
+        said = self.check("--model", self.file("robot.yaml", text), exit_code=0)
+        self.assertEqual(["tool.axis"], [each["name"] for each in said])
+        turned = text + "tool: {xyz: [0.25, 0, 0], rpy: [0, 1.5707963, 0]}\n"
+        self.assertEqual([], self.check("--model", self.file("turned.yaml", turned), exit_code=0))
+
     def test_what_goes_together_is_in_order(self):
         recording, table = self.recorded(), self.table()
         config = self.folder / "node.toml"
