@@ -41,8 +41,11 @@ model::Robot with_gravity(model::Robot robot, const Vector3<double>& gravity) {
 }
 
 bool has_masses(const model::Robot& robot) {
-  return std::any_of(robot.elastic.joints.begin(), robot.elastic.joints.end(),
-                     [](const model::ChainJoint& joint) { return joint.mass > 0; });
+  const auto& joints = robot.elastic.joints;
+  const double tool = robot.tool ? robot.tool->mass : 0;
+  return std::any_of(joints.begin(), joints.end(), [&](const model::ChainJoint& joint) {
+    return joint.mass > (&joint == &joints.back() ? tool : 0);
+  });
 }
 
 }  // namespace flexcomp::check

@@ -28,7 +28,7 @@ Eigen::RowVectorXd torque_at(const model::Robot& robot, const Eigen::RowVectorXd
 /// The same robot with another gravity (m/s², base frame).
 model::Robot with_gravity(model::Robot robot, const Vector3<double>& gravity);
 
-/// Has any moving link a mass?
+/// Has any moving link a mass, its tool aside?
 bool has_masses(const model::Robot& robot);
 
 }  // namespace flexcomp::check

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "check/arm.hpp"
@@ -93,13 +94,14 @@ Checks check_gravity(const model::Robot& robot) {
   return checks;
 }
 
-/// A tool axis as of ROS-Industrial's frame `flange`, whose x points out of the flange; `tool0`
-/// stands there too, with z out. A spindle may be mounted so on purpose.
+/// A tool axis as of ROS-Industrial's frame `flange`, and of some makers' `tool0`: x points out of
+/// the flange. A spindle may be mounted so on purpose; a tool that is turned is.
 Checks check_tool_axis(const model::Robot& robot) {
   constexpr double kAlong = 0.99;
   const auto& last = robot.elastic.joints.back();
   const Vector3<double> in_tool = robot.elastic.tool.rotation.transpose() * last.axis;
-  if (robot.tool || last.slides() || std::abs(in_tool.x()) < kAlong) {
+  const bool is_turned = robot.tool && robot.tool->rpy != std::array<double, 3>{};
+  if (is_turned || last.slides() || std::abs(in_tool.x()) < kAlong) {
     return {};
   }
   return {said_of_model(
@@ -107,7 +109,24 @@ Checks check_tool_axis(const model::Robot& robot) {
       fmt::format("tool_link: x of '{}' points along the last joint's axis, and z across it; "
                   "programs take z for the direction out of the tool into the work",
                   robot.tool_link),
-      "take tool0 in the place of flange, or turn the frame by `tool: {xyz: …, rpy: …}`")};
+      "give the tool with its turn, as tool: {xyz: [0.25, 0, 0], rpy: [0, 1.5707963, 0]}")};
+}
+
+Checks check_tool_size(const model::Robot& robot) {
+  constexpr double kLongest = 0.5;  // of the reach
+  if (!robot.tool) {
+    return {};
+  }
+  const double length = Vector3<double>(robot.tool->xyz.data()).norm();
+  if (length < kLongest * effects::size_of(robot).reach) {
+    return {};
+  }
+  return {said_of_model(
+      Severity::warning, "tool.size", robot,
+      fmt::format(
+          "tool.xyz: the TCP stands {:g} m off the flange, which is as far as the arm reaches",
+          length),
+      "give xyz in metres, in the frame of tool_link")};
 }
 
 }  // namespace
@@ -117,6 +136,7 @@ Checks check_model(const model::Robot& robot) {
   add(check_structure(robot), &checks);
   add(check_gravity(robot), &checks);
   add(check_tool_axis(robot), &checks);
+  add(check_tool_size(robot), &checks);
   const effects::MachineSize size = effects::size_of(robot);
   if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
     checks.push_back(

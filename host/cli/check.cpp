@@ -105,7 +105,7 @@ void print_for_a_person(const check::Checks& checks, const std::optional<model::
     const std::string sentence = check::sentence(each);
     fmt::print("{}\n", robot ? with_joint_names(sentence, *robot) : sentence);
   }
-  if (checks.empty()) {
+  if (!check::is_something_wrong(checks)) {
     fmt::print("nothing is wrong\n");
   }
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "files/one_line.hpp"
 #include "model/rigid_body.hpp"
@@ -14,6 +15,7 @@ namespace flexcomp::model {
 namespace {
 
 constexpr const char* kToolsSchema = "flexcomp/tools/1";
+constexpr double kTurn = 6.29;  // rad, rounded up
 
 Matrix3<double> tensor(const std::array<double, 6>& inertia) {
   const auto& [xx, xy, xz, yy, yz, zz] = inertia;
@@ -53,6 +55,12 @@ Tool read_tool(const YamlMap& yaml) {
   Tool tool;
   tool.xyz = yaml.numbers<3>("xyz");
   tool.rpy = numbers_or_zero<3>(yaml, "rpy");
+  for (const double angle : tool.rpy) {
+    if (std::abs(angle) > kTurn) {
+      yaml.refuse("rpy",
+                  fmt::format("expected radians, found {:g}, which is more than a turn", angle));
+    }
+  }
   tool.mass = yaml.non_negative_or("mass", 0);
   tool.com = numbers_or_zero<3>(yaml, "com");
   tool.inertia = numbers_or_zero<6>(yaml, "inertia");

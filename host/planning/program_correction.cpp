@@ -96,6 +96,26 @@ void refuse_another_program(const programs::Program& program, const std::vector<
   }
 }
 
+/// The largest distance between a path and the same path corrected. Throws InputError where it is
+/// more than any robot that mills gives way.
+double largest_correction(const Poses& planned, const Poses& corrected,
+                          const recording::Recording& path,
+                          const recording::Recording& corrected_path) {
+  constexpr double kMost = 0.03;  // m
+  double largest = 0;
+  for (std::size_t row = 0; row < planned.size(); ++row) {
+    const double correction = (corrected[row].position - planned[row].position).norm();
+    if (!(correction <= kMost)) {
+      throw InputError(fmt::format(
+          "{}: lies {:.4g} mm off {}, which is no correction: expected that path corrected, not "
+          "that of another job or placement",
+          corrected_path.place(static_cast<Eigen::Index>(row)), 1e3 * correction, path.file));
+    }
+    largest = std::max(largest, correction);
+  }
+  return largest;
+}
+
 Pose<double> inverse(const Pose<double>& pose) {
   const Matrix3<double> back = pose.rotation.transpose();
   return {back, -(back * pose.position)};
@@ -123,10 +143,9 @@ programs::CorrectedProgram correct_program(const RobotModel<double, 6>& model,
   refuse_another_program(program, rows, poses, result.frame, path);
   const Pose<double> back = inverse(result.frame);
   Poses ways = poses_of(model, moved);
-  for (std::size_t row = 0; row < ways.size(); ++row) {
-    const double correction = (ways[row].position - poses[row].position).norm();
-    result.largest_correction = std::max(result.largest_correction, correction);
-    ways[row] = back * ways[row];
+  result.largest_correction = largest_correction(poses, ways, path, corrected);
+  for (Pose<double>& pose : ways) {
+    pose = back * pose;
   }
   std::size_t at = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -13,7 +13,7 @@ namespace flexcomp::planning {
 /// `tolerance` (m; a radian counts as `kTurningLever`) off the motion between two points.
 ///
 /// Throws InputError where the recordings lack q_cmd or the program's lines, are not of this
-/// program, or do not have the same rows.
+/// program, do not have the same rows, or lie farther apart than a correction can be.
 programs::CorrectedProgram correct_program(const RobotModel<double, 6>& model,
                                            const programs::Program& program,
                                            const recording::Recording& path,

@@ -149,7 +149,7 @@ std::string new_program(const CorrectedProgram& program, const std::string& name
       "&ACCESS RVP\nDEF {} ( )\n; {}\n"
       "; The points are of the TCP of the robot's model; $TOOL and load data must be the same.\n"
       "; Come to the first point by a PTP of your own, with S and T or by the axes' angles.\n"
-      "$BASE={}\n$APO.CDIS={} ; mm: points that need no stop are passed as near\n",
+      "$BASE={}\n$APO.CDIS={} ; mm, approximation distance of C_DIS points\n",
       name, origin_of(program), krl_pose(program.frame), kNearness);
   double feed = 0;
   for (std::size_t i = 0; i < source.motions.size(); ++i) {

@@ -76,6 +76,14 @@ class Check(Command):
         self.check("--model", self.file("robot.yaml", text), exit_code=0)
         heavy = self.file("heavy.yaml", text.replace("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]"))
         self.assertEqual(["masses.missing"], self.wrong("--model", heavy))
+        spindle = self.file("spindle.yaml", heavy.read_text() + "tool: {xyz: [0, 0, 0.2], mass: 12}\n")
+        self.assertEqual(["masses.missing"], self.wrong("--model", spindle))
+
+    def test_a_tool_in_millimetres_or_degrees_is_told(self):
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")
+        self.assertEqual(["tool.size"], self.wrong("--model", self.file("mm.yaml", text + "tool: {xyz: [0, 0, 250]}\n")))
+        degrees = self.file("degrees.yaml", text + "tool: {xyz: [0, 0, 0.25], rpy: [0, 90, 0]}\n")
+        self.assert_refused("check", "--model", degrees, saying="'tool.rpy': expected radians, found 90")
 
     def test_a_tool_frame_whose_x_points_out_of_the_flange_is_noted(self):
         urdf = (KR270.parent / "kr270.urdf").read_text()
@@ -83,6 +91,9 @@ class Check(Command):
         bare = self.file("bare.urdf", urdf.replace(before, re.sub(r'rpy="[^"]*"', 'rpy="0 0 0"', before)))
         text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {bare}")
         said = self.check("--model", self.file("robot.yaml", text), exit_code=0)
+        self.assertEqual(["tool.axis"], [each["name"] for each in said])
+        straight = text + "tool: {xyz: [0, 0, 0.25]}\n"
+        said = self.check("--model", self.file("straight.yaml", straight), exit_code=0)
         self.assertEqual(["tool.axis"], [each["name"] for each in said])
         turned = text + "tool: {xyz: [0.25, 0, 0], rpy: [0, 1.5707963, 0]}\n"
         self.assertEqual([], self.check("--model", self.file("turned.yaml", turned), exit_code=0))

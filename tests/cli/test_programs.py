@@ -139,6 +139,15 @@ class Programs(Command):
                 program = self.file(name, text)
                 self.assert_refused("plan", "program", program, "--model", KR270, "--out", out, saying=saying)
 
+    def test_a_correction_of_another_placement_is_not_exported(self):
+        program = self.file("pocket.nc", POCKET)
+        path, corrected = self.correct(program, "--frame", "1.6,0.1,0.9", *RADIAL_FREE)
+        elsewhere, out = self.folder / "elsewhere.csv", self.folder / "o.src"
+        self.run_well("plan", "program", program, "--model", KR270, "--frame", "1.7,0.1,0.9", "--out", elsewhere)
+        self.assert_refused("export", "--model", KR270, "--program", program, "--path", elsewhere, "--corrected",
+                            corrected, "--out", out, saying="which is no correction")
+        self.assertFalse(out.exists())
+
     def test_a_path_of_another_program_is_not_exported(self):
         program = self.file("pocket.nc", POCKET)
         path = self.folder / "path.csv"
