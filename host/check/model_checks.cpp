@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "check/arm.hpp"
+#include "effects/law.hpp"
 #include "effects/machine_size.hpp"
 
 namespace flexcomp::check {
@@ -129,6 +130,28 @@ Checks check_tool_size(const model::Robot& robot) {
       "give xyz in metres, in the frame of tool_link")};
 }
 
+/// Effects that the robot lists, far from what machines have.
+Checks check_effects(const model::Robot& robot) {
+  const effects::MachineSize size = effects::size_of(robot);
+  Checks checks;
+  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+    const model::LearnedEffect& effect = robot.effects[i];
+    const effects::LawPointer law = effects::find_law(effect.effect, effect.form);
+    for (const auto& [name, value] : effect.parameters) {
+      const effects::Range range =
+          law ? effects::plausible_range(*law, robot, size, effect.joint, name) : effects::Range{};
+      if (law && (value < range.lower || value > range.upper)) {
+        checks.push_back(said_of_model(
+            Severity::warning, "effect.size", robot,
+            fmt::format("effects[{}].{}: {:g} of {} lies beyond {:.3g} to {:.3g} ({})", i, name,
+                        value, effect.effect, range.lower, range.upper, range.source),
+            "give SI units: m, rad, N, N·m"));
+      }
+    }
+  }
+  return checks;
+}
+
 }  // namespace
 
 Checks check_model(const model::Robot& robot) {
@@ -137,6 +160,7 @@ Checks check_model(const model::Robot& robot) {
   add(check_gravity(robot), &checks);
   add(check_tool_axis(robot), &checks);
   add(check_tool_size(robot), &checks);
+  add(check_effects(robot), &checks);
   const effects::MachineSize size = effects::size_of(robot);
   if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
     checks.push_back(

@@ -48,26 +48,35 @@ std::string statement_of(const effects::Law& law, int joint) {
                                                   : text.replace(found, own.size(), "joint N");
 }
 
+std::string text_of(const effects::Effect& effect, const model::Robot& robot) {
+  const effects::Law& first = *effect.forms.front();
+  std::string text = fmt::format("\n{}: {}\n", effect.name,
+                                 statement_of(first, first.joints(robot.joints()).front()));
+  for (const effects::LawPointer& law : effect.forms) {
+    text += form_text(*law, robot);
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string effects_help() {
+std::string effects_help(const std::string& name) {
   const model::Robot robot = upright_robot();
-  std::string text =
+  std::string found;
+  for (const effects::Effect& effect : effects::catalogue()) {
+    if (name.empty() || name == effect.name) {
+      found += text_of(effect, robot);
+    }
+  }
+  constexpr const char* kBefore =
       "Effects of robot.yaml, as a diagnosis finds them and `effects:` takes them:\n\n"
       "  effects:\n"
       "    - {effect: torque_ripple, joint: 3, sine: 1.5, cosine: -0.4, order: 12}\n\n"
       "Below each stand the keys that it takes. Joints count from 1. Of a joint that slides rad is "
-      "m and\nN·m is N. Where keys are of two axes only, these lie across the joint's own axis or "
-      "across its\nlink; here both are along z. Of the effect `law` host/README.md says all.\n";
-  for (const effects::Effect& effect : effects::catalogue()) {
-    const effects::Law& first = *effect.forms.front();
-    text += fmt::format("\n{}: {}\n", effect.name,
-                        statement_of(first, first.joints(robot.joints()).front()));
-    for (const effects::LawPointer& law : effect.forms) {
-      text += form_text(*law, robot);
-    }
-  }
-  return text;
+      "m and\nN·m is N. `order` counts periods in a turn of the joint. Where keys are of two axes "
+      "only, these lie\nacross the joint's own axis or across its link; here both are along z. Of "
+      "the effect `law`\nhost/README.md says all.\n";
+  return found.empty() ? found : kBefore + found;
 }
 
 }  // namespace flexcomp::cli

@@ -1,5 +1,7 @@
 #include "cli/frame_option.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -25,6 +27,14 @@ std::optional<Pose<double>> frame_of(const std::vector<double>& numbers) {
       std::all_of(numbers.begin(), numbers.end(), [](double each) { return std::isfinite(each); });
   if ((numbers.size() != 3 && numbers.size() != 6) || !is_finite) {
     throw InputError("--frame: expected x,y,z or x,y,z,roll,pitch,yaw");
+  }
+  constexpr double kTurn = 6.29;  // rad, rounded up
+  constexpr double kFar = 50;     // m: no robot reaches a tenth of it
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (std::abs(numbers[i]) > (i < 3 ? kFar : kTurn)) {
+      throw InputError(fmt::format("--frame: expected {}, found {:g}", i < 3 ? "metres" : "radians",
+                                   numbers[i]));
+    }
   }
   Pose<double> frame;
   frame.position = {numbers[0], numbers[1], numbers[2]};

@@ -50,8 +50,11 @@ const CLI::App* find_command(const CLI::App* app, const std::vector<std::string>
 }
 
 int show(const CLI::App* app, const std::vector<std::string>& words) {
-  if (words == std::vector<std::string>{"effects"}) {
-    fmt::print("{}", effects_help());
+  const std::string effects = words.size() != 1            ? ""
+                              : words.front() == "effects" ? effects_help()
+                                                           : effects_help(words.front());
+  if (!effects.empty()) {
+    fmt::print("{}", effects);
     return kDone;
   }
   std::string before;
@@ -93,7 +96,8 @@ void add_help(CLI::App* app, Action* action) {
       "help",
       "What a command does and takes, as --help after it says too. `help effects` lists the "
       "effects\n"
-      "that a robot.yaml may have, with their parameters.\nExample: flexcomp help table");
+      "that a robot.yaml may have, with their parameters; the name of one shows it alone.\n"
+      "Example: flexcomp help table");
   auto words = std::make_shared<std::vector<std::string>>();
   command->add_option("command", *words, "and its subcommand")->type_name("COMMAND");
   command->callback([=] { *action = [=] { return show(app, *words); }; });

@@ -102,10 +102,19 @@ class ChainReader {
     fail(fmt::format("link '{}': {}", files::one_line(link.name), why));
   }
 
+  std::string names_of_links() const {
+    std::vector<std::string> names;
+    for (const auto& [name, link] : tree_->links_) {
+      names.push_back(name);
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
   std::vector<urdf::JointConstSharedPtr> joints_between() const {
     for (const std::string& name : {robot_.base_link, robot_.tool_link}) {
       if (!tree_->getLink(name)) {
-        fail(fmt::format("has no link '{}'", files::one_line(name)));
+        fail(fmt::format("has no link '{}', which {} names; it has {}", files::one_line(name),
+                         robot_.yaml.string(), files::one_line(names_of_links(), 300)));
       }
     }
     std::vector<urdf::JointConstSharedPtr> joints;

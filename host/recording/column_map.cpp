@@ -70,6 +70,9 @@ class Resolver {
     }
   }
 
+  /// From here on rules with * leave out the columns that have a rule.
+  void keep_single_rules() { single_ = sources_; }
+
   const std::vector<Source>& sources() const { return sources_; }
 
  private:
@@ -101,7 +104,12 @@ class Resolver {
     int joint = 0;
     while (joint < model::kMostJoints && find(with_number(source, first + joint))) {
       ++joint;
-      add_one(rule, with_number(target, joint), with_number(source, first + joint - 1));
+      const std::string own = with_number(target, joint);
+      const bool is_single = std::any_of(single_.begin(), single_.end(),
+                                         [&](const Source& each) { return each.target == own; });
+      if (!is_single) {
+        add_one(rule, own, with_number(source, first + joint - 1));
+      }
     }
     if (joint == 0) {
       add_one(rule, with_number(target, 1), with_number(source, 1));  // it says what is missing
@@ -147,6 +155,7 @@ class Resolver {
 
   const ForeignTable& table_;
   std::vector<Source> sources_;
+  std::vector<Source> single_;  ///< those of rules without *
 };
 
 int joints_of(const std::vector<Source>& sources) {
@@ -195,8 +204,17 @@ NumberTable converted(const NumberTable& raw, const std::vector<Source>& sources
 
 Mapped map_columns(const ForeignTable& table, const std::vector<std::string>& rules) {
   Resolver resolver(table);
+  const auto counts = [](const std::string& rule) { return rule.find('*') < rule.find('='); };
   for (const std::string& rule : rules) {
-    resolver.add(rule);
+    if (!counts(rule)) {
+      resolver.add(rule);
+    }
+  }
+  resolver.keep_single_rules();
+  for (const std::string& rule : rules) {
+    if (counts(rule)) {
+      resolver.add(rule);
+    }
   }
   std::vector<std::size_t> chosen;
   for (const Source& source : resolver.sources()) {

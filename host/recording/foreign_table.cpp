@@ -202,9 +202,15 @@ NumberTable ForeignTable::numbers(const std::vector<std::size_t>& chosen) const 
     std::vector<double> row(chosen.size());
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (!readers[i].read(cells[chosen[i]], &row[i])) {
-        throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a finite number", file_,
+        const bool may_be_unit =
+            table.rows.empty() && cells[chosen[i]].find_first_of("0123456789") == std::string::npos;
+        const std::string hint =
+            may_be_unit
+                ? fmt::format("; if this is a line of units, --first-row {}", lines.number() + 1)
+                : "";
+        throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a finite number{}", file_,
                                      lines.number(), files::one_line(columns_[chosen[i]]),
-                                     files::one_line(cells[chosen[i]])));
+                                     files::one_line(cells[chosen[i]]), hint));
       }
     }
     table.rows.push_back(std::move(row));

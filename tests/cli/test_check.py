@@ -79,6 +79,13 @@ class Check(Command):
         spindle = self.file("spindle.yaml", heavy.read_text() + "tool: {xyz: [0, 0, 0.2], mass: 12}\n")
         self.assertEqual(["masses.missing"], self.wrong("--model", spindle))
 
+    def test_an_effect_beyond_what_machines_have_is_told(self):
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")
+        for gap, names in ((2.1e-3, []), (2.1, ["effect.size"])):
+            effect = f"effects:\n  - {{effect: backlash, joint: 2, form: load, gap: {gap}, hold: 25}}\n"
+            said = self.check("--model", self.file("robot.yaml", text + effect), exit_code=len(names))
+            self.assertEqual(names, [each["name"] for each in said])
+
     def test_a_tool_in_millimetres_or_degrees_is_told(self):
         text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")
         self.assertEqual(["tool.size"], self.wrong("--model", self.file("mm.yaml", text + "tool: {xyz: [0, 0, 250]}\n")))

@@ -348,6 +348,9 @@ class Manners(PathCommand):
         shown = self.run_well("help", "effects").split("\n\n")
         effects = [block for block in shown if re.match(r"[a-z_]+: ", block)]
         self.assertGreater(len(effects), 35)
+        alone = self.run_well("help", "torque_ripple")
+        self.assertIn("sine (N·m), cosine (N·m), order", alone)
+        self.assertNotIn("backlash", alone)
         for block in effects:
             said, *forms = block.splitlines()
             name = said.split(":")[0]

@@ -139,6 +139,13 @@ class Programs(Command):
                 program = self.file(name, text)
                 self.assert_refused("plan", "program", program, "--model", KR270, "--out", out, saying=saying)
 
+    def test_a_work_frame_in_degrees_or_millimetres_is_refused(self):
+        program, out = self.file("pocket.nc", POCKET), self.folder / "path.csv"
+        for frame, saying in (("1.6,0.1,0.9,90,0,0", "--frame: expected radians, found 90"),
+                              ("1600,100,900", "--frame: expected metres, found 1600")):
+            self.assert_refused("plan", "program", program, "--model", KR270, "--frame", frame, "--out", out,
+                                saying=saying)
+
     def test_a_correction_of_another_placement_is_not_exported(self):
         program = self.file("pocket.nc", POCKET)
         path, corrected = self.correct(program, "--frame", "1.6,0.1,0.9", *RADIAL_FREE)

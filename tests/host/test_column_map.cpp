@@ -97,6 +97,19 @@ void a_star_stands_for_the_joint_from_one_or_from_zero() {
   close(-3 * std::acos(-1.0) / 180, (*from_zero.q_cmd)(0, 2));
 }
 
+void a_rule_for_one_joint_goes_before_one_for_all() {
+  for (const Rules& rules : {Rules{"t=t", "q_cmd_*=q*", "q_cmd_2=q2:*-1+10"},
+                             Rules{"t=t", "q_cmd_2=q2:*-1+10", "q_cmd_*=q*"}}) {
+    const Recording rows = recording("t,q1,q2,q3\n0,1,2,3\n", rules);
+    TEST_ASSERT_EQUAL_INT(3, rows.q_cmd->cols());
+    close(1, (*rows.q_cmd)(0, 0));
+    close(8, (*rows.q_cmd)(0, 1));
+    close(3, (*rows.q_cmd)(0, 2));
+  }
+  expect_refusal("--map q_cmd_*=w*: column 'q_cmd_1' has a rule already", "t,q1,w1\n0,1,2\n",
+                 {"t=t", "q_cmd_*=q*", "q_cmd_*=w*"});
+}
+
 void a_name_may_have_a_colon() {
   close(7, (*recording("t,arm:1\n0,7\n", {"t=t", "tau_1=arm:1"}).tau)(0, 0));
   close(7000, (*recording("t,arm:1\n0,7\n", {"t=t", "tau_1=arm:1:kNm"}).tau)(0, 0));
@@ -146,9 +159,12 @@ void missing_cells_stay_missing() {
 void what_is_no_number_is_refused_with_its_place() {
   expect_refusal("a.txt:3: column 'm': 'off' is not a finite number", "t,m\n0,1\n1,off\n",
                  {"t=t", "tau_1=m"});
-  expect_refusal("a.txt:2: column 'm': 'inf' is not a finite number", "t,m\n0,inf\n",
+  expect_refusal(
+      "a.txt:2: column 'm': 'Nm' is not a finite number; if this is a line of units, --first-row 3",
+      "t,m\n0,Nm\n0,1\n", {"t=t", "tau_1=m"});
+  expect_refusal("a.txt:3: column 'm': 'inf' is not a finite number", "t,m\n0,1\n1,inf\n",
                  {"t=t", "tau_1=m"});
-  expect_refusal("a.txt:2: column 'm': '+-1' is not a finite number", "t,m\n0,+-1\n",
+  expect_refusal("a.txt:3: column 'm': '+-1' is not a finite number", "t,m\n0,1\n1,+-1\n",
                  {"t=t", "tau_1=m"});
 }
 
@@ -224,6 +240,7 @@ int main() {
   RUN_TEST(lines_above_the_names_and_units_below_are_skipped);
   RUN_TEST(text_in_columns_that_no_rule_names_does_not_matter);
   RUN_TEST(a_star_stands_for_the_joint_from_one_or_from_zero);
+  RUN_TEST(a_rule_for_one_joint_goes_before_one_for_all);
   RUN_TEST(a_name_may_have_a_colon);
   RUN_TEST(units_are_those_of_the_standards);
   RUN_TEST(an_offset_is_added_in_the_unit_after_the_factor);

@@ -417,9 +417,15 @@ void names_of_two_lines_are_named_in_one() {
 void links_that_are_not_there_are_named() {
   const ScratchFolder folder;
   put_arm(folder, {"base_link: base", "base_link: bass"});
-  TEST_ASSERT_EQUAL_STRING("arm.urdf: has no link 'bass'", load_refusal(folder).c_str());
+  std::string message = load_refusal(folder);
+  TEST_ASSERT_TRUE_MESSAGE(message.find("arm.urdf: has no link 'bass', which ") == 0,
+                           message.c_str());
+  TEST_ASSERT_TRUE_MESSAGE(message.find("names; it has base, ") != std::string::npos,
+                           message.c_str());
   put_arm(folder, {"tool_link: tool", "tool_link: tol"});
-  TEST_ASSERT_EQUAL_STRING("arm.urdf: has no link 'tol'", load_refusal(folder).c_str());
+  message = load_refusal(folder);
+  TEST_ASSERT_TRUE_MESSAGE(message.find("arm.urdf: has no link 'tol', which ") == 0,
+                           message.c_str());
   put_arm(folder, {"tool_link: tool", "tool_link: other"});
   TEST_ASSERT_EQUAL_STRING(
       "arm.urdf: expected 1 to 12 revolute, continuous or prismatic joints between 'base' and "
