@@ -125,6 +125,20 @@ void suggest(const Observations& observations, Diagnosis* diagnosis) {
   }
 }
 
+/// Leaves out the checks of clocks that a finding is about: they knew nothing of it, and its number
+/// is the better one.
+void leave_out_found_clocks(Diagnosis* diagnosis) {
+  std::vector<ClockCheck>* clocks = &diagnosis->clocks;
+  for (const Finding& finding : diagnosis->choice.findings) {
+    const Hypothesis& found = finding.chosen.hypothesis;
+    clocks->erase(std::remove_if(clocks->begin(), clocks->end(),
+                                 [&](const ClockCheck& clock) {
+                                   return found.traits().is_clock && found.law->form == clock.group;
+                                 }),
+                  clocks->end());
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -165,6 +179,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     settle_forms(inquiry, &diagnosis.choice);
     widen_by_confounders(inquiry, &diagnosis.choice);
   }
+  leave_out_found_clocks(&diagnosis);
   diagnosis.trials = weigh_trials(inquiry, diagnosis.choice);
   suggest(*observations, &diagnosis);
   return diagnosis;

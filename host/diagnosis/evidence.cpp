@@ -141,8 +141,10 @@ Evidence weigh(const Observations& observations, const Fit& without, const Fit& 
     if (each.change > each.count) {
       evidence.shows.push_back(each.group);
     }
-    if (each.change / each.count > most) {
-      most = each.change / each.count;
+    // By noise alone the component that is measured best decides, whatever else is wrong there.
+    const double clear = each.change / std::max(each.count, each.after);
+    if (clear > most) {
+      most = clear;
       const double fall = each.before - each.after;
       evidence.group = each.group;
       evidence.relative_strength = std::sqrt(each.change / std::max(each.whole, kTiny));

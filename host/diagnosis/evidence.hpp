@@ -25,7 +25,9 @@ struct Evidence {
                         ///< over the noise
   /// Groups whose prediction it moves by more than the noise, or the one that it moves most.
   std::vector<Group> shows;
-  Group group;                   ///< that shows it most; what follows is of that group
+  /// That shows it most, over the noise or, where that is more, over what the whole fit leaves
+  /// there. What follows is of that group.
+  Group group;
   double relative_strength = 0;  ///< to that of the whole fit
   double share = 0;              ///< of the power that is left beyond the noise without it; the
                                  ///< noise is no more than what is left with it

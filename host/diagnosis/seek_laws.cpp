@@ -31,14 +31,35 @@ bool are_outdone_by_withdrawn(const Inquiry& inquiry, const Choice& choice, cons
          0;
 }
 
+/// Do as many laws and effects say with fewer numbers what findings say by an effect that few
+/// machines have?
+bool are_plainer(const Choice& laws, const Choice& found) {
+  return laws.findings.size() == found.findings.size() &&
+         laws.fit.parameters() < found.fit.parameters() &&
+         std::any_of(found.findings.begin(), found.findings.end(),
+                     [](const Finding& each) { return each.chosen.hypothesis.traits().is_of_few; });
+}
+
+/// Does the evidence speak for laws in the place of findings? Findings that leave no more than
+/// noise need much to fall, others have something to say yet; what was held out must confirm the
+/// laws. Simpler laws need less, and no contradiction by what was held out.
+bool take_the_place(const Inquiry& inquiry, const Diagnosis& before, const Choice& laws) {
+  const Fit& found = before.choice.fit;
+  const double gain = bic_gain(inquiry.observations, found, laws.fit);
+  const bool are_fewer = laws.findings.size() < before.choice.findings.size();
+  if (are_fewer || are_plainer(laws, before.choice)) {
+    return gain > (are_fewer ? kIndifferent : kStrongEvidence) &&
+           confirmation_of(inquiry.observations, found.remainder, laws.fit.remainder) > -kConfirmed;
+  }
+  const double needed = is_open(before) ? kStrongEvidence : kFarMoreEvidence;
+  return gain >= needed && is_confirmed(inquiry, found, laws.fit);
+}
+
 /// The diagnosis with laws that nobody listed in the place of its findings, if these leave much
 /// less; else as it was.
 Diagnosis with_laws(const Inquiry& inquiry, const Diagnosis& before, Choice laws) {
-  const Observations& observations = inquiry.observations;
-  const Fit& found = before.choice.fit;
   if (laws.findings.empty() || imitate_many(before.choice, laws.fit) ||
-      bic_gain(observations, found, laws.fit) < kFarMoreEvidence ||
-      !is_confirmed(inquiry, found, laws.fit) ||
+      !take_the_place(inquiry, before, laws) ||
       are_outdone_by_withdrawn(inquiry, before.choice, laws.fit)) {
     return before;
   }
@@ -48,7 +69,7 @@ Diagnosis with_laws(const Inquiry& inquiry, const Diagnosis& before, Choice laws
   diagnosis.nearest.clear();
   diagnosis.indistinguishable.clear();
   diagnosis.proposal.clear();
-  judge(observations, &diagnosis);
+  judge(inquiry.observations, &diagnosis);
   return diagnosis.verdict == Verdict::unexplained ? before : diagnosis;
 }
 

@@ -145,6 +145,57 @@ void an_effect_stays_where_a_law_gains_next_to_nothing() {
   TEST_ASSERT_TRUE(has(found, "viscous_friction", 5));
 }
 
+/// A zero of thirty times the noise, and a little that wanes.
+void the_constant_of_a_law_keeps_its_name() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(
+      {simulation::Term::output, [](const simulation::Scene& scene, const simulation::Simulation&,
+                                    simulation::Prediction* prediction) {
+         prediction->channel[simulation::joint_torque].col(4).array() +=
+             60 + 12 * (scene.time.array() / -5).exp();
+       }});
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_UINT64(2, found.choice.findings.size());
+  TEST_ASSERT_TRUE(has(found, "torque_offset", 5));
+  TEST_ASSERT_EQUAL_STRING("a*exp(-t/T)", law_at(found, 5).c_str());
+}
+
+/// Ripple that another joint turns round, beside a zero at a third one: while that is off, ripple
+/// of the catalogue is hardly worse than the law.
+void an_effect_gives_way_to_a_law_that_another_joint_hid() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    torques.col(3) = 24 * (13 * at.q.col(3).array()).sin() * (1 + 0.4 * at.q.col(0).array());
+    torques.col(4).setConstant(10);
+    return torques;
+  }));
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_UINT64(2, found.choice.findings.size());
+  TEST_ASSERT_TRUE(has(found, "torque_offset", 5));
+  const std::string formula = law_at(found, 4);
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q4)*") != std::string::npos, formula.c_str());
+}
+
+/// A stop near the end of a joint's travel, which a balancer imitates by twice as many numbers.
+void a_law_is_told_where_a_rare_effect_needs_more_numbers() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    torques.col(1) = 60 * (-1.1 - at.q.col(1).array()).max(0);
+    return torques;
+  }));
+  Observations observations = robot.observed(truth);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
+  TEST_ASSERT_EQUAL_STRING("a*(d - q2)*step(d - q2)", law_at(found, 2).c_str());
+}
+
 }  // namespace
 
 int main() {
@@ -154,5 +205,8 @@ int main() {
   RUN_TEST(an_effect_that_stands_for_a_law_gives_way_to_it);
   RUN_TEST(an_effect_that_hides_a_law_gives_way_to_it);
   RUN_TEST(an_effect_stays_where_a_law_gains_next_to_nothing);
+  RUN_TEST(the_constant_of_a_law_keeps_its_name);
+  RUN_TEST(an_effect_gives_way_to_a_law_that_another_joint_hid);
+  RUN_TEST(a_law_is_told_where_a_rare_effect_needs_more_numbers);
   return UNITY_END();
 }

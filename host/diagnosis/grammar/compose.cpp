@@ -275,6 +275,25 @@ std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bo
   return worth_fitting(std::move(laws));
 }
 
+/// Is a factor by itself fitted already, as the zero of a torque is? A constant beside it serves
+/// while laws are compared, where nothing is fitted anew, and says nothing then.
+bool is_fitted(const Lead& lead) {
+  constexpr double kApart = 1e-4;  // of a square: a hundredth of the course, less is rounding
+  const Seat& seat = *lead.seat;
+  const Eigen::VectorXd course = lead.factor.course.size() > 0
+                                     ? lead.factor.course
+                                     : Eigen::VectorXd::Ones(seat.weight.size());
+  return (seat.fitted.transpose() * course).squaredNorm() >
+         (1 - kApart) * seat.weight.dot(course.cwiseAbs2());
+}
+
+/// A law without a constant that is fitted already.
+Composed without_fitted_constant(const Material& material, Composed law) {
+  return law.form.has_constant && is_fitted(law.lead)
+             ? composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters)
+             : std::move(law);
+}
+
 /// Before each law with a second driver the law without: what a second driver gains by these rough
 /// values, the whole fit may give to better ones.
 std::vector<Composed> after_plain(const Material& material, std::vector<Composed> laws,
@@ -284,7 +303,7 @@ std::vector<Composed> after_plain(const Material& material, std::vector<Composed
     if (law.form.modulation.driver != nullptr && !has_name(law, effects)) {
       all.push_back(composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters));
     }
-    all.push_back(std::move(law));
+    all.push_back(without_fitted_constant(material, std::move(law)));
   }
   return all;
 }

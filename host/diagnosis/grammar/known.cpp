@@ -44,4 +44,16 @@ std::string known_as(const Lead& lead, const Shape& shape) {
   return "";
 }
 
+std::string constant_as(const Lead& lead) {
+  if (!lead.factor.text.empty()) {
+    return "";
+  }
+  for (const auto& [effect, search] : searches()) {
+    if (has(search.constant_at, lead.seat->place.kind)) {
+      return effect;
+    }
+  }
+  return "";
+}
+
 }  // namespace flexcomp::diagnosis::grammar

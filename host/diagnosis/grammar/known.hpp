@@ -10,4 +10,8 @@ namespace flexcomp::diagnosis::grammar {
 /// The effect of the catalogue that does what a shape of a lead does; empty where there is none.
 std::string known_as(const Lead& lead, const Shape& shape);
 
+/// The effect of the catalogue that does what a constant does beside a lead's shape, as the zero of
+/// an angle or of a torque; empty where there is none.
+std::string constant_as(const Lead& lead);
+
 }  // namespace flexcomp::diagnosis::grammar

@@ -1,7 +1,9 @@
 #include "diagnosis/grammar/laws.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "diagnosis/grammar/known.hpp"
 #include "diagnosis/grammar/written.hpp"
 #include "diagnosis/rest.hpp"
 #include "diagnosis/select/grow.hpp"
@@ -22,56 +24,80 @@ std::set<std::string> effects_of(const Inquiry& inquiry) {
   return effects;
 }
 
+/// A fit with one law more, and the effect of the catalogue that the law's constant is by itself;
+/// empty where it has none.
+struct WithLaw {
+  Fit fit;
+  std::string constant;
+};
+
 /// A fit with one law more that holds; nothing chosen where there is none.
-Fit with_law(const Inquiry& inquiry, const Material& material, const Fit& before) {
+WithLaw with_law(const Inquiry& inquiry, const Material& material, const Fit& before) {
   const Observations& observations = inquiry.observations;
   const std::vector<Seat> seats = seats_of(observations, material.rows, before);
   std::size_t looked_at = inquiry.dictionary.entries.size();
   const std::vector<Lead> leads = screen(material, seats, &looked_at);
-  Fit best;
+  WithLaw best;
   for (const Composed& law : compose(material, leads, effects_of(inquiry), &looked_at)) {
     Fit grown = fit_with(inquiry, before, chosen_of(observations, law), kSteps);
     const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
     if (holds(inquiry, evidence) && evidence.share > kLeastLawShare &&
-        (best.chosen.empty() || bic_gain(observations, best, grown) > kStrongEvidence)) {
-      best = std::move(grown);
+        (best.fit.chosen.empty() || bic_gain(observations, best.fit, grown) > kStrongEvidence)) {
+      best = {std::move(grown), law.form.has_constant ? constant_as(law.lead) : ""};
     }
   }
   return best;
 }
 
 /// A fit with one effect of the catalogue more that holds; nothing chosen where there is none.
-Fit with_effect(const Inquiry& inquiry, const Fit& before) {
-  const Fit grown = best_beside(inquiry, {before, seek(inquiry, before)}, kShortlist);
-  return !grown.chosen.empty() && holds(inquiry, weigh_last(inquiry, before, grown)) ? grown
-                                                                                     : Fit{};
+Fit with_effect(const Inquiry& inquiry, const Attempt& before) {
+  const Fit grown = best_beside(inquiry, before, kShortlist);
+  return !grown.chosen.empty() && holds(inquiry, weigh_last(inquiry, before.fit, grown)) ? grown
+                                                                                         : Fit{};
+}
+
+/// A fit with the effect that the law's constant is by itself, if it does most of what the law
+/// does, counted by how many times less is left: the law of what is left is sought beside it. Else
+/// nothing chosen.
+Fit with_constant(const Inquiry& inquiry, const Attempt& before, const WithLaw& law) {
+  constexpr double kMost = 0.5;
+  for (const Candidate& each : propose(inquiry, before)) {
+    const Hypothesis& effect = each.chosen.hypothesis;
+    if (effect.effect() == law.constant && effect.joint == law.fit.chosen.back().hypothesis.joint) {
+      Fit grown = fit_with(inquiry, before.fit, each.chosen, kSteps);
+      const double own = std::log(before.fit.train_sum / grown.train_sum);
+      const bool is_most = own > kMost * std::log(before.fit.train_sum / law.fit.train_sum);
+      return is_most && holds(inquiry, weigh_last(inquiry, before.fit, grown)) ? grown : Fit{};
+    }
+  }
+  return {};
 }
 
 /// The better of a law and an effect. For the law there must be strong evidence, and a share of
-/// what there is for the effect.
+/// what there is for the effect if that is a usual one.
 Fit better_of(const Observations& observations, const Fit& before, Fit law, Fit effect) {
   if (law.chosen.empty() || effect.chosen.empty()) {
     return effect.chosen.empty() ? law : effect;
   }
-  const double needed =
-      std::max(kStrongEvidence, kUnusual * bic_gain(observations, before, effect));
+  const double share = effect.chosen.back().hypothesis.traits().is_of_few ? 0 : kUnusual;
+  const double needed = std::max(kStrongEvidence, share * bic_gain(observations, before, effect));
   return bic_gain(observations, effect, law) > needed ? law : effect;
 }
 
 /// A fit with one law or effect more; nothing chosen where none holds.
 Fit with_one(const Inquiry& inquiry, const Material& material, const Fit& before) {
-  return better_of(inquiry.observations, before, with_law(inquiry, material, before),
-                   with_effect(inquiry, before));
+  const Attempt attempt{before, seek(inquiry, before)};
+  WithLaw law = with_law(inquiry, material, before);
+  Fit best = better_of(inquiry.observations, before, law.fit, with_effect(inquiry, attempt));
+  const bool is_law = !best.chosen.empty() && best.chosen.back().hypothesis.is_law();
+  Fit constant = is_law && !law.constant.empty() ? with_constant(inquiry, attempt, law) : Fit{};
+  return constant.chosen.empty() ? best : constant;
 }
 
 /// A choice anew in the place of one of a fit, if it does better; else nothing chosen.
 Fit chosen_anew(const Inquiry& inquiry, const Material& material, const Fit& grown,
                 std::size_t index) {
   const Observations& observations = inquiry.observations;
-  if (!meet(directions(observations, grown, index),
-            directions(observations, grown, grown.chosen.size() - 1))) {
-    return {};
-  }
   Fit again = with_one(inquiry, material, fit_without(inquiry, grown, index));
   const bool is_simpler = again.parameters() < grown.parameters();
   const bool is_better = !again.chosen.empty() &&
@@ -79,23 +105,48 @@ Fit chosen_anew(const Inquiry& inquiry, const Material& material, const Fit& gro
   return is_better ? again : Fit{};
 }
 
-/// Chooses anew what was chosen before the last, each beside all others: what was chosen early had
-/// to say what others say by now. What comes anew is the last then, and the others are seen to once
-/// more.
-Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget* budget) {
-  constexpr int kRounds = 3;  // time: none took more
-  bool has_changed = true;
-  for (int round = 0; round < kRounds && has_changed; ++round) {
-    has_changed = false;
-    for (std::size_t i = inquiry.given.chosen.size();
-         i + 1 < grown.chosen.size() && !budget->is_spent(); ++i) {
-      Fit again = chosen_anew(inquiry, material, grown, i);
-      if (!again.chosen.empty()) {
-        grown = std::move(again);
-        has_changed = true;
-      }
+/// Chooses anew, once, each that `is_due` of what was chosen before the last, beside all others.
+/// What comes anew is the last then. Returns whether something did.
+template <typename IsDue>
+bool choose_anew(const Inquiry& inquiry, const Material& material, Fit* grown, IsDue is_due,
+                 Budget* budget) {
+  const std::size_t count = grown->chosen.size();
+  bool has_changed = false;
+  for (std::size_t i = inquiry.given.chosen.size(), at = i; i + 1 < count && !budget->is_spent();
+       ++i) {
+    Fit again = is_due(*grown, at) ? chosen_anew(inquiry, material, *grown, at) : Fit{};
+    if (again.chosen.empty()) {
+      ++at;
+    } else {
+      *grown = std::move(again);
+      has_changed = true;
     }
   }
+  return has_changed;
+}
+
+/// What was chosen early had to say what others say by now: it is chosen anew where the last choice
+/// meets it, until nothing changes.
+Fit revised(const Inquiry& inquiry, const Material& material, Fit grown, Budget* budget) {
+  constexpr int kRounds = 3;  // time: none took more
+  const auto meets_the_last = [&](const Fit& fit, std::size_t index) {
+    return meet(directions(inquiry.observations, fit, index),
+                directions(inquiry.observations, fit, fit.chosen.size() - 1));
+  };
+  for (int round = 0;
+       round < kRounds && choose_anew(inquiry, material, &grown, meets_the_last, budget); ++round) {
+  }
+  return grown;
+}
+
+/// Effects are chosen anew once more at the end, at whatever joint: a law may look no better than
+/// an effect for as long as another joint is off.
+Fit without_half_truths(const Inquiry& inquiry, const Material& material, Fit grown,
+                        Budget* budget) {
+  const auto is_effect = [](const Fit& fit, std::size_t index) {
+    return !fit.chosen[index].hypothesis.is_law();
+  };
+  choose_anew(inquiry, material, &grown, is_effect, budget);
   return grown;
 }
 
@@ -120,6 +171,9 @@ Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget,
     if (more_than_noise(inquiry.observations, stages.back().remainder).empty()) {
       break;
     }
+  }
+  if (stages.size() > 2) {
+    stages.push_back(without_half_truths(inquiry, material, stages.back(), budget));
   }
   // What came last may take away what the law before it stood on.
   for (; stages.size() > 1; stages.pop_back()) {

@@ -154,10 +154,16 @@ std::string statement_of_band(const Observations& observations, const Diagnosis&
 }
 
 std::string statement_of_clock(const ClockCheck& clock) {
+  constexpr double kSure = 3.5;    // deviations: of several clocks in every recording one is beyond
+                                   // two now and then
+  constexpr double kShown = 1e-5;  // s
   const double side = kTold * clock.deviation;
+  const double delay = std::round(clock.delay / kShown) * kShown + 0.0;  // no -0.00
+  const char* verdict = std::abs(clock.delay) < side                      ? ", which is nothing"
+                        : std::abs(clock.delay) < kSure * clock.deviation ? ", which may be chance"
+                                                                          : "";
   return fmt::format("Clock of {}: late by {:.2f} ± {:.2f} ms (95 %){}.", in_words(clock.group),
-                     1e3 * clock.delay, 1e3 * side,
-                     std::abs(clock.delay) < side ? ", which is nothing" : "");
+                     1e3 * delay, 1e3 * side, verdict);
 }
 
 std::string headline(const Observations& observations, const Diagnosis& diagnosis) {

@@ -11,6 +11,8 @@ bool prepare_joint_offset(const Observations& observations, Hypothesis* hypothes
 
 }  // namespace
 
-Search search::joint_offset() { return {prepare_joint_offset}; }
+Search search::joint_offset() {
+  return {prepare_joint_offset, nullptr, {}, {PlaceKind::joint_angle}};
+}
 
 }  // namespace flexcomp::diagnosis

@@ -27,6 +27,8 @@ struct Search {
   Seek seek = nullptr;  ///< starts by the residual
   // NOLINTNEXTLINE(readability-redundant-member-init): a search without may leave it out
   std::vector<Known> known = {};  ///< no such law is composed where the effect is sought
+  // NOLINTNEXTLINE(readability-redundant-member-init): the same
+  std::vector<PlaceKind> constant_at = {};  ///< it does there what the constant of a law does
 };
 
 namespace search {

@@ -12,6 +12,8 @@ bool prepare_torque_offset(const Observations& observations, Hypothesis* hypothe
 
 }  // namespace
 
-Search search::torque_offset() { return {prepare_torque_offset}; }
+Search search::torque_offset() {
+  return {prepare_torque_offset, nullptr, {}, {PlaceKind::joint_torque, PlaceKind::sensor_torque}};
+}
 
 }  // namespace flexcomp::diagnosis
