@@ -77,8 +77,10 @@ std::string gain_text(const GainLimit& gain, const ProcessOptions& process) {
     return "no process: the largest safe correction gain is not analysed";
   }
   if (gain.digs_in()) {
-    return fmt::format("no stable correction gain is safe with {}: {}", describe(process),
-                       describe_digging_in(gain));
+    return fmt::format(
+        "no stable correction gain is safe with {}: {}\nA controller refuses this table; programs "
+        "can be corrected with it (compensate)",
+        describe(process), describe_digging_in(gain));
   }
   const std::string text =
       fmt::format("largest safe correction gain {:.4g}, with {}", gain.safe, describe(process));

@@ -77,6 +77,10 @@ class Effect:
     def draw(cls, rng, joint, recording, arm):
         return cls(joint, {}, arm)
 
+    def most_in(self, recording):
+        """The largest amount that a machine which was recorded so may have."""
+        return self.most
+
     def trace(self, recording, amount):
         """{column: (n,)}"""
         raise NotImplementedError
@@ -147,6 +151,10 @@ class RotorInertia(_DriveTorque):
     """amount: kg·m²."""
 
     name = "rotor_inertia"
+
+    def most_in(self, recording):
+        """The drive has turned it: it took no more than the largest torque that was measured."""
+        return np.abs(recording[f"tau_{self.joint}"]).max() / np.abs(self.shape(recording)).max()
 
     def shape(self, recording):
         return _derivative(recording, 2)[:, self.joint - 1]
@@ -321,6 +329,12 @@ AT_JOINTS = (ViscousFriction, DryFriction, TorqueOffset, TorqueGain, RotorInerti
 ANYWHERE = (Payload, LateTorques, ToolOffset, BaseShift)
 
 
+def _turns_tool(recording, arm):
+    """Whether the tool frame has more than one orientation in the recording."""
+    turns = arm.stand(angles_of(recording)).tool
+    return bool(np.abs(turns - turns[0]).max() > MOVES)
+
+
 def _places(kind, recording, arm):
     """Joints (or None) at which an effect may be planted."""
     if not [name for name in columns_of(recording, kind.group)
@@ -329,6 +343,8 @@ def _places(kind, recording, arm):
     is_heavy = arm.gravity.any() and not any(arm.slides)
     if kind in (Payload, TorqueGain) and not is_heavy:
         return []  # nothing of known size that a gain could be told from friction and mass by
+    if kind in (ToolOffset, BaseShift) and not _turns_tool(recording, arm):
+        return []  # either moves every point alike, and no recording tells them apart
     if kind in ANYWHERE:
         return [None]
     span = np.ptp(angles_of(recording), axis=0)

@@ -123,7 +123,7 @@ def _able(machine, rng, count):
         for effect in consequences.drawn(rng, recording, machine.arm, count):
             amount = amount_for(effect, recording, machine.left, max(SIZES))
             known = any(effect.matches(finding) for finding in machine.baseline)
-            if amount <= effect.most and not known and len(found) < count:
+            if amount <= effect.most_in(recording) and not known and len(found) < count:
                 found.append(effect)
         if len(found) == count:
             break

@@ -142,6 +142,23 @@ class Sizes(WithArm):
             "viscous_friction", "coulomb_friction", "torque_offset", "torque_gain",
             "rotor_inertia", "torque_ripple", "payload", "time_offset"})
 
+    def test_no_rotor_takes_more_torque_than_was_measured(self):
+        law = consequences.RotorInertia(2, {}, self.arm)
+        recording = swing(tau_2=40 * np.sin(TIME))
+        most = law.most_in(recording)
+        self.assertAlmostEqual(np.abs(law.trace(recording, most)["tau_2"]).max(),
+                               np.abs(recording["tau_2"]).max())
+
+    def test_tool_and_base_are_left_alone_where_the_tool_never_turns(self):
+        still = {f"q_meas_{k}": 0 * TIME + angle for k, angle in enumerate(ANGLES[0], 1)}
+        columns = {name: 0 * TIME for name in "xyz"}
+        names = {law.name for law in consequences.drawn(
+            np.random.default_rng(1), swing(**still, **columns), self.arm, 100)}
+        self.assertFalse({"tcp_offset", "base_frame"} & names)
+        names = {law.name for law in consequences.drawn(
+            np.random.default_rng(1), swing(**columns), self.arm, 100)}
+        self.assertLessEqual({"tcp_offset", "base_frame"}, names)
+
     def test_coupled_drives_are_left_alone(self):
         self.arm.coupled = {5, 6}
         drawn = consequences.drawn(np.random.default_rng(1), swing(), self.arm, 200)
