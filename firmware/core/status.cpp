@@ -35,7 +35,7 @@ const char* describe(Result result) {
     case Result::gain_too_high:
       return "the gain is above the largest safe one of the table";
     case Result::not_ready:
-      return "not ready: good inputs are needed first";
+      return "not ready: good inputs are needed first, or another state";
     case Result::no_table:
       return "no table is loaded";
   }

@@ -1,6 +1,7 @@
 #include "linux/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -240,6 +241,7 @@ class Parser {
     transfer(typed_, &options_);
     check_together(options_);
     refuse_repeated_names();
+    find_table_beside_file();
     options_.fixed = list_.fixed();
     return options_;
   }
@@ -299,6 +301,20 @@ class Parser {
       }
     }
     return complaint;
+  }
+
+  /// A table by a relative path that is not there is looked for beside the configuration file, so
+  /// that both can be moved together.
+  void find_table_beside_file() {
+    const std::filesystem::path table = options_.table;
+    const std::string file = config_file();
+    std::error_code ignored;
+    if (table.empty() || table.is_absolute() || file.empty() ||
+        std::filesystem::exists(table, ignored)) {
+      return;
+    }
+    const std::filesystem::path beside = std::filesystem::path(file).parent_path() / table;
+    options_.table = std::filesystem::exists(beside, ignored) ? beside.string() : options_.table;
   }
 
   /// CLI11 takes the first of two and says nothing.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "check/arm.hpp"
+#include "control/path_gain.hpp"
 #include "controller/kuka_axes.hpp"
 
 namespace flexcomp::check {
@@ -45,13 +46,17 @@ Checks check_against_robot(const std::string& file, const Config& config,
 Checks check_against_table(const std::string& file, const Config& config, const Table& table) {
   Checks checks;
   const TableHeader& header = table.header();
-  if (header.largest_gain > 0 && config.gain > 1.0001F * header.largest_gain) {
+  const double largest = control::largest_gain_in(header, static_cast<double>(config.period),
+                                                  static_cast<double>(config.filter_cutoff));
+  if (largest > 0 && static_cast<double>(config.gain) > 1.0001 * largest) {
+    const bool is_refused = config.gain > 1.0001F * header.largest_gain;
     checks.push_back(
         {Severity::error, "config", "config.gain",
-         fmt::format("{}: gain {:.4g} is above the largest that is safe with the table's "
-                     "process, {:.4g}: flexcompd will not take the table",
-                     file, config.gain, header.largest_gain),
-         "lower the gain; flexcomp configure writes the largest safe one"});
+         fmt::format("{}: gain {:.4g} is above the largest that is safe with the table's process, "
+                     "{:.4g} every {:g} s through {:g} Hz{}",
+                     file, config.gain, largest, config.period, config.filter_cutoff,
+                     is_refused ? ": flexcompd will not take the table" : ""),
+         "lower the gain; flexcomp configure --period writes the largest safe one"});
   }
   if (config.force_range < header.force_bound || config.moment_range < header.moment_bound) {
     checks.push_back(

@@ -49,6 +49,19 @@ bool holds(const check::Checks& checks) {
   });
 }
 
+/// The table that a configuration names. What is wrong with it is told of the configuration.
+std::optional<TableFile> read_table_of(const std::string& config, const Options& options,
+                                       check::Checks* checks) {
+  try {
+    return read_any_table(options.table);
+  } catch (const InputError& error) {
+    checks->push_back({check::Severity::error, "config", "config.table",
+                       fmt::format("{}: table: {}", config, error.what()),
+                       "make it with flexcomp table, and name it in the configuration"});
+    return std::nullopt;
+  }
+}
+
 /// flexcompd's own reading of its configuration, which makes its own complaints.
 Options read_config(const std::string& file) {
   const char* const words[] = {"flexcompd", "--config", file.c_str(), "--can", "none"};
@@ -70,12 +83,21 @@ check::Checks check_all(const CheckOptions& options, const std::optional<model::
     check::add(check::check_recording(known, read_with_times(file, "recording", known, &checks)),
                &checks);
   }
+  std::optional<Options> config;
+  if (!options.config.empty()) {
+    config = read_config(options.config);
+  }
   std::optional<TableFile> table;
   bool is_of_robot = false;
   if (!options.table.empty()) {
     table = read_any_table(options.table);
+  } else if (config && !config->table.empty()) {
+    table = read_table_of(options.config, *config, &checks);
+  }
+  if (table) {
+    const std::string file = options.table.empty() ? config->table : options.table;
     const check::Checks found =
-        robot ? check::check_table(*robot, options.table, table->table) : check::Checks{};
+        robot ? check::check_table(*robot, file, table->table) : check::Checks{};
     is_of_robot = robot.has_value() && holds(found);
     check::add(found, &checks);
   }
@@ -92,9 +114,8 @@ check::Checks check_all(const CheckOptions& options, const std::optional<model::
       check::add(check::check_coverage(*robot, table->table, path), &checks);
     }
   }
-  if (!options.config.empty()) {
-    check::add(check::check_config(options.config, read_config(options.config), known,
-                                   table ? &table->table : nullptr),
+  if (config) {
+    check::add(check::check_config(options.config, *config, known, table ? &table->table : nullptr),
                &checks);
   }
   return check::worst_first(std::move(checks));

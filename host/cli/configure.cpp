@@ -13,6 +13,7 @@
 #include "cli/output_folder.hpp"
 #include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
+#include "control/path_gain.hpp"
 #include "controller/kuka_axes.hpp"
 #include "controller/rsi_files.hpp"
 #include "error.hpp"
@@ -161,16 +162,18 @@ int run(const ConfigureOptions& options) {
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
   double largest_gain = 0;
   if (!options.table.empty()) {
-    largest_gain =
-        static_cast<double>(read_table(options.table, robot).table.header().largest_gain);
+    const TableFile file = read_table(options.table, robot);
+    const TableHeader& header = file.table.header();
+    largest_gain = control::largest_gain_in(header, options.period,
+                                            static_cast<double>(gain_basis(header).filter_cutoff));
   }
   if (largest_gain > 0 && largest_gain <= 1.01 * GainLimit::kNone) {
     fmt::print(
         stderr,
-        "flexcomp: {}: no gain is safe with the process it was made for: make it with the "
-        "depth of your cut (flexcomp table --depth-of-cut) and its side (--material), or for less "
-        "force; nothing is written\n",
-        options.table);
+        "flexcomp: {}: no gain is safe with the process it was made for and a period of {:g} s: "
+        "make it with the depth of your cut (flexcomp table --depth-of-cut) and its side "
+        "(--material), or for less force; nothing is written\n",
+        options.table, options.period);
     return kDoesNotHold;
   }
   files::write_texts(files_of(options, robot, largest_gain));
@@ -187,8 +190,9 @@ int run(const ConfigureOptions& options) {
   if (!options.table.empty() && largest_gain <= 0) {
     fmt::print("the largest safe gain is not known: the table was made without a process\n");
   } else if (!options.table.empty()) {
-    fmt::print("gain {}, the largest that is safe with the process the table was made for\n",
-               gain_text(safe_gain(largest_gain)));
+    fmt::print(
+        "gain {}, the largest that is safe with the process the table was made for, every {:g} s\n",
+        gain_text(safe_gain(largest_gain)), options.period);
   }
   return kDone;
 }

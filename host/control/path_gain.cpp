@@ -61,4 +61,17 @@ GainBasis gain_basis(const FeedbackRange& feedback, const simulation::Process& p
           static_cast<float>(loop.delay)};
 }
 
+double largest_gain_in(const TableHeader& header, double period, double filter_cutoff) {
+  const auto stated = static_cast<double>(header.largest_gain);
+  GainBasis basis = flexcomp::gain_basis(header);
+  if (stated <= 0 || is_empty(basis)) {
+    return stated;
+  }
+  basis.period = static_cast<float>(period);
+  basis.filter_cutoff = static_cast<float>(filter_cutoff);
+  basis.delay = std::max(basis.delay, basis.period);
+  const GainLimit limit = gain_limit(basis);
+  return std::min(stated, limit.digs_in() ? GainLimit::kNone : limit.safe);
+}
+
 }  // namespace flexcomp::control

@@ -19,4 +19,9 @@ FeedbackRange feedback_along(const RobotModel<double, 6>& model, const recording
 GainBasis gain_basis(const FeedbackRange& feedback, const simulation::Process& process,
                      const CorrectionLoop& loop);
 
+/// The largest safe gain of a table in a controller of another period (s) and filter (Hz) than it
+/// was made for: at most what the table states, and zero where it states none. A table does not
+/// know the controller that it will run in.
+double largest_gain_in(const TableHeader& header, double period, double filter_cutoff);
+
 }  // namespace flexcomp::control

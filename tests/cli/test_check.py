@@ -113,6 +113,32 @@ class Check(Command):
                           table, "--config", config, exit_code=0)
         self.assertEqual([], [each for each in said if each["severity"] != "note"])
 
+    def test_the_table_that_a_configuration_names_is_read(self):
+        table, config = self.table(), self.folder / "node.toml"
+        self.run_well("configure", "--model", KR270, "--table", table, "--out", config)
+        elsewhere = self.folder / "elsewhere"
+        elsewhere.mkdir()
+        moved = elsewhere / "node.toml"
+        moved.write_text(config.read_text().replace(str(table), "t.fct"))
+        self.assertEqual(["config.table"], self.wrong("--model", KR270, "--config", moved))
+        (elsewhere / "t.fct").write_bytes(table.read_bytes())  # a relative one stands beside it
+        self.check("--model", KR270, "--config", moved, exit_code=0)
+        (elsewhere / "t.fct").write_bytes(table.read_bytes()[:500])
+        self.assertEqual(["config.table"], self.wrong("--model", KR270, "--config", moved))
+
+    def test_a_slower_controller_bears_less_gain(self):
+        table, config = self.folder / "t.fct", self.folder / "node.toml"
+        self.run_well("table", "--model", KR270, "--path", self.path, "--depth-of-cut", "0.0014", "--out", table)
+        self.run_well("configure", "--model", KR270, "--table", table, "--period", "0.02", "--out", config)
+        gain = float(re.search(r"^gain = ([0-9.]+)", config.read_text(), re.MULTILINE).group(1))
+        self.run_well("table", "--model", KR270, "--path", self.path, "--depth-of-cut", "0.0014", "--loop-period",
+                      "0.02", "--out", self.folder / "slow.fct")
+        slow = json.loads(self.run_well("table", "verify", self.folder / "slow.fct", "--model", KR270, "--json"))
+        self.assertAlmostEqual(slow["largest_gain"], gain, delta=1e-3)
+        self.check("--model", KR270, "--config", config, exit_code=0)
+        config.write_text(re.sub(r"(?m)^gain = .*", "gain = 1", config.read_text()))
+        self.assertEqual(["config.gain"], self.wrong("--model", KR270, "--config", config))
+
     def test_a_person_reads_what_is_wrong_and_what_to_do(self):
         in_mm = self.changed(self.recorded(), "mm.csv", **{axis: lambda v: 1000 * v for axis in "xyz"})
         done = flexcomp("check", "--model", KR270, "--recording", in_mm)

@@ -66,7 +66,8 @@ static bool await_answer(void) {
   return answered;
 }
 
-/* One period: what the drives are to follow, and the state of the compensator. */
+/* One period: what the drives are to follow, and the last state that was heard. A lost answer ends
+   nothing: the client holds the correction, and fades it out where answers cease. */
 static flexcomp_state_t cycle(const double q[FLEXCOMP_JOINTS], const double wrench[6],
                               double drives[FLEXCOMP_JOINTS]) {
   static int periods;
@@ -79,11 +80,11 @@ static flexcomp_state_t cycle(const double q[FLEXCOMP_JOINTS], const double wren
   send_frames();
   flexcomp_client_setpoint(&client, q, now(), &frames);
   send_frames();
-  const bool answered = await_answer();
+  await_answer();
   flexcomp_client_end_period(&client, q, drives);
   flexcomp_answer_t answer;
   flexcomp_client_answer(&client, &answer);
-  return answered ? answer.state : FLEXCOMP_STATE_OFF;
+  return answer.state;
 }
 
 /* One row of the path. Whether there was one. */
@@ -144,13 +145,15 @@ int main(int count, char** arguments) {
     state = cycle(q, wrench, drives);
     const double moved = drives[1] > q[1] ? drives[1] - q[1] : q[1] - drives[1];
     largest = moved > largest ? moved : largest;
-  } while (read_row(q, wrench) && state == FLEXCOMP_STATE_ACTIVE);
+  } while (read_row(q, wrench) && !flexcomp_client_is_lost(&client) &&
+           (state == FLEXCOMP_STATE_ACTIVE || state == FLEXCOMP_STATE_HOLDING));
   printf("%s; joint 2 was moved by up to %.0f urad\n", flexcomp_describe_state(state),
          1e6 * largest);
 
   flexcomp_client_command(&client, FLEXCOMP_COMMAND_DISARM, &frames);
   send_frames();
-  for (int i = 0; i < 1000 && cycle(q, wrench, drives) != FLEXCOMP_STATE_OFF; ++i) {
+  /* 200 periods are more than the node takes to fade, and more than the client does by itself. */
+  for (int i = 0; i < 200 && cycle(q, wrench, drives) != FLEXCOMP_STATE_OFF; ++i) {
   }
   close(bus);
   return state == FLEXCOMP_STATE_ACTIVE ? 0 : 1;
