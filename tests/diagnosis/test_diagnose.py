@@ -18,8 +18,6 @@ JOINTS = range(1, 7)
 NOISE = 1e-5  # m
 PERIOD = 0.01  # s
 SANITIZED = os.environ.get("FLEXCOMP_SANITIZED") == "ON"
-# The search for laws is as slow there; what it costs the release build shows.
-LAWS = ("--law-seconds", 5) if SANITIZED else ()
 TOO_SLOW = "motions take minutes in the sanitized build; the release build runs them"
 
 
@@ -131,7 +129,7 @@ class Diagnose(unittest.TestCase):
         return file
 
     def diagnosis(self, recording, model=ROBOT, options=()):
-        done = run("diagnose", "--model", model, "--recording", recording, "--out", self.out, *LAWS, *options)
+        done = run("diagnose", "--model", model, "--recording", recording, "--out", self.out, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads((self.out / "diagnosis.json").read_text())
 
