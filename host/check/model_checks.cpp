@@ -47,21 +47,20 @@ Checks check_springs(const model::Robot& robot) {
 }
 
 /// Base and tool under the weight of the arm.
-Checks check_structure(const model::Robot& robot) {
+Checks check_structure(const model::Robot& robot, const effects::MachineSize& size) {
   constexpr double kMostSag = 0.05;  // m
-  const double weight = effects::size_of(robot).weight;
   const std::pair<const char*, double> springs[] = {
       {"base_compliance", robot.elastic.base_compliance.head<3>().maxCoeff()},
       {"tool_compliance", robot.elastic.tool_compliance.head<3>().maxCoeff()}};
   Checks checks;
   for (const auto& [key, compliance] : springs) {
-    if (compliance * weight > kMostSag) {
+    if (compliance * size.weight > kMostSag) {
       checks.push_back(said_of_model(
           Severity::warning, "compliance.size", robot,
           fmt::format(
               "{}: {:g} m/N is unusually soft: the arm's own weight would move it by {:.2g} "
               "mm",
-              key, compliance, 1e3 * compliance * weight),
+              key, compliance, 1e3 * compliance * size.weight),
           "give compliance in m/N, three numbers, then in rad/(N·m), three"));
     }
   }
@@ -113,13 +112,13 @@ Checks check_tool_axis(const model::Robot& robot) {
       "give the tool with its turn, as tool: {xyz: [0.25, 0, 0], rpy: [0, 1.5707963, 0]}")};
 }
 
-Checks check_tool_size(const model::Robot& robot) {
+Checks check_tool_size(const model::Robot& robot, const effects::MachineSize& size) {
   constexpr double kLongest = 0.5;  // of the reach
   if (!robot.tool) {
     return {};
   }
   const double length = Vector3<double>(robot.tool->xyz.data()).norm();
-  if (length < kLongest * effects::size_of(robot).reach) {
+  if (length < kLongest * size.reach) {
     return {};
   }
   return {said_of_model(
@@ -131,16 +130,17 @@ Checks check_tool_size(const model::Robot& robot) {
 }
 
 /// Effects that the robot lists, far from what machines have.
-Checks check_effects(const model::Robot& robot) {
-  const effects::MachineSize size = effects::size_of(robot);
+Checks check_effects(const model::Robot& robot, const effects::MachineSize& size) {
   Checks checks;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
     const model::LearnedEffect& effect = robot.effects[i];
     const effects::LawPointer law = effects::find_law(effect.effect, effect.form);
+    if (!law) {
+      continue;  // a formula: its ranges are its writer's
+    }
     for (const auto& [name, value] : effect.parameters) {
-      const effects::Range range =
-          law ? effects::plausible_range(*law, robot, size, effect.joint, name) : effects::Range{};
-      if (law && (value < range.lower || value > range.upper)) {
+      const effects::Range range = effects::plausible_range(*law, robot, size, effect.joint, name);
+      if (value < range.lower || value > range.upper) {
         checks.push_back(said_of_model(
             Severity::warning, "effect.size", robot,
             fmt::format("effects[{}].{}: {:g} of {} lies beyond {:.3g} to {:.3g} ({})", i, name,
@@ -155,13 +155,13 @@ Checks check_effects(const model::Robot& robot) {
 }  // namespace
 
 Checks check_model(const model::Robot& robot) {
+  const effects::MachineSize size = effects::size_of(robot);
   Checks checks = check_springs(robot);
-  add(check_structure(robot), &checks);
+  add(check_structure(robot, size), &checks);
   add(check_gravity(robot), &checks);
   add(check_tool_axis(robot), &checks);
-  add(check_tool_size(robot), &checks);
-  add(check_effects(robot), &checks);
-  const effects::MachineSize size = effects::size_of(robot);
+  add(check_tool_size(robot, size), &checks);
+  add(check_effects(robot, size), &checks);
   if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
     checks.push_back(
         said_of_model(Severity::warning, "payload.size", robot,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "error.hpp"
+#include "model/whole_turn.hpp"
 
 namespace flexcomp::cli {
 
@@ -28,10 +29,9 @@ std::optional<Pose<double>> frame_of(const std::vector<double>& numbers) {
   if ((numbers.size() != 3 && numbers.size() != 6) || !is_finite) {
     throw InputError("--frame: expected x,y,z or x,y,z,roll,pitch,yaw");
   }
-  constexpr double kTurn = 6.29;  // rad, rounded up
-  constexpr double kFar = 50;     // m: no robot reaches a tenth of it
+  constexpr double kFar = 50;  // m: no robot reaches a tenth of it
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (std::abs(numbers[i]) > (i < 3 ? kFar : kTurn)) {
+    if (i < 3 ? std::abs(numbers[i]) > kFar : model::is_beyond_a_turn(numbers[i])) {
       throw InputError(fmt::format("--frame: expected {}, found {:g}", i < 3 ? "metres" : "radians",
                                    numbers[i]));
     }

@@ -50,12 +50,12 @@ const CLI::App* find_command(const CLI::App* app, const std::vector<std::string>
 }
 
 int show(const CLI::App* app, const std::vector<std::string>& words) {
-  const std::string effects = words.size() != 1            ? ""
-                              : words.front() == "effects" ? effects_help()
-                                                           : effects_help(words.front());
-  if (!effects.empty()) {
-    fmt::print("{}", effects);
-    return kDone;
+  if (words.size() == 1 && !words.front().empty()) {
+    const std::string effects = effects_help(words.front() == "effects" ? "" : words.front());
+    if (!effects.empty()) {
+      fmt::print("{}", effects);
+      return kDone;
+    }
   }
   std::string before;
   const CLI::App* command = find_command(app, words, &before);

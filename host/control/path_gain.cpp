@@ -70,8 +70,7 @@ double largest_gain_in(const TableHeader& header, double period, double filter_c
   basis.period = static_cast<float>(period);
   basis.filter_cutoff = static_cast<float>(filter_cutoff);
   basis.delay = std::max(basis.delay, basis.period);
-  const GainLimit limit = gain_limit(basis);
-  return std::min(stated, limit.digs_in() ? GainLimit::kNone : limit.safe);
+  return std::min(stated, gain_limit(basis).safe);
 }
 
 }  // namespace flexcomp::control

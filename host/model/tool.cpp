@@ -4,18 +4,17 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "files/one_line.hpp"
 #include "model/rigid_body.hpp"
 #include "model/robot.hpp"
+#include "model/whole_turn.hpp"
 #include "model/yaml_map.hpp"
 
 namespace flexcomp::model {
 namespace {
 
 constexpr const char* kToolsSchema = "flexcomp/tools/1";
-constexpr double kTurn = 6.29;  // rad, rounded up
 
 Matrix3<double> tensor(const std::array<double, 6>& inertia) {
   const auto& [xx, xy, xz, yy, yz, zz] = inertia;
@@ -56,7 +55,7 @@ Tool read_tool(const YamlMap& yaml) {
   tool.xyz = yaml.numbers<3>("xyz");
   tool.rpy = numbers_or_zero<3>(yaml, "rpy");
   for (const double angle : tool.rpy) {
-    if (std::abs(angle) > kTurn) {
+    if (is_beyond_a_turn(angle)) {
       yaml.refuse("rpy",
                   fmt::format("expected radians, found {:g}, which is more than a turn", angle));
     }

@@ -14,6 +14,7 @@
 #include "error.hpp"
 #include "files/one_line.hpp"
 #include "model/edit_distance.hpp"
+#include "model/whole_turn.hpp"
 
 namespace flexcomp::model {
 namespace {
@@ -29,8 +30,6 @@ const Names kInertialParts = {"origin", "mass", "inertia"};
 
 /// Elements that flexcomp reads, and that say nothing where they do not belong.
 const Names kRead = {"inertial", "origin", "mass", "inertia", "axis", "limit"};
-
-constexpr double kFullTurn = 6.283185307179586;
 
 bool contains(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -177,7 +176,7 @@ class ValueCheck {
       return;
     }
     for (const double angle : numbers(*origin, "rpy", 3)) {
-      if (std::abs(angle) > 1.001 * kFullTurn) {
+      if (is_beyond_a_turn(angle)) {
         fail(*origin, fmt::format("rpy: expected radians, found {:g}, more than a whole turn; are "
                                   "these degrees?",
                                   angle));

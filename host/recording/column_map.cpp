@@ -71,7 +71,7 @@ class Resolver {
   }
 
   /// From here on rules with * leave out the columns that have a rule.
-  void keep_single_rules() { single_ = sources_; }
+  void keep_single_rules() { single_ = sources_.size(); }
 
   const std::vector<Source>& sources() const { return sources_; }
 
@@ -105,9 +105,9 @@ class Resolver {
     while (joint < model::kMostJoints && find(with_number(source, first + joint))) {
       ++joint;
       const std::string own = with_number(target, joint);
-      const bool is_single = std::any_of(single_.begin(), single_.end(),
-                                         [&](const Source& each) { return each.target == own; });
-      if (!is_single) {
+      const auto end = sources_.begin() + static_cast<std::ptrdiff_t>(single_);
+      if (std::none_of(sources_.begin(), end,
+                       [&](const Source& each) { return each.target == own; })) {
         add_one(rule, own, with_number(source, first + joint - 1));
       }
     }
@@ -155,7 +155,7 @@ class Resolver {
 
   const ForeignTable& table_;
   std::vector<Source> sources_;
-  std::vector<Source> single_;  ///< those of rules without *
+  std::size_t single_ = 0;  ///< so many of them are of rules without *
 };
 
 int joints_of(const std::vector<Source>& sources) {

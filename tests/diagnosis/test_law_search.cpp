@@ -1,6 +1,7 @@
 // Laws that nobody listed within a whole diagnosis: beside effects of the catalogue, in their
 // place, and at joints that carry little.
 #include <random>
+#include <utility>
 
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/driven_robot.hpp"
@@ -33,6 +34,15 @@ Diagnosis diagnosed(Observations* observations) {
   return diagnose(observations, all_hypotheses(*observations), settings);
 }
 
+/// What is found of a robot whose drives have these torques besides.
+Diagnosis diagnosed_with(Torques torques) {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(adding(std::move(torques)));
+  Observations observations = robot.observed(truth);
+  return diagnosed(&observations);
+}
+
 /// The formula of the only law; empty unless there is one, at this joint.
 std::string law_at(const Diagnosis& found, int joint) {
   std::string formula;
@@ -60,33 +70,25 @@ Eigen::VectorXd hose(const simulation::Simulation& at) {
 /// What a law takes away is a thousandth of the torques' noise in all, and five times its own
 /// joint's.
 void a_law_at_a_quiet_joint_is_kept_beside_a_loud_one() {
-  const DrivenRobot robot;
-  simulation::Machine truth = robot.machine();
-  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+  const Diagnosis found = diagnosed_with([](const simulation::Simulation& at) {
     Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> noise(-2100, 2100);
     torques.col(0) = torques.col(0).unaryExpr([&](double) { return noise(random); });
     torques.col(4) = hose(at);
     return torques;
-  }));
-  Observations observations = robot.observed(truth);
-  const Diagnosis found = diagnosed(&observations);
+  });
   TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
   TEST_ASSERT_EQUAL_STRING("a*sin(3*q4) + b*cos(3*q4)", law_at(found, 5).c_str());
 }
 
 void a_law_is_found_beside_an_effect() {
-  const DrivenRobot robot;
-  simulation::Machine truth = robot.machine();
-  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+  const Diagnosis found = diagnosed_with([](const simulation::Simulation& at) {
     Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
     torques.col(1) = 25 * at.velocity.col(1).cwiseSign();
     torques.col(4) = hose(at);
     return torques;
-  }));
-  Observations observations = robot.observed(truth);
-  const Diagnosis found = diagnosed(&observations);
+  });
   TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
   TEST_ASSERT_EQUAL_UINT64(2, found.choice.findings.size());
   TEST_ASSERT_TRUE(has(found, "coulomb_friction", 2));
@@ -115,15 +117,11 @@ void an_effect_that_stands_for_a_law_gives_way_to_it() {
 /// Ripple that another joint swells so little that ripple of the catalogue leaves hardly more than
 /// noise.
 void an_effect_that_hides_a_law_gives_way_to_it() {
-  const DrivenRobot robot;
-  simulation::Machine truth = robot.machine();
-  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+  const Diagnosis found = diagnosed_with([](const simulation::Simulation& at) {
     Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
     torques.col(3) = 24 * (13 * at.q.col(3).array()).sin() * (1 + 0.4 * at.q.col(0).array());
     return torques;
-  }));
-  Observations observations = robot.observed(truth);
-  const Diagnosis found = diagnosed(&observations);
+  });
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
   const std::string formula = law_at(found, 4);
   TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q4)*q1") != std::string::npos, formula.c_str());
@@ -132,15 +130,11 @@ void an_effect_that_hides_a_law_gives_way_to_it() {
 /// Friction of several hundred times the noise bends by a little of it: a real machine's always
 /// does.
 void an_effect_stays_where_a_law_gains_next_to_nothing() {
-  const DrivenRobot robot;
-  simulation::Machine truth = robot.machine();
-  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+  const Diagnosis found = diagnosed_with([](const simulation::Simulation& at) {
     Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
     torques.col(4) = 16000 * (at.velocity.col(4).array() / 8).tanh();
     return torques;
-  }));
-  Observations observations = robot.observed(truth);
-  const Diagnosis found = diagnosed(&observations);
+  });
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
   TEST_ASSERT_TRUE(has(found, "viscous_friction", 5));
 }
@@ -165,16 +159,12 @@ void the_constant_of_a_law_keeps_its_name() {
 /// Ripple that another joint turns round, beside a zero at a third one: while that is off, ripple
 /// of the catalogue is hardly worse than the law.
 void an_effect_gives_way_to_a_law_that_another_joint_hid() {
-  const DrivenRobot robot;
-  simulation::Machine truth = robot.machine();
-  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+  const Diagnosis found = diagnosed_with([](const simulation::Simulation& at) {
     Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
     torques.col(3) = 24 * (13 * at.q.col(3).array()).sin() * (1 + 0.4 * at.q.col(0).array());
     torques.col(4).setConstant(10);
     return torques;
-  }));
-  Observations observations = robot.observed(truth);
-  const Diagnosis found = diagnosed(&observations);
+  });
   TEST_ASSERT_EQUAL_UINT64(2, found.choice.findings.size());
   TEST_ASSERT_TRUE(has(found, "torque_offset", 5));
   const std::string formula = law_at(found, 4);
@@ -183,15 +173,11 @@ void an_effect_gives_way_to_a_law_that_another_joint_hid() {
 
 /// A stop near the end of a joint's travel, which a balancer imitates by twice as many numbers.
 void a_law_is_told_where_a_rare_effect_needs_more_numbers() {
-  const DrivenRobot robot;
-  simulation::Machine truth = robot.machine();
-  truth.terms.push_back(adding([](const simulation::Simulation& at) {
+  const Diagnosis found = diagnosed_with([](const simulation::Simulation& at) {
     Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
     torques.col(1) = 60 * (-1.1 - at.q.col(1).array()).max(0);
     return torques;
-  }));
-  Observations observations = robot.observed(truth);
-  const Diagnosis found = diagnosed(&observations);
+  });
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
   TEST_ASSERT_EQUAL_STRING("a*(d - q2)*step(d - q2)", law_at(found, 2).c_str());
 }

@@ -278,7 +278,6 @@ std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bo
 /// Is a factor by itself fitted already, as the zero of a torque is? A constant beside it serves
 /// while laws are compared, where nothing is fitted anew, and says nothing then.
 bool is_fitted(const Lead& lead) {
-  constexpr double kApart = 1e-4;  // of a square: a hundredth of the course, less is rounding
   const Seat& seat = *lead.seat;
   const Eigen::VectorXd course = lead.factor.course.size() > 0
                                      ? lead.factor.course

@@ -54,7 +54,6 @@ double Normal::gain(const Eigen::VectorXd& amplitude) const {
 }
 
 Normal beside(Eigen::MatrixXd gram, const Eigen::MatrixXd& shown, Eigen::VectorXd moment) {
-  constexpr double kApart = 1e-4;  // of a square: a hundredth of the course, less is rounding
   const Eigen::VectorXd least = kApart * gram.diagonal();
   gram -= shown.transpose() * shown;
   gram.diagonal() += least;

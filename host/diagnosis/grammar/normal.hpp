@@ -6,6 +6,10 @@
 
 namespace flexcomp::diagnosis::grammar {
 
+/// Part of a course's square by which it must be apart from what is fitted: a hundredth of the
+/// course, less is rounding.
+constexpr double kApart = 1e-4;
+
 /// Normal equations of courses (rows × terms) at a seat.
 struct Normal {
   Eigen::MatrixXd gram;    ///< terms × terms
