@@ -218,6 +218,10 @@ flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
   return FLEXCOMP_OK;
 }
 
+const char* flexcomp_config_unusable_member(const flexcomp_config_t* config) {
+  return config == nullptr ? nullptr : flexcomp::unusable_member(convert(*config));
+}
+
 flexcomp_result_t flexcomp_compensator_init(flexcomp_compensator_t* compensator,
                                             const flexcomp_config_t* config) {
   if (compensator == nullptr || config == nullptr) {

@@ -21,12 +21,6 @@
 namespace flexcomp {
 namespace {
 
-/// A positive number whose square is one, too.
-template <typename Scalar>
-bool is_range(Scalar value) {
-  return is_positive(value) && is_positive(value * value);
-}
-
 template <typename Scalar>
 bool is_fresh(Scalar age, Scalar limit) {
   return age >= Scalar(0) && age <= limit;
@@ -36,12 +30,10 @@ std::uint32_t bit_if(bool condition, StatusBit bit) {
   return condition ? static_cast<std::uint32_t>(bit) : 0U;
 }
 
-/// Periods in a time, rounded up; `valid` turns false where that is more than `most`.
+/// Periods in a time, rounded up.
 template <typename Scalar>
-std::uint32_t periods(Scalar time, Scalar period, Scalar most, bool* valid) {
-  const Scalar count = std::ceil(time / period);
-  *valid = *valid && count >= Scalar(0) && count <= most;
-  return *valid ? static_cast<std::uint32_t>(count) : 0U;
+std::uint32_t periods(Scalar time, Scalar period) {
+  return static_cast<std::uint32_t>(std::ceil(time / period));
 }
 
 }  // namespace
@@ -49,32 +41,18 @@ std::uint32_t periods(Scalar time, Scalar period, Scalar most, bool* valid) {
 template <typename Scalar, int Joints>
 Result Compensator<Scalar, Joints>::configure(const Config& config) {
   constexpr Scalar kTwoPi = Scalar(6.283185307179586);
-  constexpr Scalar kMostHoldTicks = Scalar(1e9);  // what a counter holds
-  // Steps much smaller than this would be lost to the rounding of a float near 1: no fade would
-  // end.
-  constexpr Scalar kMostFadeTicks = Scalar(1e6);
-  bool valid = is_positive(config.period) && is_positive(config.gain) && config.gain <= Scalar(1) &&
-               std::isfinite(config.filter_cutoff) && config.filter_cutoff >= Scalar(0) &&
-               is_range(config.force_range) && is_range(config.moment_range) &&
-               is_positive(config.setpoint_age_limit) && is_positive(config.wrench_age_limit) &&
-               PackedSix<Scalar>(config.joint_speed).is_finite() &&
-               config.joint_speed.minCoeff() > Scalar(0) && is_positive(config.deflection_limit) &&
-               is_positive(config.chart_margin);
-  const std::uint32_t hold_ticks = periods(config.hold_time, config.period, kMostHoldTicks, &valid);
-  const std::uint32_t fade_ticks = periods(config.fade_time, config.period, kMostFadeTicks, &valid);
-  JointGuards<Scalar, Joints> guards;
-  if (!valid || guards.configure(config.limits, config.period) != Result::ok) {
+  if (unusable_member(config) != nullptr) {
     return Result::bad_config;
   }
   *this = Compensator();
   config_ = config;
-  guards_ = guards;
-  hold_ticks_ = hold_ticks;
+  hold_ticks_ = periods(config.hold_time, config.period);
+  const std::uint32_t fade_ticks = periods(config.fade_time, config.period);
   fade_step_ = Scalar(1) / static_cast<Scalar>(fade_ticks > 0 ? fade_ticks : 1);
   filter_share_ = config.filter_cutoff > Scalar(0)
                       ? -std::expm1(-kTwoPi * config.filter_cutoff * config.period)
                       : Scalar(1);
-  return Result::ok;
+  return guards_.configure(config.limits, config.period);
 }
 
 template <typename Scalar, int Joints>

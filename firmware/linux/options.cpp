@@ -1,6 +1,7 @@
 #include "linux/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -189,10 +190,18 @@ void check_alone(const Options& options) {
   }
 }
 
+/// The option by which a node refuses numbers that are each in their range.
+std::string refused_option(const NodeConfig& config) {
+  const char* member = unusable_member(config.compensator);
+  std::string name = member == nullptr ? "heartbeat" : member;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name == "limits" ? "--correction-limit, -rate or -acceleration" : "--" + name;
+}
+
 /// Do the options make sense together?
 void check_together(const Options& options) {
   if (!is_usable(options.settings.node)) {
-    throw CLI::ValidationError("configuration", describe(Result::bad_config));
+    throw CLI::ValidationError(refused_option(options.settings.node), describe(Result::bad_config));
   }
   if (!options.settings_out.empty()) {
     return;  // the microcontroller has its own bus

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "check/arm.hpp"
 #include "control/path_gain.hpp"
@@ -39,6 +41,38 @@ Checks check_against_robot(const std::string& file, const Config& config,
                                                   : "jumps of the setpoint would pass"),
                         "set it a little above the robot's limit; flexcomp configure does"});
     }
+  }
+  return checks;
+}
+
+/// Times of the node against its period: what a single message that is late or lost does.
+Checks check_times(const std::string& file, const Config& config) {
+  Checks checks;
+  const auto warn = [&](const std::string& what, const std::string& fix) {
+    checks.push_back(
+        {Severity::warning, "config", "config.times", fmt::format("{}: {}", file, what), fix});
+  };
+  const float ms = 1000 * config.period;
+  for (const auto& [name, limit] : {std::pair{"setpoint", config.setpoint_age_limit},
+                                    std::pair{"wrench", config.wrench_age_limit}}) {
+    if (limit < config.period) {
+      warn(fmt::format("{}-age-limit is {:.4g} ms, less than the period of {:.4g} ms: a {} of the "
+                       "period before counts as stale",
+                       name, 1000 * limit, ms, name),
+           "set it to a few periods");
+    }
+  }
+  if (config.hold_time < config.period) {
+    warn(fmt::format("hold-time is {:.4g} ms, less than the period of {:.4g} ms: a single bad tick "
+                     "ends the correction",
+                     1000 * config.hold_time, ms),
+         "set it to as long as a fault may last");
+  }
+  if (config.filter_cutoff * config.period > 0.5F) {
+    warn(fmt::format("filter-cutoff is {:.4g} Hz; what comes every {:.4g} ms has nothing above "
+                     "{:.4g} Hz, so that it filters little",
+                     config.filter_cutoff, ms, 0.5F / config.period),
+         "lower it, or set it to 0 for no filter");
   }
   return checks;
 }
@@ -109,7 +143,7 @@ Checks check_axes(const std::string& file, const RsiOptions& rsi, const model::R
 Checks check_config(const std::string& file, const Options& options, const model::Robot* robot,
                     const Table* table) {
   const Config& config = options.settings.node.compensator;
-  Checks checks;
+  Checks checks = check_times(file, config);
   if (robot != nullptr && model::six_axis_model(robot->elastic)) {
     add(check_against_robot(file, config, *robot), &checks);
     if (!options.rsi.address.empty()) {

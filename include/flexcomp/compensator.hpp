@@ -72,6 +72,11 @@ struct CompensatorConfig {
   std::uint32_t ready_ticks = 10;  ///< good inputs in a row before it may be armed
 };
 
+/// The first number that no compensator takes, by its member's name ("limits" for any joint's);
+/// null where it takes all.
+template <typename Scalar, int Joints>
+const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config);
+
 /// Input of one tick.
 template <typename Scalar, int Joints>
 struct CompensatorInput {
@@ -121,7 +126,8 @@ class Compensator {
   using Input = CompensatorInput<Scalar, Joints>;    ///< one for each tick
   using Output = CompensatorOutput<Scalar, Joints>;  ///< one for each tick
 
-  /// Takes a configuration and forgets all that was. Returns ok or bad_config.
+  /// Takes a configuration and forgets all that was. Returns ok or bad_config
+  /// (`unusable_member`).
   Result configure(const Config& config);
 
   /// Gives it a table, which must outlive its use. Between ticks, in any state: the correction

@@ -302,7 +302,12 @@ typedef struct flexcomp_compensator {
 #endif
 } flexcomp_compensator_t;
 
-/// Takes a configuration and begins in FLEXCOMP_STATE_OFF. FLEXCOMP_OK, BAD_ARGUMENT or BAD_CONFIG.
+/// The first number of a configuration that no compensator takes, by its member's name, for example
+/// "hold_time" ("limits" for any joint's); null where it takes all, or without a configuration.
+const char* flexcomp_config_unusable_member(const flexcomp_config_t* config);
+
+/// Takes a configuration and begins in FLEXCOMP_STATE_OFF. FLEXCOMP_OK, BAD_ARGUMENT or BAD_CONFIG
+/// (`flexcomp_config_unusable_member` says which number).
 flexcomp_result_t flexcomp_compensator_init(flexcomp_compensator_t* compensator,
                                             const flexcomp_config_t* config);
 

@@ -180,6 +180,17 @@ class Check(Command):
         self.assertEqual(["process.unstable"],
                          self.wrong("--model", KR270, "--path", self.path, "--depth-of-cut", "1e-4"))
 
+    def test_times_that_one_late_message_upsets(self):
+        config = self.folder / "node.toml"
+        self.run_well("configure", "--model", KR270, "--table", self.table(), "--out", config)
+        usual = config.read_text()
+        for name, value in (("setpoint-age-limit", 0.003), ("wrench-age-limit", 0.001), ("hold-time", 0.002),
+                            ("filter-cutoff", 200)):  # of a node with a period of 4 ms
+            config.write_text(f"{usual}\n{name} = {value}\n")
+            self.assertIn("config.times", self.wrong("--model", KR270, "--config", config), name)
+        config.write_text(usual)
+        self.check("--model", KR270, "--config", config, exit_code=0)
+
     def test_a_table_and_a_configuration_of_another_robot(self):
         table = self.table()
         config = self.folder / "node.toml"

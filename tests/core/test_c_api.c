@@ -265,6 +265,38 @@ static void numbers_that_are_not_finite_are_refused(void) {
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_CONFIG, flexcomp_compensator_init(&compensator, &config));
 }
 
+static void a_number_that_is_refused_is_named(void) {
+  flexcomp_model_t model = two_arms();
+  flexcomp_config_t config = good_config(&model);
+  TEST_ASSERT_NULL(flexcomp_config_unusable_member(&config));
+  TEST_ASSERT_NULL(flexcomp_config_unusable_member(NULL));
+  struct {
+    float* number;
+    float bad;
+    const char* name;
+  } members[] = {{&config.period, 0, "period"},
+                 {&config.gain, 1.5f, "gain"},
+                 {&config.filter_cutoff, -1, "filter_cutoff"},
+                 {&config.force_range, 0, "force_range"},
+                 {&config.moment_range, 1e30f, "moment_range"},
+                 {&config.setpoint_age_limit, NAN, "setpoint_age_limit"},
+                 {&config.wrench_age_limit, 0, "wrench_age_limit"},
+                 {&config.joint_speed[4], 0, "joint_speed"},
+                 {&config.deflection_limit, -1, "deflection_limit"},
+                 {&config.chart_margin, INFINITY, "chart_margin"},
+                 {&config.hold_time, 2e6f, "hold_time"},
+                 {&config.fade_time, 2e3f, "fade_time"},
+                 {&config.limits[5].rate, 0, "limits"}};
+  for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+    const float good = *members[i].number;
+    *members[i].number = members[i].bad;
+    flexcomp_compensator_t compensator;
+    TEST_ASSERT_EQUAL(FLEXCOMP_BAD_CONFIG, flexcomp_compensator_init(&compensator, &config));
+    TEST_ASSERT_EQUAL_STRING(members[i].name, flexcomp_config_unusable_member(&config));
+    *members[i].number = good;
+  }
+}
+
 static void everything_has_words(void) {
   TEST_ASSERT_EQUAL_STRING("ok", flexcomp_describe_result(FLEXCOMP_OK));
   TEST_ASSERT_EQUAL_STRING("active", flexcomp_describe_state(FLEXCOMP_STATE_ACTIVE));
@@ -282,6 +314,7 @@ int main(void) {
   RUN_TEST(a_loop_corrects_fades_and_resets);
   RUN_TEST(null_pointers_are_refused);
   RUN_TEST(numbers_that_are_not_finite_are_refused);
+  RUN_TEST(a_number_that_is_refused_is_named);
   RUN_TEST(everything_has_words);
   return UNITY_END();
 }

@@ -28,9 +28,9 @@ using Words = std::vector<std::uint32_t>;
 
 /// A process, and the gain that is safe with it: above a third, below one.
 constexpr GainBasis kProcess{-0.0002F, 0.0012F, 0.002F, 0.004F, 60, 0.004F};
-constexpr std::uint32_t kOneIn = FLEXCOMP_FEW_CASES ? 5 : 1;  // parts of a record
-constexpr int kAngles = FLEXCOMP_FEW_CASES ? 300 : 3000;      // tried about the chords of a table
-constexpr int kSteps = FLEXCOMP_FEW_CASES ? 15 : 40;          // of a program: a check takes all
+constexpr std::uint32_t kOneIn = FLEXCOMP_FEW_CASES ? 11 : 1;  // parts of a record
+constexpr int kAngles = FLEXCOMP_FEW_CASES ? 300 : 3000;       // tried about the chords of a table
+constexpr int kSteps = FLEXCOMP_FEW_CASES ? 15 : 40;           // of a program: a check takes all
 constexpr double kTolerance = FLEXCOMP_FEW_CASES ? 4e-5 : 1e-5;  // m, rad
 constexpr float kLastPlace = 1e-7F;  // m or rad: what a unit in the last place of an angle can do
 constexpr std::size_t kHeaderWords = sizeof(TableHeader) / 4;

@@ -327,7 +327,7 @@ class Arguments(HilTest):
         self.refuse(*good, "--can", "lo", "--fd", saying="lo")
         self.refuse(*good, "--can", BUS, "--period", "-1", saying="--period")
         self.refuse(*good, "--can", BUS, "--joint-speed", "1,2,3", saying="--joint-speed")
-        self.refuse(*good, "--can", BUS, "--gain", "0", saying="configuration")
+        self.refuse(*good, "--can", BUS, "--gain", "0", saying="--gain: a number of the configuration")
         self.refuse(*good, "--can", BUS, "--table", "/no/such.fct", saying="/no/such.fct")
         self.refuse(*good, "--can", BUS, "--table", text, saying="not a flexcomp table")
         self.refuse(*good, "--can", BUS, "--table", "/dev/null", saying="/dev/null")

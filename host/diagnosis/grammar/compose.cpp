@@ -288,9 +288,8 @@ bool is_fitted(const Lead& lead) {
 
 /// A law without a constant that is fitted already.
 Composed without_fitted_constant(const Material& material, Composed law) {
-  return law.form.has_constant && is_fitted(law.lead)
-             ? composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters)
-             : std::move(law);
+  return law.form.has_constant && is_fitted(law.lead) ? without_constant(material, law)
+                                                      : std::move(law);
 }
 
 /// Before each law with a second driver the law without: what a second driver gains by these rough
@@ -308,6 +307,10 @@ std::vector<Composed> after_plain(const Material& material, std::vector<Composed
 }
 
 }  // namespace
+
+Composed without_constant(const Material& material, const Composed& law) {
+  return composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters);
+}
 
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at) {

@@ -55,4 +55,7 @@ struct Composed {
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at);
 
+/// A law with its other terms alone.
+Composed without_constant(const Material& material, const Composed& law);
+
 }  // namespace flexcomp::diagnosis::grammar

@@ -38,12 +38,21 @@ WithLaw with_law(const Inquiry& inquiry, const Material& material, const Fit& be
   std::size_t looked_at = inquiry.dictionary.entries.size();
   const std::vector<Lead> leads = screen(material, seats, &looked_at);
   WithLaw best;
-  for (const Composed& law : compose(material, leads, effects_of(inquiry), &looked_at)) {
+  const auto try_one = [&](const Composed& law) {
     Fit grown = fit_with(inquiry, before, chosen_of(observations, law), kSteps);
     const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
     if (holds(inquiry, evidence) && evidence.share > kLeastLawShare &&
         (best.fit.chosen.empty() || bic_gain(observations, best.fit, grown) > kStrongEvidence)) {
       best = {std::move(grown), law.form.has_constant ? constant_as(law.lead) : ""};
+    } else if (law.form.has_constant && evidence.confirmation < kConfirmed) {
+      return true;
+    }
+    return false;
+  };
+  for (const Composed& law : compose(material, leads, effects_of(inquiry), &looked_at)) {
+    // A constant may be of the one stretch that was fitted to.
+    if (try_one(law)) {
+      try_one(without_constant(material, law));
     }
   }
   return best;

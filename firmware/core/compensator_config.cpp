@@ -1,0 +1,68 @@
+#include <array>
+#include <cmath>
+
+#include "checked_number.hpp"
+#include "flexcomp/compensator.hpp"
+#include "instantiate.hpp"
+#include "packed_six.hpp"
+
+namespace flexcomp {
+namespace {
+
+/// A positive number whose square is one, too.
+template <typename Scalar>
+bool is_range(Scalar value) {
+  return is_positive(value) && is_positive(value * value);
+}
+
+/// Is a time at least zero, and at most so many periods?
+template <typename Scalar>
+bool lasts(Scalar time, Scalar period, Scalar most) {
+  const Scalar count = std::ceil(time / period);
+  return count >= Scalar(0) && count <= most;
+}
+
+struct Member {
+  bool is_usable;
+  const char* name;
+};
+
+}  // namespace
+
+template <typename Scalar, int Joints>
+const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config) {
+  constexpr Scalar kMostHoldTicks = Scalar(1e9);  // what a counter holds
+  // Steps much smaller than this would be lost to the rounding of a float near 1: no fade would
+  // end.
+  constexpr Scalar kMostFadeTicks = Scalar(1e6);
+  JointGuards<Scalar, Joints> guards;
+  const std::array<Member, 13> members = {{
+      {is_positive(config.period), "period"},
+      {is_positive(config.gain) && config.gain <= Scalar(1), "gain"},
+      {std::isfinite(config.filter_cutoff) && config.filter_cutoff >= Scalar(0), "filter_cutoff"},
+      {is_range(config.force_range), "force_range"},
+      {is_range(config.moment_range), "moment_range"},
+      {is_positive(config.setpoint_age_limit), "setpoint_age_limit"},
+      {is_positive(config.wrench_age_limit), "wrench_age_limit"},
+      {PackedSix<Scalar>(config.joint_speed).is_finite() &&
+           config.joint_speed.minCoeff() > Scalar(0),
+       "joint_speed"},
+      {is_positive(config.deflection_limit), "deflection_limit"},
+      {is_positive(config.chart_margin), "chart_margin"},
+      {lasts(config.hold_time, config.period, kMostHoldTicks), "hold_time"},
+      {lasts(config.fade_time, config.period, kMostFadeTicks), "fade_time"},
+      {guards.configure(config.limits, config.period) == Result::ok, "limits"},
+  }};
+  for (const Member& member : members) {
+    if (!member.is_usable) {
+      return member.name;
+    }
+  }
+  return nullptr;
+}
+
+#define FLEXCOMP_UNUSABLE_MEMBER(Scalar, Joints) \
+  template const char* unusable_member(const CompensatorConfig<Scalar, Joints>&);
+FLEXCOMP_INSTANTIATE(FLEXCOMP_UNUSABLE_MEMBER)
+
+}  // namespace flexcomp
