@@ -12,6 +12,9 @@
 namespace flexcomp::diagnosis {
 namespace {
 
+/// Times the noise: single samples beyond are gross errors, which count no more than that.
+constexpr double kGross = 30;
+
 /// Deviations: of normally distributed samples 0.3 % weigh less than one.
 constexpr double kHuber = 3;
 /// Such a change moves the BIC of 10,000 samples by 0.001.
@@ -156,6 +159,38 @@ Eigen::VectorXd fit_and_predict(const Eigen::VectorXd& to_fit, int most_steps, b
   return evaluator->evaluate(evaluator->values(), derivative);
 }
 
+/// Moves the prediction of one scene along an effect to where it fits best.
+void fit_scene(const Observations& observations, std::size_t scene, const Eigen::VectorXd& measured,
+               const Eigen::VectorXd& effect, Eigen::VectorXd* predicted) {
+  std::vector<Eigen::Index> own;
+  double product = 0;
+  double square = 0;
+  for (Eigen::Index i = observations.train; i < observations.size(); ++i) {
+    if (observations.samples[static_cast<std::size_t>(i)].scene == scene) {
+      own.push_back(i);
+      product += effect[i] * std::clamp(measured[i] - (*predicted)[i], -kGross, kGross);
+      square += effect[i] * effect[i];
+    }
+  }
+  for (const Eigen::Index i : own) {
+    (*predicted)[i] += square > 0 ? effect[i] * product / square : 0;
+  }
+}
+
+/// A recording that is held out began elsewhere: what lags begins there as fits it, which says
+/// nothing of the machine.
+void begin_held_out_anew(const Observations& observations, const Evaluator& evaluator,
+                         const Eigen::VectorXd& measured, const Eigen::MatrixXd& derivative,
+                         Eigen::VectorXd* predicted) {
+  for (std::size_t at = 0; at < evaluator.size(); ++at) {
+    for (std::size_t scene = observations.train_scenes;
+         evaluator.parameter(at).is_of_recording && scene < observations.scenes.size(); ++scene) {
+      fit_scene(observations, scene, measured, derivative.col(static_cast<Eigen::Index>(at)),
+                predicted);
+    }
+  }
+}
+
 std::vector<effects::Placed> placed_of(const std::vector<Chosen>& chosen) {
   std::vector<effects::Placed> placed;
   placed.reserve(chosen.size());
@@ -227,6 +262,7 @@ Fit fit(const Observations& observations, std::vector<Chosen> start, int most_st
     const bool scans = dictionary == nullptr && most_steps > 0;
     predicted =
         fit_and_predict(measured.head(n), most_steps, scans, &evaluator, &result.derivative);
+    begin_held_out_anew(observations, evaluator, measured, result.derivative, &predicted);
   }
   result.chosen = evaluator.chosen();
   result.machine = machine_with(observations, result.chosen);

@@ -73,6 +73,9 @@ std::vector<Estimate> estimates(const Observations& observations, const Chosen& 
   }
   for (std::size_t at = is_wave ? 2 : 0; at < values.size(); ++at) {
     const Parameter& parameter = hypothesis.parameters[at];
+    if (parameter.is_of_recording) {
+      continue;
+    }
     const bool is_told = at < hypothesis.linear || is_shape_told;
     all.push_back({parameter.name, parameter.unit, values[at],
                    is_told ? deviation_at(hypothesis, values, covariance, at) : kUnknown, at});

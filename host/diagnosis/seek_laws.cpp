@@ -48,7 +48,7 @@ bool take_the_place(const Inquiry& inquiry, const Diagnosis& before, const Choic
   const double gain = bic_gain(inquiry.observations, found, laws.fit);
   const bool are_fewer = laws.findings.size() < before.choice.findings.size();
   if (are_fewer || are_plainer(laws, before.choice)) {
-    return gain > (are_fewer ? kIndifferent : kStrongEvidence) &&
+    return gain > (are_fewer ? -kIndifferent : kStrongEvidence) &&
            confirmation_of(inquiry.observations, found.remainder, laws.fit.remainder) > -kConfirmed;
   }
   const double needed = is_open(before) ? kStrongEvidence : kFarMoreEvidence;
@@ -100,7 +100,7 @@ void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diag
   const Observations& observations = inquiry.observations;
   grammar::Budget budget(settings.law_seconds);
   const bool is_of_families = !diagnosis->choice.begun.chosen.empty();
-  const Diagnosis afresh =
+  Diagnosis afresh =
       with_laws(inquiry, *diagnosis,
                 grammar::choose_laws(inquiry, inquiry.given, &budget, settings.choosing));
   if (is_open(afresh) && !is_of_families && !diagnosis->choice.findings.empty()) {
@@ -109,7 +109,9 @@ void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diag
                   grammar::choose_laws(inquiry, diagnosis->choice.fit, &budget, settings.choosing));
   }
   if (!is_of_families || !is_open(afresh)) {
-    *diagnosis = better_of(observations, *diagnosis, afresh);
+    *diagnosis = grammar::has_law(diagnosis->choice)
+                     ? better_of(observations, *diagnosis, std::move(afresh))
+                     : std::move(afresh);
   }
   diagnosis->laws_stopped = budget.has_stopped();
 }

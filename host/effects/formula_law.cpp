@@ -145,7 +145,10 @@ void list_parameters(const std::vector<std::string>& units, BoundFormula* bound)
 class Along {
  public:
   Along(const BoundFormula& bound, const Values& parameters, Unvalued unvalued)
-      : bound_(bound), unvalued_(unvalued), values_(bound.signals.size(), 0) {
+      : bound_(bound),
+        unvalued_(unvalued),
+        ahead_(bound.has_beginning ? parameters.back() : 0),
+        values_(bound.signals.size(), 0) {
     for (std::size_t i = 0; i < values_.size(); ++i) {
       if (!bound_.signals[i]) {
         values_[i] = parameters[bound_.parameter[i]];
@@ -170,7 +173,7 @@ class Along {
 
  private:
   Eigen::VectorXd computed(const Scene& scene, const Eigen::MatrixXd& signals) const {
-    formula::Course course(bound_.formula);
+    formula::Course course(bound_.formula, ahead_);
     Eigen::VectorXd all(scene.rows());
     std::vector<double> row(values_.size());
     for (Eigen::Index i = 0; i < all.size(); ++i) {
@@ -186,6 +189,7 @@ class Along {
 
   const BoundFormula& bound_;
   Unvalued unvalued_;
+  double ahead_;                ///< by how much what lags begins above its input
   std::vector<double> values_;  ///< of the names; zero where they are signals
 };
 
@@ -250,6 +254,12 @@ BoundFormula bind_law(const model::WrittenLaw& written, const model::Robot& robo
     bound.signals.push_back(find_signal(robot, name));
   }
   list_parameters(units_of(bound, robot), &bound);
+  return bound;
+}
+
+BoundFormula with_beginning(BoundFormula bound, const std::string& unit) {
+  bound.parameters.push_back({"beginning", unit, true});
+  bound.has_beginning = true;
   return bound;
 }
 

@@ -21,6 +21,8 @@ struct BoundFormula {
   /// The parameters, those that act in proportion first.
   std::vector<Parameter> parameters;
   std::size_t in_proportion = 0;
+  /// Is the last parameter by how much what lags began above its input? Else it had caught up.
+  bool has_beginning = false;
 
   /// Does it name a signal of this kind?
   bool follows(SignalKind kind) const;
@@ -33,6 +35,9 @@ struct BoundFormula {
 /// is unknown, a formula that cannot be read, and units that disagree.
 BoundFormula bind_law(const model::WrittenLaw& written, const model::Robot& robot, int joint,
                       const std::vector<std::string>& parameters);
+
+/// The same with one parameter more: how far ahead of its input (in this unit) what lags begins.
+BoundFormula with_beginning(BoundFormula bound, const std::string& unit);
 
 /// How a formula is taken that has no value somewhere (a division by zero): a machine that is
 /// believed to have it cannot be simulated, and one that is only tried is not like the recording.

@@ -26,6 +26,7 @@ using Values = std::vector<double>;
 struct Parameter {
   std::string name;
   std::string unit;
+  bool is_of_recording = false;  ///< no number of the machine: it says how a recording began
 };
 
 /// A number that follows from one parameter, and is as uncertain: a spring's whole compliance.

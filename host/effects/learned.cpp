@@ -126,7 +126,9 @@ model::LearnedEffect entry_of(const model::Robot& robot, const Placed& placed) {
   }
   const std::vector<Parameter> parameters = placed.law->parameters(robot, placed.joint);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    entry.parameters[parameters[i].name] = placed.values[i];
+    if (!parameters[i].is_of_recording) {
+      entry.parameters[parameters[i].name] = placed.values[i];
+    }
   }
   return entry;
 }

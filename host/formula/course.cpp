@@ -7,8 +7,9 @@
 
 namespace flexcomp::formula {
 
-Course::Course(const Formula& formula)
+Course::Course(const Formula& formula, double ahead)
     : nodes_(&formula.nodes()),
+      ahead_(ahead),
       now_(nodes_->size(), 0),
       memory_(nodes_->size(), 0),
       input_(nodes_->size(), 0) {}
@@ -57,7 +58,8 @@ double Course::lagging(std::size_t at, double input, double constant, double ste
   const double share = lags ? std::exp(-step / constant) : 0;
   const double slope = lags ? (input - input_[at]) / step : 0;
   const double behind = slope * std::max(constant, 0.0);
-  memory_[at] = lags ? input - behind + (memory_[at] - input_[at] + behind) * share : input;
+  const double begun = has_begun_ ? input : input + ahead_;
+  memory_[at] = lags ? input - behind + (memory_[at] - input_[at] + behind) * share : begun;
   input_[at] = input;
   return memory_[at];
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <numeric>
 #include <random>
 #include <vector>
 
 #include "diagnosis/swinging_robot.hpp"
+#include "recording/sampling.hpp"
 
 namespace flexcomp::test {
 
@@ -29,6 +31,25 @@ struct DrivenRobot {
 
   /// Observations of a machine that the robot's model stands for.
   diagnosis::Observations observed(const simulation::Machine& truth) const {
+    return diagnosis::Observations(machine(), {prepared(measured(truth))}, 0);
+  }
+
+  /// Two recordings, cut from the midst of one; the second is to check with.
+  diagnosis::Observations observed_in_parts(const simulation::Machine& truth) const {
+    const recording::Recording all = measured(truth);
+    const auto part = [&](Eigen::Index begin, Eigen::Index end) {
+      std::vector<Eigen::Index> rows(static_cast<std::size_t>(end - begin));
+      std::iota(rows.begin(), rows.end(), begin);
+      return prepared(recording::picked(all, rows));
+    };
+    const Eigen::Index rows = all.size();
+    return diagnosis::Observations(machine(), {part(rows / 5, rows / 2), part(rows / 2, rows)}, 1);
+  }
+
+  simulation::Machine machine() const { return effects::machine_of(robot, {scene}); }
+
+ private:
+  recording::Recording measured(const simulation::Machine& truth) const {
     recording::Recording shown = recording;
     simulation::Preparation preparation;
     const simulation::Scene whole = simulation::prepare(shown, shown.size(), &preparation);
@@ -36,12 +57,9 @@ struct DrivenRobot {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> noise(-std::sqrt(3.0) * kNoise, std::sqrt(3.0) * kNoise);
     *shown.tau = shown.tau->unaryExpr([&](double value) { return value + noise(random); });
-    return diagnosis::Observations(machine(), {prepared(shown)}, 0);
+    return shown;
   }
 
-  simulation::Machine machine() const { return effects::machine_of(robot, {scene}); }
-
- private:
   static simulation::Scene prepared(const recording::Recording& recording) {
     simulation::Preparation preparation;
     return simulation::prepare(recording, kRows, &preparation);

@@ -9,6 +9,7 @@
 #include "diagnosis/grammar/shape.hpp"
 #include "diagnosis/grammar/wave.hpp"
 #include "diagnosis/output/law_picture.hpp"
+#include "diagnosis/parameters.hpp"
 #include "diagnosis/search/search.hpp"
 #include "unity_main.hpp"
 
@@ -28,14 +29,18 @@ namespace {
 /// A torque (N·m) of a joint by what the machine does.
 using Torque = Eigen::VectorXd (*)(const simulation::Simulation& at);
 
-Observations observed(const DrivenRobot& robot, int joint, Torque torque) {
+simulation::Machine with(const DrivenRobot& robot, int joint, Torque torque) {
   simulation::Machine truth = robot.machine();
   truth.terms.push_back(
       {simulation::Term::output, [=](const simulation::Scene&, const simulation::Simulation& at,
                                      simulation::Prediction* prediction) {
          prediction->channel[simulation::joint_torque].col(joint - 1) += torque(at);
        }});
-  return robot.observed(truth);
+  return truth;
+}
+
+Observations observed(const DrivenRobot& robot, int joint, Torque torque) {
+  return robot.observed(with(robot, joint, torque));
 }
 
 /// Laws beside a catalogue without one of its effects.
@@ -127,18 +132,36 @@ void a_wave_that_another_joint_turns_round_is_one_law() {
                            formula.c_str());
 }
 
+/// A torque that follows the joint's load late, by 2 s.
+Eigen::VectorXd late_load(const simulation::Simulation& at) {
+  Eigen::VectorXd late = -at.prediction.dynamic_load.col(4);
+  constexpr double kKept = 0.995;  // from one row to the next
+  for (Eigen::Index row = 1; row < late.size(); ++row) {
+    late[row] = kKept * late[row - 1] + (1 - kKept) * late[row];
+  }
+  return 0.5 * late;
+}
+
 void what_a_joint_carried_before_is_found_by_a_lag() {
   const DrivenRobot robot;
-  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
-    Eigen::VectorXd late = -at.prediction.dynamic_load.col(4);
-    constexpr double kKept = 0.995;  // from one row to the next
-    for (Eigen::Index row = 1; row < late.size(); ++row) {
-      late[row] = kKept * late[row - 1] + (1 - kKept) * late[row];
-    }
-    return Eigen::VectorXd(0.5 * late);
-  }));
+  const Finding found = only_law(observed(robot, 5, late_load));
   const std::string formula = found.chosen.hypothesis.law->written->formula;
   TEST_ASSERT_TRUE_MESSAGE(formula.rfind("a*lag(tau5, T)", 0) == 0, formula.c_str());
+}
+
+void what_a_joint_carried_before_the_recording_is_no_constant() {
+  const DrivenRobot robot;
+  const Observations observations = robot.observed_in_parts(with(robot, 5, late_load));
+  const Finding found = only_law(observations);
+  const Hypothesis& law = found.chosen.hypothesis;
+  TEST_ASSERT_EQUAL_STRING("a*lag(tau5, T)", law.law->written->formula.c_str());
+  TEST_ASSERT_EQUAL_STRING("T", law.parameters[1].name.c_str());
+  TEST_ASSERT_DOUBLE_WITHIN(0.05, 2.0, found.chosen.values[1]);
+  // Where it began says nothing of the machine.
+  TEST_ASSERT_TRUE(law.parameters.back().is_of_recording);
+  for (const auto& told : estimates(observations, found.chosen, found.covariance)) {
+    TEST_ASSERT_TRUE(told.name != law.parameters.back().name);
+  }
 }
 
 /// Friction that builds up with the angle after every reversal, as a play's other side.
@@ -272,6 +295,7 @@ int main() {
   RUN_TEST(friction_of_a_gear_that_drives_follows_its_power);
   RUN_TEST(a_wave_that_another_joint_turns_round_is_one_law);
   RUN_TEST(what_a_joint_carried_before_is_found_by_a_lag);
+  RUN_TEST(what_a_joint_carried_before_the_recording_is_no_constant);
   RUN_TEST(a_loop_is_a_law_where_its_effect_is_left_out);
   RUN_TEST(a_search_without_time_says_so_and_finds_nothing);
   RUN_TEST(a_picture_that_fails_leaves_a_sentence);

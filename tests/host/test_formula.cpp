@@ -176,6 +176,16 @@ void a_lag_follows_a_ramp_by_its_closed_form() {
   }
 }
 
+void a_lag_that_begins_ahead_catches_up() {
+  const Formula formula("lag(x, T)");
+  Course course(formula, 0.5);
+  const double constant = 0.3;
+  for (int i = 0; i <= 200; ++i) {
+    const double wanted = 2 + 0.5 * std::exp(-0.013 * i / constant);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, wanted, course.next({2, constant}, 0.013));
+  }
+}
+
 void play_holds_at_a_reversal() {
   const Formula formula("play(x, gap)");
   Course course(formula);
@@ -198,6 +208,7 @@ int main() {
   RUN_TEST(units_that_disagree_are_told_with_their_column);
   RUN_TEST(the_parameters_that_act_in_proportion_are_found);
   RUN_TEST(a_lag_follows_a_ramp_by_its_closed_form);
+  RUN_TEST(a_lag_that_begins_ahead_catches_up);
   RUN_TEST(play_holds_at_a_reversal);
   return UNITY_END();
 }

@@ -26,17 +26,31 @@ class Fitted {
   Fitted(const Material& material, const Lead& lead, const Form& form)
       : observations_(material.observations), rows_(material.rows), lead_(lead), form_(form) {}
 
+  /// The terms, a constant where the form has one, and last what a beginning leaves behind.
   Eigen::MatrixXd courses(const Values& parameters) const {
     Eigen::MatrixXd courses =
         courses_of(*form_.shape, *lead_.driver, rows_, observations_, parameters);
-    if (form_.has_constant) {
+    const auto append = [&](const Eigen::VectorXd& course) {
       courses.conservativeResize(Eigen::NoChange, courses.cols() + 1);
-      courses.rightCols<1>().setOnes();
+      courses.rightCols<1>() = course;
+    };
+    if (form_.has_constant) {
+      append(Eigen::VectorXd::Ones(courses.rows()));
+    }
+    if (has_beginning()) {
+      append((-(rows_.time.array() - rows_.time[0]) / parameters.front()).exp());
     }
     if (lead_.factor.course.size() > 0) {
       courses.array().colwise() *= lead_.factor.course.array();
     }
     return form_.modulation.driver == nullptr ? courses : modulated(courses);
+  }
+
+  /// What lags remembers loads that nobody recorded, unless there are several recordings, which
+  /// began each elsewhere.
+  bool has_beginning() const {
+    return form_.shape->lags() && form_.modulation.driver == nullptr && !observations_.is_static &&
+           observations_.train_scenes == 1;
   }
 
   double gain(const Values& parameters) const {
@@ -110,12 +124,28 @@ Eigen::VectorXd reach_of(const Normal& normal, const Eigen::VectorXd& amplitude)
   return amplitude.cwiseAbs().cwiseProduct(size).maxCoeff() * size.cwiseInverse();
 }
 
+/// Gives the first term the beginning that fits best, by the last course, which goes: by how much
+/// what lags begins above its input, no more than the input ever changes. Halves that lack the
+/// first rows could not tell.
+double take_beginning(const Seat& seat, double span, Eigen::MatrixXd* courses) {
+  const Eigen::VectorXd amplitude = normal_of(seat, *courses).amplitude();
+  const double ahead = amplitude[amplitude.size() - 1] / amplitude[0];
+  const double beginning = std::isfinite(ahead) ? std::clamp(ahead, -span, span) : 0;
+  courses->col(0) += beginning * courses->col(courses->cols() - 1);
+  courses->conservativeResize(Eigen::NoChange, courses->cols() - 1);
+  return beginning;
+}
+
 Composed composed_of(const Material& material, const Lead& lead, const Form& form,
                      Values parameters) {
-  Composed law{lead, form, std::move(parameters), {}, {}, 0, {}};
-  const Eigen::MatrixXd courses = Fitted(material, lead, form).courses(law.parameters);
+  Composed law{lead, form, std::move(parameters), {}, {}, {}, 0, {}};
+  const Fitted fitted(material, lead, form);
+  Eigen::MatrixXd courses = fitted.courses(law.parameters);
   if (!courses.allFinite()) {
     return law;
+  }
+  if (fitted.has_beginning()) {
+    law.beginning = take_beginning(*lead.seat, span_of_input(*form.shape, *lead.driver), &courses);
   }
   const Normal normal = normal_of(*lead.seat, courses);
   law.amplitude = normal.amplitude();

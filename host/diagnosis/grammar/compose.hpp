@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,12 +33,15 @@ struct Composed {
   Form form;
   Values parameters;          ///< of the shape
   Eigen::VectorXd amplitude;  ///< of the terms
+  /// By how much what lags begins above its input; nothing where nothing lags, or nobody knows of
+  /// which recording.
+  std::optional<double> beginning;
   Eigen::VectorXd reach;  ///< amplitude by which each term does as much as the one that does most
   double gain = 0;        ///< in squares
   std::vector<double> unseen;  ///< gains where it was not fitted to (normal.hpp)
 
   std::size_t numbers() const {
-    return parameters.size() + static_cast<std::size_t>(amplitude.size());
+    return parameters.size() + static_cast<std::size_t>(amplitude.size()) + (beginning ? 1 : 0);
   }
   /// Numbers, factor and second driver that the law's formula needs.
   std::size_t complexity() const {

@@ -65,21 +65,24 @@ Fit with_effect(const Inquiry& inquiry, const Attempt& before) {
                                                                                          : Fit{};
 }
 
-/// A fit with the effect that the law's constant is by itself, if it does most of what the law
-/// does, counted by how many times less is left: the law of what is left is sought beside it. Else
-/// nothing chosen.
+/// A fit with the effect that the law's constant is by itself, at the joint where it does most, if
+/// that is most of what the law does, counted by how many times less is left: the law of what is
+/// left is sought beside it. Else nothing chosen.
 Fit with_constant(const Inquiry& inquiry, const Attempt& before, const WithLaw& law) {
   constexpr double kMost = 0.5;
+  Fit best;
   for (const Candidate& each : propose(inquiry, before)) {
-    const Hypothesis& effect = each.chosen.hypothesis;
-    if (effect.effect() == law.constant && effect.joint == law.fit.chosen.back().hypothesis.joint) {
+    if (each.chosen.hypothesis.effect() == law.constant) {
       Fit grown = fit_with(inquiry, before.fit, each.chosen, kSteps);
-      const double own = std::log(before.fit.train_sum / grown.train_sum);
-      const bool is_most = own > kMost * std::log(before.fit.train_sum / law.fit.train_sum);
-      return is_most && holds(inquiry, weigh_last(inquiry, before.fit, grown)) ? grown : Fit{};
+      if (best.chosen.empty() || grown.train_sum < best.train_sum) {
+        best = std::move(grown);
+      }
     }
   }
-  return {};
+  const bool is_most =
+      !best.chosen.empty() && std::log(before.fit.train_sum / best.train_sum) >
+                                  kMost * std::log(before.fit.train_sum / law.fit.train_sum);
+  return is_most && holds(inquiry, weigh_last(inquiry, before.fit, best)) ? best : Fit{};
 }
 
 /// The better of a law and an effect. For the law there must be strong evidence, and a share of

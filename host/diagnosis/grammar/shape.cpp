@@ -196,8 +196,14 @@ bool Shape::suits(const Driver& driver) const {
 }
 
 bool Shape::remembers() const {
+  return lags() || std::any_of(terms.begin(), terms.end(), [](const std::string& term) {
+           return term.find("play(") != std::string::npos;
+         });
+}
+
+bool Shape::lags() const {
   return std::any_of(terms.begin(), terms.end(), [](const std::string& term) {
-    return term.find("lag(") != std::string::npos || term.find("play(") != std::string::npos;
+    return term.find("lag(") != std::string::npos;
   });
 }
 
@@ -237,6 +243,10 @@ Eigen::MatrixXd courses_of(const Shape& shape, const Driver& driver, const Rows&
     }
   }
   return courses;
+}
+
+double span_of_input(const Shape& shape, const Driver& driver) {
+  return shape.trait == ShapeTrait::heating ? driver.size() * driver.size() : driver.span();
 }
 
 std::vector<Bounds> bounds_of(const Shape& shape, const Driver& driver,

@@ -44,6 +44,8 @@ struct Shape {
   bool suits(const Driver& driver) const;
   /// Does its value depend on what was before?
   bool remembers() const;
+  /// Does it follow late, so that it depends for a while on what was before the first row?
+  bool lags() const;
 };
 
 /// All shapes, the simplest first.
@@ -58,6 +60,9 @@ std::vector<std::string> terms_of(const Shape& shape, const Driver& driver);
 /// A shape's terms along all rows, a column each, by the values of its parameters.
 Eigen::MatrixXd courses_of(const Shape& shape, const Driver& driver, const Rows& rows,
                            const Observations& observations, const Values& parameters);
+
+/// How far the input of what lags ranges.
+double span_of_input(const Shape& shape, const Driver& driver);
 
 /// Bounds of a shape's parameters along a driver.
 std::vector<Bounds> bounds_of(const Shape& shape, const Driver& driver,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "diagnosis/grammar/causes.hpp"
 #include "effects/formula_law.hpp"
@@ -61,6 +62,30 @@ Bounds bounds_of_amplitude(double reach) {
   return {-kFar * size, kFar * size, kStep * size};
 }
 
+/// By how much what lags may begin above its input.
+Bounds bounds_of_beginning(double span) {
+  constexpr double kMost = 2;     // times as far as the input ranges
+  constexpr double kStep = 0.05;  // of that
+  return {-kMost * span, kMost * span, kStep * span};
+}
+
+/// A formula with the name of each of its parameters, bound to the robot.
+effects::BoundFormula bound_of(const Composed& composed, const model::Robot& robot,
+                               std::vector<std::string>* names) {
+  model::WrittenLaw written;
+  written.place = composed.lead.seat->name;
+  written.axis = composed.lead.seat->axis;
+  written.formula = formula_of(composed, names);
+  effects::BoundFormula bound =
+      effects::bind_law(written, robot, composed.lead.seat->place.joint, *names);
+  if (!composed.beginning) {
+    return bound;
+  }
+  bound = effects::with_beginning(std::move(bound), composed.lead.driver->unit);
+  names->push_back(bound.parameters.back().name);
+  return bound;
+}
+
 /// A law that says besides what usually causes it.
 effects::LawPointer with_cause(const effects::LawPointer& law, const std::string& cause) {
   if (cause.empty()) {
@@ -75,14 +100,10 @@ effects::LawPointer with_cause(const effects::LawPointer& law, const std::string
 
 Chosen chosen_of(const Observations& observations, const Composed& composed) {
   std::vector<std::string> names;
-  model::WrittenLaw written;
-  written.place = composed.lead.seat->name;
-  written.axis = composed.lead.seat->axis;
-  written.formula = formula_of(composed, &names);
   const model::Robot& robot = observations.machine.robot;
   const int joint = composed.lead.seat->place.joint;
-  const auto bound = std::make_shared<const effects::BoundFormula>(
-      effects::bind_law(written, robot, joint, names));
+  const auto bound =
+      std::make_shared<const effects::BoundFormula>(bound_of(composed, robot, &names));
   Hypothesis hypothesis(with_cause(effects::formula_law(bound, effects::Unvalued::not_a_number),
                                    usual_cause(composed.lead, *composed.form.shape)),
                         joint, robot);
@@ -95,6 +116,11 @@ Chosen chosen_of(const Observations& observations, const Composed& composed) {
   }
   Values values(composed.amplitude.data(), composed.amplitude.data() + composed.amplitude.size());
   values.insert(values.end(), composed.parameters.begin(), composed.parameters.end());
+  if (composed.beginning) {
+    bounds.push_back(
+        bounds_of_beginning(span_of_input(*composed.form.shape, *composed.lead.driver)));
+    values.push_back(*composed.beginning);
+  }
   std::vector<Bounds> ordered;
   Values begun;
   for (const Parameter& each : hypothesis.parameters) {

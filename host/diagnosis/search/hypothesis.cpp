@@ -11,6 +11,7 @@ Hypothesis::Hypothesis(effects::LawPointer law_there, int at_joint, const model:
       is_sketched(law->sketch != nullptr) {
   for (const effects::Parameter& each : law->parameters(robot, joint)) {
     parameters.push_back({each.name, each.unit, 0, 0, 1});
+    parameters.back().is_of_recording = each.is_of_recording;
   }
 }
 

@@ -36,6 +36,7 @@ struct Parameter {
   double tolerance = std::numeric_limits<double>::infinity();
   /// Times as uncertain as among what is fitted: numbers that were left out could do the same.
   double widening = 1;
+  bool is_of_recording = false;  ///< no number of the machine (effects/law.hpp)
 };
 
 /// A law at one place, and where to begin with it in these observations.
