@@ -89,12 +89,12 @@ Result Table::open(const void* data, std::size_t size, Table* table) {
   if (reinterpret_cast<std::uintptr_t>(data) % alignof(TableHeader) != 0) {
     return Result::table_misaligned;
   }
+  const auto* header = static_cast<const TableHeader*>(data);
+  if (size >= sizeof header->magic && header->magic != kMagic) {
+    return Result::table_not_a_table;
+  }
   if (size < sizeof(TableHeader)) {
     return Result::table_truncated;
-  }
-  const auto* header = static_cast<const TableHeader*>(data);
-  if (header->magic != kMagic) {
-    return Result::table_not_a_table;
   }
   if (header->version != kTableVersion) {
     return Result::table_version;

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <memory>
 #include <thread>
 
 #include "cli/node_bus.hpp"
 #include "cli/progress.hpp"
+#include "cli/table_file.hpp"
 #include "core/crc32.hpp"
 #include "error.hpp"
-#include "files/text_file.hpp"
 #include "linux/clock.hpp"
-#include "messages/table_trailer.hpp"
 #include "node/reply.hpp"
 
 namespace flexcomp::cli {
@@ -66,24 +64,9 @@ int command(const NodeOptions& options, Command wanted) {
   return reply.reply == 0 ? kDone : kDoesNotHold;
 }
 
-/// The words of a table file, with its signature if it has one; checked.
-std::vector<std::uint32_t> read_words(const std::string& file) {
-  const std::string bytes = files::read_file(file, std::size_t{1} << 20);
-  std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
-  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
-  Table table;
-  const Result opened =
-      bytes.size() % sizeof(std::uint32_t) == 0
-          ? Table::open(words.data(), bytes_of_table(words.data(), bytes.size()), &table)
-          : Result::table_corrupt;
-  if (opened != Result::ok) {
-    throw InputError(fmt::format("{}: {}", file, describe(opened)));
-  }
-  return words;
-}
-
 int send_table(const NodeOptions& options) {
-  const std::vector<std::uint32_t> words = read_words(options.table);
+  // With its signature, if it has one.
+  const std::vector<std::uint32_t> words = read_any_table(options.table).words;
   const auto size = static_cast<std::uint32_t>(words.size() * sizeof(std::uint32_t));
   const auto bus = open_as_new_sender(options.address);
   const std::uint32_t crc = crc32(words.data(), size);

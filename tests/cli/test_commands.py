@@ -256,6 +256,13 @@ class BadInput(PathCommand):
             with self.subTest(command=command[:2]):
                 self.assert_refused(*command, saying=str(binary))
 
+    def test_another_file_in_the_place_of_a_table_is_said_to_be_none(self):
+        text = self.file("notes.txt", "a short text")
+        for command in (("table", "verify", text, "--model", KR270),
+                        ("node", "send-table", "--bus", "can:nowhere", text)):
+            with self.subTest(command=command[:2]):
+                self.assert_refused(*command, saying=f"{text}: not a flexcomp table")
+
     def test_cells_and_columns(self):
         cases = {
             "t,x,z\n0,1,2\n1,abc,2\n": ":3: column 'x': 'abc'",

@@ -236,6 +236,8 @@ void every_wrong_byte_and_truncation_of_a_grid_is_noticed() {
 
 void other_files_and_versions_are_told_apart() {
   std::vector<std::uint32_t> words = small_table();
+  const std::vector<std::uint32_t> short_text = {0x6c6c6568, 0x0000006f};  // "hello"
+  TEST_ASSERT_EQUAL(Result::table_not_a_table, open(short_text, 5));
   words[1] = kTableVersion + 1;
   TEST_ASSERT_EQUAL(Result::table_version, open(words, 4 * words.size()));
   words[0] = 0x464C457F;
