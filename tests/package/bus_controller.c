@@ -10,12 +10,15 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Plays the robot controller along a path of `flexcomp plan`, in lock-step with flexcompd:
-   bus_controller vcan0 0092596dd2483751 <path.csv */
+/* Plays the robot controller along a path of `flexcomp plan`, in lock-step with flexcompd or, asked
+   for it, in real time: bus_controller vcan0 0092596dd2483751 [real-time] <path.csv */
+
+#define PERIOD 4000000 /* ns */
 
 static flexcomp_client_t client;
 static flexcomp_frames_t frames;
 static int bus;
+static bool is_real_time;
 
 static int64_t now(void) { /* ns, a clock that only grows */
   struct timespec time;
@@ -46,15 +49,12 @@ static void send_frames(void) {
   }
 }
 
-/* Takes frames until the answer to a setpoint has come, and what came with it. Whether it came. The
-   first setpoints of a controller that starts anew are not answered: its counters do not go on. */
-static bool await_answer(void) {
-  static bool is_heard;
-  const int patience = is_heard ? 1000 : 50; /* ms */
-  const int64_t until = now() + patience * 1000000;
+/* Takes the frames that have come, and waits up to so long (ms) for the answer. Whether it came. */
+static bool take_frames(int patience) {
+  const int64_t until = now() + patience * (int64_t)1000000;
   struct pollfd input = {.fd = bus, .events = POLLIN};
   bool answered = false;
-  while (now() < until && poll(&input, 1, answered ? 0 : patience) > 0) {
+  while (poll(&input, 1, answered || now() >= until ? 0 : patience) > 0) {
     struct can_frame from;
     if (read(bus, &from, sizeof from) == (ssize_t)sizeof from) {
       flexcomp_can_frame_t frame = {.id = from.can_id, .size = from.can_dlc};
@@ -62,8 +62,22 @@ static bool await_answer(void) {
       answered |= flexcomp_client_receive(&client, &frame, now()) == FLEXCOMP_CLIENT_ANSWER;
     }
   }
-  is_heard |= answered;
   return answered;
+}
+
+/* In lock-step: until the answer is there. The first setpoints of a controller that starts anew are
+   not answered: its counters do not go on. In real time: until the period is over. */
+static void wait_for_next_period(void) {
+  static bool is_heard;
+  static int64_t next;
+  if (!is_real_time) {
+    is_heard |= take_frames(is_heard ? 1000 : 50);
+    return;
+  }
+  next = (next == 0 ? now() : next) + PERIOD;
+  const struct timespec time = {.tv_sec = next / 1000000000, .tv_nsec = next % 1000000000};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, NULL);
+  take_frames(0);
 }
 
 /* One period: what the drives are to follow, and the last state that was heard. A lost answer ends
@@ -71,7 +85,7 @@ static bool await_answer(void) {
 static flexcomp_state_t cycle(const double q[FLEXCOMP_JOINTS], const double wrench[6],
                               double drives[FLEXCOMP_JOINTS]) {
   static int periods;
-  if (periods < 10 || periods % 50 == 0) { /* some at once, then every 0.2 s of 4 ms */
+  if (periods < 25 || periods % 50 == 0) { /* for 0.1 s of 4 ms, then every 0.2 s */
     flexcomp_client_identity(&client, &frames);
     send_frames();
   }
@@ -80,7 +94,7 @@ static flexcomp_state_t cycle(const double q[FLEXCOMP_JOINTS], const double wren
   send_frames();
   flexcomp_client_setpoint(&client, q, now(), &frames);
   send_frames();
-  await_answer();
+  wait_for_next_period();
   flexcomp_client_end_period(&client, q, drives);
   flexcomp_answer_t answer;
   flexcomp_client_answer(&client, &answer);
@@ -98,8 +112,9 @@ static bool read_row(double q[FLEXCOMP_JOINTS], double wrench[6]) {
 }
 
 int main(int count, char** arguments) {
-  if (count != 3) {
-    fprintf(stderr, "usage: %s INTERFACE MODEL_HASH <path.csv\n", arguments[0]);
+  is_real_time = count == 4 && strcmp(arguments[3], "real-time") == 0;
+  if (count != (is_real_time ? 4 : 3)) {
+    fprintf(stderr, "usage: %s INTERFACE MODEL_HASH [real-time] <path.csv\n", arguments[0]);
     return 2;
   }
   const flexcomp_client_config_t config = {
