@@ -42,9 +42,6 @@ constexpr double kStrongEvidence = 10;  ///< of BIC: "very strong" (Kass and Raf
 constexpr double kSameEvidence = 6;     ///< of BIC: below "strong" (the same)
 /// Times the noise: a remainder no larger counts as explained, since noise is estimated to a tenth.
 constexpr double kLikeNoise = 1.15;
-/// Times the noise: single samples beyond are gross errors, which count no more than that where no
-/// fit told their deviation.
-constexpr double kGross = 30;
 
 /// Compares two fits to the same observations; `with` has one hypothesis more, its last, or that
 /// and others weighed together with it.

@@ -12,9 +12,6 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Times the noise: single samples beyond are gross errors, which count no more than that.
-constexpr double kGross = 30;
-
 /// Deviations: of normally distributed samples 0.3 % weigh less than one.
 constexpr double kHuber = 3;
 /// Such a change moves the BIC of 10,000 samples by 0.001.

@@ -8,6 +8,10 @@
 
 namespace flexcomp::diagnosis {
 
+/// Times the noise: single samples beyond are gross errors, which count no more than that where no
+/// fit told their deviation.
+constexpr double kGross = 30;
+
 /// A hypothesis with values for its parameters.
 struct Chosen {
   Hypothesis hypothesis;

@@ -37,22 +37,21 @@ WithLaw with_law(const Inquiry& inquiry, const Material& material, const Fit& be
   const std::vector<Seat> seats = seats_of(observations, material.rows, before);
   std::size_t looked_at = inquiry.dictionary.entries.size();
   const std::vector<Lead> leads = screen(material, seats, &looked_at);
+  std::vector<Composed> laws = compose(material, leads, effects_of(inquiry), &looked_at);
   WithLaw best;
-  const auto try_one = [&](const Composed& law) {
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const Composed law = laws[i];
     Fit grown = fit_with(inquiry, before, chosen_of(observations, law), kSteps);
     const Evidence evidence = weigh(observations, before, grown, static_cast<double>(looked_at));
-    if (holds(inquiry, evidence) && evidence.share > kLeastLawShare &&
-        (best.fit.chosen.empty() || bic_gain(observations, best.fit, grown) > kStrongEvidence)) {
+    if (!holds(inquiry, evidence) || evidence.share <= kLeastLawShare) {
+      // A constant may be of the one recording that was fitted to.
+      if (law.form.has_constant && evidence.confirmation < kConfirmed) {
+        laws.insert(laws.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                    without_constant(material, law));
+      }
+    } else if (best.fit.chosen.empty() ||
+               bic_gain(observations, best.fit, grown) > kStrongEvidence) {
       best = {std::move(grown), law.form.has_constant ? constant_as(law.lead) : ""};
-    } else if (law.form.has_constant && evidence.confirmation < kConfirmed) {
-      return true;
-    }
-    return false;
-  };
-  for (const Composed& law : compose(material, leads, effects_of(inquiry), &looked_at)) {
-    // A constant may be of the one stretch that was fitted to.
-    if (try_one(law)) {
-      try_one(without_constant(material, law));
     }
   }
   return best;

@@ -81,7 +81,8 @@ effects::BoundFormula bound_of(const Composed& composed, const model::Robot& rob
   if (!composed.beginning) {
     return bound;
   }
-  bound = effects::with_beginning(std::move(bound), composed.lead.driver->unit);
+  const bool is_square = composed.form.shape->trait == ShapeTrait::heating;
+  bound = effects::with_beginning(std::move(bound), is_square ? "" : composed.lead.driver->unit);
   names->push_back(bound.parameters.back().name);
   return bound;
 }
