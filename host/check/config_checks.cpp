@@ -16,9 +16,36 @@ namespace {
 
 using Config = CompensatorConfig<float, 6>;
 
+/// Joints whose plausible speed is below what the robot comes up to, or far above it: a jump of a
+/// setpoint passes then.
+Checks check_speeds(const std::string& file, const Config& config, const model::Robot& robot) {
+  constexpr double kLoose = 3;  // times the limit
+  std::string low;
+  std::string high;
+  for (Eigen::Index joint = 0; joint < joint_count(robot); ++joint) {
+    const double limit = robot.dynamics[static_cast<std::size_t>(joint)].velocity;
+    const auto speed = static_cast<double>(config.joint_speed[joint]);
+    if (limit > 0 && (speed < limit || speed > kLoose * limit)) {
+      std::string& list = speed < limit ? low : high;
+      list += fmt::format("{}joint {} ({:.4g}, the robot {:.4g} rad/s)", list.empty() ? "" : ", ",
+                          joint + 1, speed, limit);
+    }
+  }
+  Checks checks;
+  const auto warn = [&](const std::string& joints, const char* what) {
+    if (!joints.empty()) {
+      checks.push_back({Severity::warning, "config", "config.speed",
+                        fmt::format("{}: joint-speed is {}: {}", file, what, joints),
+                        "set it a little above the robot's limit; flexcomp configure does"});
+    }
+  };
+  warn(low, "too low, so that the robot's own motion counts as implausible");
+  warn(high, "so high that jumps of the setpoint pass");
+  return checks;
+}
+
 Checks check_against_robot(const std::string& file, const Config& config,
                            const model::Robot& robot) {
-  constexpr double kLoose = 3;  // times the limit: a jump of a setpoint passes
   Checks checks;
   const std::uint64_t hash = model_hash(model::six_axis_model(robot));
   if (config.model_hash != hash) {
@@ -29,19 +56,7 @@ Checks check_against_robot(const std::string& file, const Config& config,
                      file, config.model_hash, hash),
          "make the configuration anew: flexcomp configure"});
   }
-  for (Eigen::Index joint = 0; joint < joint_count(robot); ++joint) {
-    const double limit = robot.dynamics[static_cast<std::size_t>(joint)].velocity;
-    const auto speed = static_cast<double>(config.joint_speed[joint]);
-    if (limit > 0 && (speed < limit || speed > kLoose * limit)) {
-      checks.push_back({Severity::warning, "config", "config.speed",
-                        fmt::format("{}: joint-speed of joint {} is {:.4g} rad/s, where the robot "
-                                    "comes up to {:.4g}: {}",
-                                    file, joint + 1, speed, limit,
-                                    speed < limit ? "its own motion would count as implausible"
-                                                  : "jumps of the setpoint would pass"),
-                        "set it a little above the robot's limit; flexcomp configure does"});
-    }
-  }
+  add(check_speeds(file, config, robot), &checks);
   return checks;
 }
 

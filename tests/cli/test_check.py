@@ -191,6 +191,14 @@ class Check(Command):
         config.write_text(usual)
         self.check("--model", KR270, "--config", config, exit_code=0)
 
+    def test_speeds_of_all_joints_that_are_wrong_are_one_warning(self):
+        config = self.folder / "node.toml"
+        self.run_well("configure", "--model", KR270, "--out", config)
+        text = config.read_text()
+        for speeds in ("[0.1, 0.1, 0.1, 0.1, 0.1, 0.1]", "[20, 20, 20, 20, 20, 20]"):
+            config.write_text(re.sub(r"^joint-speed = .*$", f"joint-speed = {speeds}", text, flags=re.MULTILINE))
+            self.assertEqual(["config.speed"], self.wrong("--model", KR270, "--config", config))
+
     def test_a_table_and_a_configuration_of_another_robot(self):
         table = self.table()
         config = self.folder / "node.toml"
