@@ -174,6 +174,13 @@ std::unique_ptr<RsiTransport> open_rsi(const Options& options) {
                                         UdpSocket(options.rsi.address));
 }
 
+/// Nothing without an address for it.
+std::unique_ptr<RdtTransport> open_sensor(const SensorOptions& options) {
+  return options.address.empty()
+             ? nullptr
+             : std::make_unique<RdtTransport>(to_config(options), options.address);
+}
+
 /// Prepares and serves. A signal to end does so at once until it is blocked: nothing is corrected
 /// yet. From then on nothing here may wait but for the next thing to do.
 int serve(const Options& options, Service::Reread reread) {
@@ -197,6 +204,7 @@ int serve(const Options& options, Service::Reread reread) {
       initial_table(options, admission ? &*admission : nullptr);
   CanSocket can = options.can.empty() ? CanSocket() : CanSocket(options.can, options.fd);
   std::unique_ptr<RsiTransport> rsi = open_rsi(options);
+  std::unique_ptr<RdtTransport> sensor = open_sensor(options.sensor);
   if (table) {
     load_table(options, *table, slots.first.memory(), node.get());
   } else {
@@ -208,7 +216,8 @@ int serve(const Options& options, Service::Reread reread) {
   auto exchange = std::make_unique<Exchange>();
   Service service(options, std::move(reread), admission, table ? table->counter : 0, exchange.get(),
                   &background);
-  RealTimeLoop loop(options, node.get(), &can, authentication.get(), rsi.get(), exchange.get());
+  RealTimeLoop loop(options, node.get(), &can, authentication.get(), rsi.get(), sensor.get(),
+                    exchange.get());
   const RealTimeThread thread(options.priority, [&] { loop.run(); });
   const StopAtEnd stop_at_end(exchange.get());
   int exit_code = kDone;

@@ -73,6 +73,7 @@ void add_links(OptionList* app, Options* options, Typed* typed) {
   app->add_fixed("--fd", &options->fd, "answer with CAN FD frames");
   app->add_fixed("--lcm", &options->lcm, "LCM address, such as udpm://239.255.76.67:7667?ttl=0");
   add_rsi(app, &options->rsi);
+  add_sensor(app, &options->sensor);
   app->add_fixed(
       "--key", &options->key,
       "file with a key of 32 hexadecimal digits: take and send only messages that are\n"
@@ -176,8 +177,9 @@ void transfer(const Typed& typed, Options* options) {
 
 /// Over RSI alone the telegrams must bring all that is needed.
 void check_alone(const Options& options) {
-  if (options.rsi.wrench.empty()) {
-    throw CLI::ValidationError("--rsi-wrench", "expected it, or the wrench over --can or --lcm");
+  if (options.rsi.wrench.empty() && options.sensor.address.empty()) {
+    throw CLI::ValidationError("--rsi-wrench",
+                               "expected it, or the wrench over --sensor, --can or --lcm");
   }
   if (options.rsi.armed.empty()) {
     throw CLI::ValidationError("--rsi-arm", "expected it, or commands over --can or --lcm");
@@ -198,6 +200,19 @@ std::string refused_option(const NodeConfig& config) {
   return name == "limits" ? "--correction-limit, -rate or -acceleration" : "--" + name;
 }
 
+/// A sensor's wrench is one at the TCP only with the arm's geometry.
+void check_sensor(const Options& options) {
+  if (options.sensor.address.empty()) {
+    return;
+  }
+  if (const std::optional<OptionFault> fault = fault_in(options.sensor)) {
+    throw CLI::ValidationError(fault->option, fault->fault);
+  }
+  if (!options.rsi.wrench.empty()) {
+    throw CLI::ValidationError("--sensor", "expected one wrench: not together with --rsi-wrench");
+  }
+}
+
 /// Do the options make sense together?
 void check_together(const Options& options) {
   if (!is_usable(options.settings.node)) {
@@ -216,6 +231,7 @@ void check_together(const Options& options) {
   if (!has_bus) {
     check_alone(options);
   }
+  check_sensor(options);
 }
 
 /// Nothing if the configuration can be read at once and takes little memory: it is read again while

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linux/rsi_options.hpp"
+#include "linux/sensor_options.hpp"
 #include "node/node_settings.hpp"
 
 namespace flexcomp {
@@ -21,6 +22,7 @@ struct Options {
   bool fd = false;
   std::string lcm;  ///< address, or empty
   RsiOptions rsi;
+  SensorOptions sensor;
   std::string key;              ///< file with the key for messages on CAN, or empty
   std::string table;            ///< file to start with, or empty
   std::string state_directory;  ///< where tables from the bus are kept, or empty

@@ -39,13 +39,14 @@ void watch(int epoll, int number) {
 
 RealTimeLoop::RealTimeLoop(const Options& options, Node* node, CanSocket* can,
                            MessageAuthentication* authentication, RsiTransport* rsi,
-                           Exchange* exchange)
+                           RdtTransport* sensor, Exchange* exchange)
     : trigger_(options.settings.trigger),
       period_(std::llround(1e9 * static_cast<double>(options.settings.node.compensator.period))),
       node_(node),
       can_(can),
       authentication_(authentication),
       rsi_(rsi),
+      sensor_(sensor),
       link_(options.fd, options.settings.tolerated_losses),
       sender_(can),
       use_lcm_(!options.lcm.empty()),
@@ -285,6 +286,9 @@ void RealTimeLoop::note_link_state() {
     if (rsi_ != nullptr) {
       rsi_->forget_conflicts();
     }
+    if (sensor_ != nullptr) {
+      sensor_->forget_conflicts();
+    }
   }
   LinkState state = link_.state();
   lcm_.add_to(&state);
@@ -296,10 +300,16 @@ void RealTimeLoop::note_link_state() {
   if (rsi_ != nullptr) {
     rsi_->add_to(&state);
   }
+  if (sensor_ != nullptr) {
+    sensor_->add_to(&state);
+  }
   node_->set_link(state);
 }
 
 void RealTimeLoop::tick(std::int64_t now) {
+  if (sensor_ != nullptr) {
+    sensor_->update(node_, now);
+  }
   note_link_state();
   sender_.tick();
 

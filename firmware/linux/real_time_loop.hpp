@@ -4,6 +4,7 @@
 #include "linux/can_socket.hpp"
 #include "linux/exchange.hpp"
 #include "linux/options.hpp"
+#include "linux/rdt_transport.hpp"
 #include "linux/rsi_transport.hpp"
 #include "messages/message_authentication.hpp"
 #include "node/can_link.hpp"
@@ -25,9 +26,11 @@ namespace flexcomp {
 class RealTimeLoop {
  public:
   /// `authentication`: of the messages on CAN, or null for none; `rsi`: a controller on RSI, or
-  /// null for none. Throws std::runtime_error if the system refuses what it needs.
+  /// null for none; `sensor`: a force sensor on the network, or null for none. Throws
+  /// std::runtime_error if the system refuses what it needs.
   RealTimeLoop(const Options& options, Node* node, CanSocket* can,
-               MessageAuthentication* authentication, RsiTransport* rsi, Exchange* exchange);
+               MessageAuthentication* authentication, RsiTransport* rsi, RdtTransport* sensor,
+               Exchange* exchange);
 
   /// Runs until told to stop and the correction is zero.
   void run();
@@ -67,6 +70,7 @@ class RealTimeLoop {
   CanSocket* can_;
   MessageAuthentication* authentication_;
   RsiTransport* rsi_;
+  RdtTransport* sensor_;
   CanLink link_;
   CanSender sender_;
   bool use_lcm_;

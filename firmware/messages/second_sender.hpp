@@ -63,7 +63,7 @@ class RecentContents {
 };
 
 /// How a message came to the node.
-enum class Source : std::uint8_t { can_classic, can_fd, lcm, rsi };
+enum class Source : std::uint8_t { can_classic, can_fd, lcm, rsi, sensor };
 
 /// Lets one format and transport at a time have a stream (setpoints or wrenches).
 ///

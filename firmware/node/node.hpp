@@ -89,6 +89,9 @@ class Node {
   /// To set it where it stands, without a copy.
   LinkState* link_state() { return &link_; }
 
+  /// Angles of the newest setpoint, rad; null before the first.
+  const JointAngles* setpoint() const { return has_setpoint_ ? &setpoint_.q : nullptr; }
+
   /// True once after a reset was asked for: who moves messages then forgets conflicts.
   bool take_reset() { return std::exchange(reset_requested_, false); }
 

@@ -10,12 +10,14 @@
 #include <tuple>
 
 #include "cli/command.hpp"
+#include "cli/frame_option.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
 #include "control/path_gain.hpp"
 #include "controller/kuka_axes.hpp"
 #include "controller/rsi_files.hpp"
+#include "controller/sensor_lines.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "flexcomp/loop_gain.hpp"
@@ -36,6 +38,8 @@ struct ConfigureOptions {
   bool rsi_relative = false;
   bool rsi_force = false;
   double rsi_limit = 1.0;
+  std::string sensor;
+  std::vector<double> sensor_frame;
 };
 
 /// Joint speeds for the plausibility check: a little above what the robot can do.
@@ -84,7 +88,8 @@ std::string configuration(const ConfigureOptions& options, const model::Robot& r
 }
 
 /// "ADDRESS:PORT" in numbers, as the controller's files and flexcompd's want it.
-std::pair<std::string, std::uint16_t> address_of(const std::string& text) {
+std::pair<std::string, std::uint16_t> address_of(const std::string& option,
+                                                 const std::string& text) {
   const std::size_t colon = text.rfind(':');
   const std::string host = text.substr(0, colon);
   std::uint16_t port = 0;
@@ -92,7 +97,7 @@ std::pair<std::string, std::uint16_t> address_of(const std::string& text) {
   const bool has_port =
       colon != std::string::npos && CLI::detail::lexical_cast(text.substr(colon + 1), port);
   if (!has_port || port == 0 || inet_pton(AF_INET, host.c_str(), &ignored) != 1) {
-    throw InputError("--rsi-address " + text + ": expected ADDRESS:PORT in numbers");
+    throw InputError(option + " " + text + ": expected ADDRESS:PORT in numbers");
   }
   return {host, port};
 }
@@ -100,7 +105,7 @@ std::pair<std::string, std::uint16_t> address_of(const std::string& text) {
 controller::RsiProject rsi_project(const ConfigureOptions& options, const model::Robot& robot) {
   controller::RsiProject project;
   project.robot = robot.name;
-  std::tie(project.address, project.port) = address_of(options.rsi_address);
+  std::tie(project.address, project.port) = address_of("--rsi-address", options.rsi_address);
   const std::uint64_t hash = model_hash(model::six_axis_model(robot));
   project.type = fmt::format("flexcomp_{:08x}", static_cast<std::uint32_t>(hash ^ hash >> 32U));
   project.mode = options.rsi_relative ? RsiMode::relative : RsiMode::absolute;
@@ -111,7 +116,8 @@ controller::RsiProject rsi_project(const ConfigureOptions& options, const model:
 }
 
 /// The part of flexcompd's configuration that fits the controller's files.
-std::string rsi_configuration(const controller::RsiProject& project, const model::Robot& robot) {
+std::string rsi_configuration(const ConfigureOptions& options,
+                              const controller::RsiProject& project, const model::Robot& robot) {
   const std::optional<AxisConvention> axes = controller::kuka_axes(model::six_axis_model(robot));
   std::string text = fmt::format(
       "\n# the controller's RSI, as in flexcomp.xml, flexcomp.rsi.xml and flexcomp.src\n"
@@ -127,12 +133,13 @@ std::string rsi_configuration(const controller::RsiProject& project, const model
   text += fmt::format("{0}rsi-sign = [{1}]\n{0}rsi-zero = [{2}]\n", axes ? "" : "# ",
                       controller::list_of(axes.value_or(AxisConvention()).sign),
                       controller::list_of(axes.value_or(AxisConvention()).zero));
-  text += project.has_force
-              ? fmt::format(
-                    "\n# all comes over RSI: rsi-type says which robot it is\n"
-                    "rsi-wrench = \"{}\"\nwithout-identity = true\n",
-                    controller::kRsiWrench)
-              : "\n# the wrench comes over CAN or LCM: start flexcompd with --can or --lcm too\n";
+  text += project.has_force ? fmt::format(
+                                  "\n# all comes over RSI: rsi-type says which robot it is\n"
+                                  "rsi-wrench = \"{}\"\nwithout-identity = true\n",
+                                  controller::kRsiWrench)
+          : options.sensor.empty()
+              ? "\n# the wrench comes over CAN or LCM: start flexcompd with --can or --lcm too\n"
+              : "\n# rsi-type says which robot it is\nwithout-identity = true\n";
   return text;
 }
 
@@ -144,11 +151,16 @@ std::vector<std::pair<std::filesystem::path, std::string>> files_of(const Config
   std::vector<std::pair<std::filesystem::path, std::string>> all;
   if (!options.rsi_folder.empty()) {
     const controller::RsiProject project = rsi_project(options, robot);
-    text += rsi_configuration(project, robot);
+    text += rsi_configuration(options, project, robot);
     const std::filesystem::path folder = output_folder(options.rsi_folder);
     for (auto& [name, contents] : controller::rsi_files(project)) {
       all.emplace_back(folder / name, std::move(contents));
     }
+  }
+  if (!options.sensor.empty()) {
+    address_of("--sensor", options.sensor);
+    const auto frame = frame_of(options.sensor_frame, "--sensor-frame");
+    text += controller::sensor_lines(options.sensor, frame.value_or(Pose<double>()), robot);
   }
   if (!options.c_model.empty()) {
     all.emplace_back(options.c_model, model::c_model_text(robot));
@@ -177,7 +189,8 @@ int run(const ConfigureOptions& options) {
     return kDoesNotHold;
   }
   files::write_texts(files_of(options, robot, largest_gain));
-  const bool needs_bus = options.rsi_folder.empty() || !options.rsi_force;
+  const bool needs_bus =
+      options.rsi_folder.empty() || !(options.rsi_force || !options.sensor.empty());
   fmt::print("{}: robot {:016x}; start with: flexcompd --config {}{}\n", options.out,
              model_hash(elastic), options.out, needs_bus ? " --can can0" : "");
   if (!options.c_model.empty()) {
@@ -219,6 +232,16 @@ void add_rsi_files(CLI::App* command, ConfigureOptions* options) {
       ->needs(folder);
 }
 
+void add_sensor(CLI::App* command, ConfigureOptions* options) {
+  CLI::Option* address = command->add_option(
+      "--sensor", options->sensor,
+      "ADDRESS:PORT of a force sensor of ATI that flexcompd takes the wrench from (SENSOR.md)");
+  address->excludes("--rsi-force");
+  add_frame(command, "--sensor-frame", "the sensor's frame in that of the robot's tool link",
+            &options->sensor_frame)
+      ->needs(address);
+}
+
 }  // namespace
 
 void add_configure(CLI::App* app, Action* action) {
@@ -238,6 +261,7 @@ void add_configure(CLI::App* app, Action* action) {
   command->add_option("--c-model", options->c_model,
                       "header to write too: the robot as flexcomp_model_t, for a program in C");
   add_rsi_files(command, options.get());
+  add_sensor(command, options.get());
   command->callback([=] { *action = [=] { return run(*options); }; });
 }
 

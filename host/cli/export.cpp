@@ -11,6 +11,7 @@
 #include "cli/robot_choice.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
+#include "model/frame_numbers.hpp"
 #include "planning/program_correction.hpp"
 #include "programs/read_program.hpp"
 #include "recording/plausible_angles.hpp"
@@ -67,7 +68,7 @@ int run(const ExportOptions& options) {
     points += motions.size();
   }
   const std::size_t own = corrected.source.motions.size();
-  const std::array<double, 6> frame = frame_numbers(corrected.frame);
+  const std::array<double, 6> frame = model::frame_numbers(corrected.frame);
   if (options.json) {
     const nlohmann::ordered_json json = {{"motions", own},
                                          {"added", points - own},

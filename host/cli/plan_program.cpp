@@ -11,6 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/robot_choice.hpp"
 #include "error.hpp"
+#include "model/frame_numbers.hpp"
 #include "planning/program_plan.hpp"
 #include "planning/wrench_along.hpp"
 #include "programs/read_program.hpp"
@@ -75,7 +76,7 @@ nlohmann::ordered_json to_json(const Program& program, const planning::PlannedPr
   return {{"motions", program.motions.size()},
           {"rows", recording.size()},
           {"duration", recording.time[recording.size() - 1]},
-          {"frame", frame_numbers(planned.path.frame)},
+          {"frame", model::frame_numbers(planned.path.frame)},
           {"spin", planned.path.spin},
           {"joint_margin", planned.path.joint_margin},
           {"least_singular_value", planned.path.singular_value},
@@ -91,7 +92,7 @@ void print(const ProgramOptions& options, const Program& program,
   if (program.notes.size() > kMostNotes) {
     fmt::print("... and {} notes more (--json has all)\n", program.notes.size() - kMostNotes);
   }
-  const std::array<double, 6> frame = frame_numbers(planned.path.frame);
+  const std::array<double, 6> frame = model::frame_numbers(planned.path.frame);
   fmt::print(
       "{}: {} motions, {} rows, {:.1f} s\nwork frame {:.6g} (m, rad: x,y,z,roll,pitch,yaw); tool "
       "turned {:.3f} rad about its axis\n{:.2f} rad from the joint limits and more; least singular "

@@ -43,9 +43,9 @@ def circularity(recording):
 class Job:
     """A robot with its circle, table and configuration in a folder."""
 
-    def __init__(self, folder, robot="kr270", feed=0.1, *table_options, period=0.004, radius=0.1):
+    def __init__(self, folder, robot="kr270", feed=0.1, *table_options, period=0.004, radius=0.1, model=None):
         self.period = period
-        self.model = ROBOTS / robot / "robot.yaml"
+        self.model = model or ROBOTS / robot / "robot.yaml"
         self.folder = pathlib.Path(folder)
         self.path = self.folder / f"{robot}.csv"
         self.table = self.folder / f"{robot}.fct"

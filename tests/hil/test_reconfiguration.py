@@ -18,6 +18,8 @@ from test_flexcompd import Process
 ALL = "--all" in sys.argv
 SOME = 3
 
+# What a force sensor needs to be one.
+ARM = {"sensor-tcp": "[0,0,0.1]", **{f"sensor-joint-{i + 1}": "[0,0,0.1,0,0,0,0,0,1]" for i in range(6)}}
 FIXED = {
     "can": '"vcan7"', "fd": "true", "lcm": '"udpm://239.255.76.67:7667?ttl=0"', "key": '"key"',
     "trigger": '"clock"', "tolerated-losses": "2", "table": '"other.fct"', "state-directory": '"."',
@@ -26,6 +28,8 @@ FIXED = {
     "rsi-type": '"other"', "rsi-correction": '"Corr"', "rsi-wrench": '"Wrench"', "rsi-arm": '"Arm"',
     "rsi-applied": '"Applied"', "rsi-state": '"State"', "rsi-limit": "0.5", "rsi-step": "0.01",
     "rsi-sign": "[1,1,1,1,1,-1]", "rsi-zero": "[0,0,0,0,0,90]",
+    "sensor": '"udp://127.0.0.1:49153"', "sensor-counts": "[1000,1000]", "sensor-zero": "[0,0,1,0,0,0]", "sensor-mass": "5",
+    "sensor-center-of-mass": "[0,0,0.1]", "sensor-frame": "[0,0,0.1,0,0,0]", "sensor-gravity": "[0,0,9.81]", **ARM,
 }
 CHANGEABLE = {
     "heartbeat": 0.05, "model-hash": '"0000000000000000"', "without-identity": "true", "gain": 0.5,
@@ -71,7 +75,7 @@ class Reconfiguration(Process):
     def test_this_knows_every_option_and_whether_it_may_change(self):
         text = subprocess.run([str(BIN / "flexcompd"), "--help"], capture_output=True, text=True).stdout
         groups = re.split(r"^Options(.*):$", text, flags=re.MULTILINE)
-        named = {title: set(re.findall(r"^  --([a-z-]+)", body, re.MULTILINE))
+        named = {title: set(re.findall(r"^  --([a-z0-9-]+)", body, re.MULTILINE))
                  for title, body in zip(groups[1::2], groups[2::2])}
         self.assertEqual(set(FIXED), named[", read at start only"])
         self.assertEqual(set(CHANGEABLE), named[", read again on SIGHUP"])
@@ -80,19 +84,20 @@ class Reconfiguration(Process):
         # An option on the command line stays, whatever the file says: the interface is in the file.
         self.lines["can"] = f'"{BUS}"'
         self.configure_file()
-        in_file = {name: value for name, value in FIXED.items() if name != "statistics"}
+        in_file = {name: {name: value, "gain": 0.1} for name, value in FIXED.items() if name != "statistics"}
+        in_file["sensor"] |= ARM  # it is nothing without
         with Flexcompd(self.job, bus=()) as node:
             received = self.bring_up()
-            for name, value in in_file.items():
-                said, more = self.configure(node, **{name: value, "gain": 0.1})
+            for name, changes in in_file.items():
+                said, more = self.configure(node, **changes)
                 self.assertRegex(said, rf"new configuration refused: (.*, )?{name}\b.* cannot change while "
                                        "running; restart flexcompd")
                 received += more
             self.assertEqual({STATES["active"]}, set(states(received[-500:])))
             self.assert_limits(received, self.job.period)
             self.turn_off()
-            for name, value in in_file.items():
-                said, _ = self.configure(node, **{name: value, "gain": 0.1})
+            for changes in in_file.values():
+                said, _ = self.configure(node, **changes)
                 self.assertIn("cannot change while running", said)
             # Nothing of it took effect.
             self.assertEqual(0, self.feeder.arm())

@@ -22,7 +22,7 @@ class Running {
     options_.settings.trigger = Trigger::clock;
     node_->use_memory({slots_[0].data(), slots_[0].size()}, {slots_[1].data(), slots_[1].size()});
     TEST_ASSERT_EQUAL(Result::ok, node_->configure(options_.settings.node));
-    loop_ = std::make_unique<RealTimeLoop>(options_, node_.get(), &can_, nullptr, nullptr,
+    loop_ = std::make_unique<RealTimeLoop>(options_, node_.get(), &can_, nullptr, nullptr, nullptr,
                                            exchange.get());
     thread_ = std::thread([this] { loop_->run(); });
   }

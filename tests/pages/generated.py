@@ -35,7 +35,7 @@ def options_table(programs):
 
 
 def _rows(shown):
-    for name, kind, words in re.findall(r"^  --([a-z-]+) ?(\S*.*?)(?:  +|\n +)(\S(?:.|\n {10,})*)$", shown, re.MULTILINE):
+    for name, kind, words in re.findall(r"^  --([a-z0-9-]+) ?(\S*.*?)(?:  +|\n +)(\S(?:.|\n {10,})*)$", shown, re.MULTILINE):
         default = re.search(r"=\[?([^]\s]+?)\]?$", kind)
         default = "required" if "REQUIRED" in kind else f"`{default.group(1)}`" if default else ""
         yield f"| `{name}` | {default} | {' '.join(words.split())} |"

@@ -129,8 +129,8 @@ class Reference(unittest.TestCase):
     def test_the_options_of_the_daemon_are_those_of_its_help(self):
         _, shown, _ = generated.between_markers((SOURCE / "firmware/README.md").read_text(), "options")
         self.assertEqual(generated.options_table(PROGRAMS), shown)
-        offered = set(re.findall(r"^  --([a-z-]+)", help_of("flexcompd"), re.MULTILINE)) - {"version", "config"}
-        self.assertEqual(offered, set(re.findall(r"^\| `([a-z-]+)`", shown, re.MULTILINE)))
+        offered = set(re.findall(r"^  --([a-z0-9-]+)", help_of("flexcompd"), re.MULTILINE)) - {"version", "config"}
+        self.assertEqual(offered, set(re.findall(r"^\| `([a-z0-9-]+)`", shown, re.MULTILINE)))
 
     def test_the_page_on_effects_shows_the_files_that_are_tested(self):
         shown = [content for words, content in pages.Page(SOURCE / "host/effects/README.md").blocks() if words == ["cpp"]]
