@@ -132,6 +132,29 @@ void a_wave_that_another_joint_turns_round_is_one_law() {
                            formula.c_str());
 }
 
+/// Its size changes sign half-way, so that the wave by itself takes away next to nothing.
+void a_wave_is_seen_though_its_size_is_nothing_on_average() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    const Eigen::ArrayXd other = at.q.col(3).array();
+    const Eigen::ArrayXd wave = (50 * at.q.col(4).array() + 0.4).sin();
+    return Eigen::VectorXd(40 * wave * (other - other.mean()));
+  }));
+  const std::string formula = found.chosen.hypothesis.law->written->formula;
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q5)") != std::string::npos, formula.c_str());
+}
+
+void a_wave_whose_size_follows_the_load_is_a_law() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    const Eigen::ArrayXd load = at.prediction.dynamic_load.col(4).array();
+    const Eigen::ArrayXd wave = (50 * at.q.col(4).array() + 0.4).sin();
+    return Eigen::VectorXd(0.3 * wave * (load - load.mean()));
+  }));
+  const std::string formula = found.chosen.hypothesis.law->written->formula;
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q5)*tau5") != std::string::npos, formula.c_str());
+}
+
 /// A torque that follows the joint's load late, by 2 s.
 Eigen::VectorXd late_load(const simulation::Simulation& at) {
   Eigen::VectorXd late = -at.prediction.dynamic_load.col(4);
@@ -294,6 +317,8 @@ int main() {
   RUN_TEST(friction_that_another_joints_angle_raises_is_followed);
   RUN_TEST(friction_of_a_gear_that_drives_follows_its_power);
   RUN_TEST(a_wave_that_another_joint_turns_round_is_one_law);
+  RUN_TEST(a_wave_is_seen_though_its_size_is_nothing_on_average);
+  RUN_TEST(a_wave_whose_size_follows_the_load_is_a_law);
   RUN_TEST(what_a_joint_carried_before_is_found_by_a_lag);
   RUN_TEST(what_a_joint_carried_before_the_recording_is_no_constant);
   RUN_TEST(a_loop_is_a_law_where_its_effect_is_left_out);

@@ -202,7 +202,7 @@ bool is_known(const Material& material, const Lead& lead, const std::set<std::st
   const std::string wanted = lead.factor.text == lead.factor.signal ? "line" : "sign";
   const auto shape = std::find_if(shapes().begin(), shapes().end(),
                                   [&](const Shape& each) { return each.name == wanted; });
-  return effects.count(known_as({lead.seat, driver, {}, 0, 0}, *shape)) > 0;
+  return effects.count(known_as({lead.seat, driver, {}, 0, 0, false}, *shape)) > 0;
 }
 
 /// A lead with each of its shapes, those with a name in the catalogue among them.
@@ -285,10 +285,23 @@ bool has_name(const Composed& law, const std::set<std::string>& effects) {
   return effects.count(known_as(law.lead, *law.form.shape)) > 0;
 }
 
+/// A wave whose size follows a second driver, with each of those that gain most.
+std::vector<Composed> swelling(const Material& material, const Lead& lead) {
+  const auto wave = std::find_if(shapes().begin(), shapes().end(), [](const Shape& each) {
+    return each.parameters.size() == 1 && each.parameters.front().sought == Sought::wave;
+  });
+  return modulated(material, composed_of(material, lead, {&*wave, false, {}}, {lead.wave}));
+}
+
 /// Laws of a lead that have no name in the catalogue and are worth a fit; `count`: of all that have
 /// none.
 std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bool modulates,
                                   const std::set<std::string>& effects, std::size_t* count) {
+  if (lead.swells) {
+    std::vector<Composed> waves = swelling(material, lead);
+    *count = waves.size();
+    return worth_fitting(std::move(waves));
+  }
   std::vector<Composed> laws = laws_of(material, lead, effects);
   std::vector<Composed> more;
   if (modulates) {

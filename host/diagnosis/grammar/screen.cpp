@@ -143,7 +143,8 @@ std::optional<Lead> lead_of(const Material& material, const Seat& seat, const Dr
   }
   const bool is_time = driver.kind == SignalKind::time;
   const Normal normal = hats.normal(seat, factor);
-  Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()), 1};
+  Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()),
+            1,     false};
   if (factor.text.empty() && is_time && seat.is_sensor()) {
     lead.gain = std::max(lead.gain, best_step(seat));
   }
@@ -156,6 +157,41 @@ std::optional<Lead> lead_of(const Material& material, const Seat& seat, const Dr
   }
   lead.gain = std::max(lead.gain, gain_of_memory(material, seat, driver, factor));
   return lead;
+}
+
+/// May the size of a wave at a joint follow this driver, beside the joint's own angle? Another
+/// angle loads its gear otherwise, and so does what the joint carries.
+bool may_swell(const Driver& by, int joint) {
+  return !by.is_power && (by.joint == joint ? by.kind != SignalKind::angle
+                                            : by.kind == SignalKind::angle && by.joint > 0);
+}
+
+/// The wave over a joint's angle that does most at that joint, where its size follows another
+/// driver, for each seat; none where it does no more than what its seat shows already.
+std::vector<Lead> swelling_waves(const Material& material, const std::vector<Seat>& seats,
+                                 double most, std::size_t* looked_at) {
+  std::vector<Lead> best;
+  for (const Seat& seat : seats) {
+    const Driver* own = find_driver(material.drivers, fmt::format("q{}", seat.place.joint));
+    if (own == nullptr || seat.is_sensor()) {
+      continue;
+    }
+    Lead lead{&seat, own, {}, most, 1, true};
+    for (const Driver& by : material.drivers) {
+      if (may_swell(by, seat.place.joint)) {
+        ++*looked_at;
+        const Wave wave = best_swelling_wave(seat, *own, by);
+        if (wave.gain > lead.gain) {
+          lead.gain = wave.gain;
+          lead.wave = wave.order;
+        }
+      }
+    }
+    if (lead.gain > most) {
+      best.push_back(std::move(lead));
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -187,7 +223,10 @@ std::vector<Lead> screen(const Material& material, const std::vector<Seat>& seat
   const auto end = std::find_if(leads.begin(), leads.end(),
                                 [&](const Lead& each) { return !(each.gain > least); });
   leads.erase(end, leads.end());
-  leads.resize(std::min(leads.size(), kMostLeads), Lead{nullptr, nullptr, {}, 0, 0});
+  leads.resize(std::min(leads.size(), kMostLeads), Lead{nullptr, nullptr, {}, 0, 0, false});
+  const double most = leads.empty() ? 0 : leads.front().gain;
+  const std::vector<Lead> waves = swelling_waves(material, seats, most, looked_at);
+  leads.insert(leads.end(), waves.begin(), waves.end());
   return leads;
 }
 

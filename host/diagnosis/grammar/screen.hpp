@@ -30,6 +30,8 @@ struct Lead {
   Factor factor;
   double gain;  ///< in squares, by what is told of it here
   double wave;  ///< 2π over the period along the driver with which a wave does most
+  /// Is it a wave whose size follows another driver, and no other shape?
+  bool swells = false;
 
   /// Is the factor of the driver itself?
   bool is_of_itself() const { return factor.signal == driver->name; }
@@ -37,8 +39,9 @@ struct Lead {
 
 /// The leads for what a fit leaves, the best first. A lead's gain is the largest fall of the
 /// squares by its conditional mean (piecewise linear over the driver), a wave over it, a shape with
-/// a memory or, in time, a step. Leads that gain much less than the best are left out. `looked_at`
-/// is raised by the number of leads that were looked at.
+/// a memory or, in time, a step. Leads that gain much less than the best are left out. Behind them
+/// stand waves over a joint's angle at that joint that gain more than any because their size
+/// follows another driver. `looked_at` is raised by the number of leads that were looked at.
 std::vector<Lead> screen(const Material& material, const std::vector<Seat>& seats,
                          std::size_t* looked_at);
 

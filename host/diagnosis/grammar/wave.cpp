@@ -16,12 +16,19 @@ constexpr double kLeastPeriods = 1;  // along the driver: less of a wave is a be
 constexpr double kSpacing = 1.5;  // rad of phase over the driver between orders tried: a quarter of
                                   // the way from a peak to its first zero
 
-/// Sums of a seat's rows for one order after another: the phases turn by a constant angle.
+/// Sums of a seat's rows for one order after another: the phases turn by a constant angle. The wave
+/// has a size of so many terms in each row.
+template <int Terms>
 class Periodogram {
  public:
-  Periodogram(const Seat& seat, const Driver& driver, double first, double spacing) {
+  using Size = Eigen::Matrix<double, Terms, 1>;
+
+  template <typename SizeOf>
+  Periodogram(const Seat& seat, const Driver& driver, double first, double spacing,
+              SizeOf size_of) {
     for (Eigen::Index row = 0; row < seat.weight.size(); ++row) {
       if (seat.weight[row] > 0) {
+        size_.push_back(size_of(row));
         weight_.push_back(seat.weight[row]);
         product_.push_back(seat.product[row]);
         phase_.push_back(std::polar(1.0, first * driver.course[row]));
@@ -31,16 +38,21 @@ class Periodogram {
   }
 
   double gain() const {
-    Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    constexpr int kConstant = 2 * Terms;
+    using Basis = Eigen::Matrix<double, kConstant + 1, 1>;
+    Eigen::Matrix<double, kConstant + 1, kConstant + 1> gram;
+    gram.setZero();
+    Basis moment = Basis::Zero();
     for (std::size_t i = 0; i < weight_.size(); ++i) {
-      const Eigen::Vector3d basis(phase_[i].imag(), phase_[i].real(), 1);
+      Basis basis;
+      basis << phase_[i].imag() * size_[i], phase_[i].real() * size_[i], 1;
       gram += weight_[i] * basis * basis.transpose();
       moment += product_[i] * basis;
     }
     constexpr double kIndependent = 1e-6;  // of a square: keeps a nearly constant wave solvable
     gram.diagonal() *= 1 + kIndependent;
-    return moment.dot(gram.ldlt().solve(moment)) - moment[2] * moment[2] / gram(2, 2);
+    const double constant = moment[kConstant] * moment[kConstant] / gram(kConstant, kConstant);
+    return moment.dot(gram.ldlt().solve(moment)) - constant;
   }
 
   void advance() {
@@ -52,20 +64,21 @@ class Periodogram {
  private:
   std::vector<double> weight_;
   std::vector<double> product_;
+  std::vector<Size, Eigen::aligned_allocator<Size>> size_;
   std::vector<std::complex<double>> phase_;
   std::vector<std::complex<double>> turn_;
 };
 
-}  // namespace
-
-Wave best_wave(const Seat& seat, const Driver& driver) {
+/// The wave of any order that gains most.
+template <int Terms, typename SizeOf>
+Wave best_of_orders(const Seat& seat, const Driver& driver, SizeOf size_of) {
   const double first = 2 * M_PI * kLeastPeriods / driver.span();
   const double spacing = kSpacing / driver.span();
   const auto rows = static_cast<double>(seat.weight.size());
   const double last =
       driver.kind == effects::SignalKind::time ? M_PI * rows / driver.span() : kMostOrder;
   Wave best;
-  Periodogram along(seat, driver, first, spacing);
+  Periodogram<Terms> along(seat, driver, first, spacing, size_of);
   for (double order = first; order < last; order += spacing) {
     const double gain = along.gain();
     if (gain > best.gain) {
@@ -74,6 +87,20 @@ Wave best_wave(const Seat& seat, const Driver& driver) {
     along.advance();
   }
   return best;
+}
+
+}  // namespace
+
+Wave best_wave(const Seat& seat, const Driver& driver) {
+  using Size = Eigen::Matrix<double, 1, 1>;
+  return best_of_orders<1>(seat, driver, [](Eigen::Index) { return Size(1); });
+}
+
+Wave best_swelling_wave(const Seat& seat, const Driver& driver, const Driver& by) {
+  return best_of_orders<3>(seat, driver, [&](Eigen::Index row) {
+    const double along = 2 * (by.course[row] - by.low) / by.span() - 1;
+    return Eigen::Vector3d(1, along, along * along);
+  });
 }
 
 double best_step(const Seat& seat) {

@@ -14,6 +14,9 @@ struct Wave {
 /// the sampling rate (the periodogram of Lomb 1976, with weights).
 Wave best_wave(const Seat& seat, const Driver& driver);
 
+/// The same of a wave whose size is a parabola of a second driver.
+Wave best_swelling_wave(const Seat& seat, const Driver& driver, const Driver& by);
+
 /// Gain, in squares, of the best step in time.
 double best_step(const Seat& seat);
 
