@@ -132,6 +132,18 @@ void a_wave_that_another_joint_turns_round_is_one_law() {
                            formula.c_str());
 }
 
+/// A limit that only the driver's peaks reach: cut off noise looks so, and beyond it a law would
+/// stop.
+void a_bend_that_does_next_to_nothing_is_none() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    const Eigen::ArrayXd load = at.prediction.dynamic_load.col(3).array();
+    const double most = 0.85 * load.abs().maxCoeff();
+    return Eigen::VectorXd(60 * load.min(most).max(-most) / most);
+  }));
+  TEST_ASSERT_EQUAL_STRING("a*tau4", found.chosen.hypothesis.law->written->formula.c_str());
+}
+
 /// Its size changes sign half-way, so that the wave by itself takes away next to nothing.
 void a_wave_is_seen_though_its_size_is_nothing_on_average() {
   const DrivenRobot robot;
@@ -317,6 +329,7 @@ int main() {
   RUN_TEST(friction_that_another_joints_angle_raises_is_followed);
   RUN_TEST(friction_of_a_gear_that_drives_follows_its_power);
   RUN_TEST(a_wave_that_another_joint_turns_round_is_one_law);
+  RUN_TEST(a_bend_that_does_next_to_nothing_is_none);
   RUN_TEST(a_wave_is_seen_though_its_size_is_nothing_on_average);
   RUN_TEST(a_wave_whose_size_follows_the_load_is_a_law);
   RUN_TEST(what_a_joint_carried_before_is_found_by_a_lag);

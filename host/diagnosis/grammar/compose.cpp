@@ -162,6 +162,9 @@ bool is_worth(const Composed& richer, const Composed& simpler) {
     better += richer.unseen[i] > simpler.unseen[i] ? 1 : 0;
   }
   const double more = mean(richer.unseen) - mean(simpler.unseen);
+  if (bends(richer, simpler) && more < kLeastBend * mean(simpler.unseen)) {
+    return false;
+  }
   const auto numbers = static_cast<double>(richer.complexity() - simpler.complexity());
   return better >= kMostHalves * static_cast<double>(richer.unseen.size()) &&
          more > kWorthwhile * numbers;
@@ -350,6 +353,13 @@ std::vector<Composed> after_plain(const Material& material, std::vector<Composed
 }
 
 }  // namespace
+
+bool bends(const Composed& richer, const Composed& simpler) {
+  return richer.form.shape != simpler.form.shape && richer.complexity() > simpler.complexity() &&
+         richer.form.modulation.driver == simpler.form.modulation.driver &&
+         richer.lead.seat == simpler.lead.seat && richer.lead.driver == simpler.lead.driver &&
+         richer.lead.factor.text == simpler.lead.factor.text;
+}
 
 Composed without_constant(const Material& material, const Composed& law) {
   return composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters);

@@ -50,6 +50,12 @@ struct Composed {
   }
 };
 
+/// Is the richer law the simpler one with a shape that bends more, of the same drivers? It must
+/// then do more by this share of what the simpler one does. A bend that does less may be that of a
+/// driver's noise, and errs most where nothing was recorded.
+bool bends(const Composed& richer, const Composed& simpler);
+constexpr double kLeastBend = 0.01;
+
 /// Fits every shape to each lead, except shapes that have the name of one of these effects of the
 /// catalogue, and second drivers to the best shape of the first leads. Returns the laws that are
 /// worth a fit by simulation: of each lead its best at most, and the one that predicts best. First
