@@ -162,9 +162,6 @@ bool is_worth(const Composed& richer, const Composed& simpler) {
     better += richer.unseen[i] > simpler.unseen[i] ? 1 : 0;
   }
   const double more = mean(richer.unseen) - mean(simpler.unseen);
-  if (bends(richer, simpler) && more < kLeastBend * mean(simpler.unseen)) {
-    return false;
-  }
   const auto numbers = static_cast<double>(richer.complexity() - simpler.complexity());
   return better >= kMostHalves * static_cast<double>(richer.unseen.size()) &&
          more > kWorthwhile * numbers;
@@ -290,17 +287,16 @@ bool has_name(const Composed& law, const std::set<std::string>& effects) {
 
 /// A wave whose size follows a second driver, with each of those that gain most.
 std::vector<Composed> swelling(const Material& material, const Lead& lead) {
-  const auto wave = std::find_if(shapes().begin(), shapes().end(), [](const Shape& each) {
-    return each.parameters.size() == 1 && each.parameters.front().sought == Sought::wave;
+  const Shape& wave = *std::find_if(shapes().begin(), shapes().end(), [](const Shape& each) {
+    return !each.parameters.empty() && each.parameters.front().sought == Sought::wave;
   });
-  return modulated(material, composed_of(material, lead, {&*wave, false, {}}, {lead.wave}));
+  return modulated(material, composed_of(material, lead, {&wave, false, {}}, {lead.wave}));
 }
 
-/// Laws of a lead that have no name in the catalogue and are worth a fit; `count`: of all that have
-/// none.
+/// Laws of a lead that have no name in the catalogue and are worth a fit, of `count` without one.
 std::vector<Composed> nameless_of(const Material& material, const Lead& lead, bool modulates,
                                   const std::set<std::string>& effects, std::size_t* count) {
-  if (lead.swells) {
+  if (lead.swells) {  // what no effect is
     std::vector<Composed> waves = swelling(material, lead);
     *count = waves.size();
     return worth_fitting(std::move(waves));
@@ -338,8 +334,20 @@ Composed without_fitted_constant(const Material& material, Composed law) {
                                                       : std::move(law);
 }
 
-/// Before each law with a second driver the law without: what a second driver gains by these rough
-/// values, the whole fit may give to better ones.
+/// The line in the place of a law that bends by less than a hundredth of what it does, else
+/// nothing.
+std::optional<Composed> straight(const Material& material, const Composed& law) {
+  const Shape& line = shapes().front();
+  if (law.form.shape == &line || law.form.modulation.driver != nullptr ||
+      !line.fits(*law.lead.seat, *law.lead.driver) || is_redundant(law.lead, line)) {
+    return std::nullopt;
+  }
+  Composed plain = composed_of(material, law.lead, {&line, law.form.has_constant, {}}, {});
+  return plain.gain > 0.99 * law.gain ? std::optional(std::move(plain)) : std::nullopt;
+}
+
+/// Before each law with a second driver the law without, to whose better values the whole fit may
+/// give what it gains. Before each that hardly bends the line: noise cut off looks like a limit.
 std::vector<Composed> after_plain(const Material& material, std::vector<Composed> laws,
                                   const std::set<std::string>& effects) {
   std::vector<Composed> all;
@@ -347,19 +355,15 @@ std::vector<Composed> after_plain(const Material& material, std::vector<Composed
     if (law.form.modulation.driver != nullptr && !has_name(law, effects)) {
       all.push_back(composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters));
     }
+    if (std::optional<Composed> line = straight(material, law); line && !has_name(*line, effects)) {
+      all.push_back(without_fitted_constant(material, std::move(*line)));
+    }
     all.push_back(without_fitted_constant(material, std::move(law)));
   }
   return all;
 }
 
 }  // namespace
-
-bool bends(const Composed& richer, const Composed& simpler) {
-  return richer.form.shape != simpler.form.shape && richer.complexity() > simpler.complexity() &&
-         richer.form.modulation.driver == simpler.form.modulation.driver &&
-         richer.lead.seat == simpler.lead.seat && richer.lead.driver == simpler.lead.driver &&
-         richer.lead.factor.text == simpler.lead.factor.text;
-}
 
 Composed without_constant(const Material& material, const Composed& law) {
   return composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters);

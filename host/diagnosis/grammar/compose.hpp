@@ -50,18 +50,13 @@ struct Composed {
   }
 };
 
-/// Is the richer law the simpler one with a shape that bends more, of the same drivers? It must
-/// then do more by this share of what the simpler one does. A bend that does less may be that of a
-/// driver's noise, and errs most where nothing was recorded.
-bool bends(const Composed& richer, const Composed& simpler);
-constexpr double kLeastBend = 0.01;
-
 /// Fits every shape to each lead, except shapes that have the name of one of these effects of the
 /// catalogue, and second drivers to the best shape of the first leads. Returns the laws that are
 /// worth a fit by simulation: of each lead its best at most, and the one that predicts best. First
 /// come those that are proved, the best first: a richer law stands before a simpler one only if it
 /// predicts better in most of the halves. Then come those of the others that predict best. Before
-/// each that has a second driver stands the same without.
+/// each that has a second driver stands the same without, and before each that bends next to
+/// nothing the line.
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at);
 

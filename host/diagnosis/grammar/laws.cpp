@@ -39,19 +39,6 @@ WithLaw with_law(const Inquiry& inquiry, const Material& material, const Fit& be
   const std::vector<Lead> leads = screen(material, seats, &looked_at);
   std::vector<Composed> laws = compose(material, leads, effects_of(inquiry), &looked_at);
   WithLaw best;
-  std::size_t best_at = 0;
-  // Is one of two laws the other with a bend that does too little?
-  const auto bends_in_vain = [&](std::size_t richer, const Fit& by_richer, std::size_t simpler,
-                                 const Fit& by_simpler) {
-    return bends(laws[richer], laws[simpler]) &&
-           by_simpler.train_sum - by_richer.train_sum <
-               kLeastBend * (before.train_sum - by_simpler.train_sum);
-  };
-  const auto is_better = [&](std::size_t at, const Fit& grown) {
-    return best.fit.chosen.empty() || bends_in_vain(best_at, best.fit, at, grown) ||
-           (bic_gain(observations, best.fit, grown) > kStrongEvidence &&
-            !bends_in_vain(at, grown, best_at, best.fit));
-  };
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const Composed law = laws[i];
     Fit grown = fit_with(inquiry, before, chosen_of(observations, law), kSteps);
@@ -62,8 +49,8 @@ WithLaw with_law(const Inquiry& inquiry, const Material& material, const Fit& be
         laws.insert(laws.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                     without_constant(material, law));
       }
-    } else if (is_better(i, grown)) {
-      best_at = i;
+    } else if (best.fit.chosen.empty() ||
+               bic_gain(observations, best.fit, grown) > kStrongEvidence) {
       best = {std::move(grown), law.form.has_constant ? constant_as(law.lead) : ""};
     }
   }
