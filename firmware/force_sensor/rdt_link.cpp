@@ -1,20 +1,12 @@
 #include "force_sensor/rdt_link.hpp"
 
+#include "messages/digest.hpp"
 #include "node/can_link.hpp"
 
 namespace flexcomp {
 namespace {
 
-constexpr std::int64_t kAskAgain = 500'000'000;  // ns
-
-/// Tells records apart that have one number in the stream.
-std::uint32_t digest(const RdtRecord& record) {
-  std::uint32_t all = record.sample;
-  for (const std::int32_t counts : record.load) {
-    all = all * 16777619U ^ static_cast<std::uint32_t>(counts);
-  }
-  return all;
-}
+constexpr std::int64_t kPatience = 500'000'000;  // ns
 
 }  // namespace
 
@@ -24,8 +16,8 @@ void RdtLink::receive(std::string_view datagram, std::int64_t now) {
     ++sequence_.counters.corrupt;
     return;
   }
-  received_at_ = now;
-  if (sequence_.accept(record.sequence, digest(record), now)) {
+  ask_at_ = now + kPatience;
+  if (sequence_.accept(record.sequence, digest(datagram), now)) {
     newest_ = record;
     has_newest_ = true;
   }
@@ -47,11 +39,9 @@ void RdtLink::hand_over(Node* node, std::int64_t now) {
 }
 
 bool RdtLink::wants_request(std::int64_t now) {
-  const bool is_silent = now - received_at_ >= kAskAgain || received_at_ == 0;
-  const bool asks = is_silent && (!asked_ || now - asked_at_ >= kAskAgain);
+  const bool asks = now >= ask_at_;
   if (asks) {
-    asked_ = true;
-    asked_at_ = now;
+    ask_at_ = now + kPatience;
   }
   return asks;
 }

@@ -52,9 +52,7 @@ class RdtLink {
   SequenceMonitor sequence_{kModulus, kTolerated, true};
   RdtRecord newest_;
   bool has_newest_ = false;
-  std::int64_t received_at_ = 0;
-  bool asked_ = false;
-  std::int64_t asked_at_ = 0;
+  std::int64_t ask_at_ = 0;  ///< ns, to stream, unless a record comes before
 };
 
 }  // namespace flexcomp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "messages/digest.hpp"
 #include "node/can_link.hpp"
 
 namespace flexcomp {
@@ -11,15 +12,6 @@ namespace {
 // ns, where the node was not ready to be armed
 constexpr std::int64_t kAskAgain = 50'000'000;
 constexpr std::int64_t kGiveUp = 5'000'000'000;
-
-/// FNV-1a: tells contents apart, no more.
-std::uint32_t digest(std::string_view text) {
-  std::uint32_t hash = 2166136261U;
-  for (const char c : text) {
-    hash = (hash ^ static_cast<std::uint8_t>(c)) * 16777619U;
-  }
-  return hash;
-}
 
 bool is_finite(const AxisAngles& angles) {
   return std::all_of(angles.begin(), angles.end(), [](double x) { return std::isfinite(x); });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <vector>
 
 #include "model/frame_numbers.hpp"
@@ -10,24 +11,17 @@
 namespace flexcomp::controller {
 namespace {
 
-std::string list_of(const std::vector<double>& numbers) {
+/// Any numbers as a list of the configuration.
+template <typename Numbers>
+std::string bracketed(const Numbers& numbers) {
   return fmt::format("[{:.9g}]", fmt::join(numbers, ", "));
 }
 
-std::string list_of(const Vector3<double>& vector) {
-  return list_of(std::vector<double>{vector.x(), vector.y(), vector.z()});
-}
-
-std::string list_of(const Pose<double>& pose) {
-  const auto numbers = model::frame_numbers(pose);
-  return list_of(std::vector<double>(numbers.begin(), numbers.end()));
-}
-
 std::string joint_line(std::size_t joint, const Joint<double>& of) {
-  const auto origin = model::frame_numbers(of.origin);
+  const std::array<double, 6> origin = model::frame_numbers(of.origin);
   std::vector<double> numbers(origin.begin(), origin.end());
-  numbers.insert(numbers.end(), {of.axis.x(), of.axis.y(), of.axis.z()});
-  return fmt::format("sensor-joint-{} = {}\n", joint + 1, list_of(numbers));
+  numbers.insert(numbers.end(), of.axis.begin(), of.axis.end());
+  return fmt::format("sensor-joint-{} = {}\n", joint + 1, bracketed(numbers));
 }
 
 /// The frame of the tool link in that of the last link.
@@ -52,10 +46,11 @@ std::string sensor_lines(const std::string& address, const Pose<double>& frame,
       "sensor = \"udp://{}\"\nsensor-frame = {}\nsensor-tcp = {}\n"
       "sensor-mass = {:.9g}\nsensor-center-of-mass = {}\nsensor-gravity = {}\n"
       "# the arm: x, y, z, roll, pitch, yaw of each joint, and its axis\n",
-      address, list_of(flange * frame), list_of(arm.tool.position), tool.mass,
-      list_of(
+      address, bracketed(model::frame_numbers(flange * frame)), bracketed(arm.tool.position),
+      tool.mass,
+      bracketed(
           Vector3<double>(flange.rotation * Vector3<double>(tool.com.data()) + flange.position)),
-      list_of(arm.gravity));
+      bracketed(arm.gravity));
   for (std::size_t joint = 0; joint < arm.joints.size(); ++joint) {
     text += joint_line(joint, arm.joints[joint]);
   }

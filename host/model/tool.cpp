@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 
 #include "files/one_line.hpp"
+#include "model/frame_numbers.hpp"
 #include "model/rigid_body.hpp"
 #include "model/robot.hpp"
 #include "model/whole_turn.hpp"
@@ -41,12 +41,7 @@ std::array<double, Count> numbers_or_zero(const YamlMap& yaml, const std::string
 }  // namespace
 
 Pose<double> Tool::mounting() const {
-  using Eigen::AngleAxisd;
-  using Axis = Vector3<double>;
-  return {(AngleAxisd(rpy[2], Axis::UnitZ()) * AngleAxisd(rpy[1], Axis::UnitY()) *
-           AngleAxisd(rpy[0], Axis::UnitX()))
-              .toRotationMatrix(),
-          {xyz[0], xyz[1], xyz[2]}};
+  return frame_of_numbers({xyz[0], xyz[1], xyz[2], rpy[0], rpy[1], rpy[2]});
 }
 
 Tool read_tool(const YamlMap& yaml) {

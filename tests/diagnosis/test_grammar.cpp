@@ -177,6 +177,17 @@ void a_wave_whose_size_follows_the_load_is_a_law() {
   TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q5)*tau5") != std::string::npos, formula.c_str());
 }
 
+void a_wave_whose_size_follows_the_speed_is_a_law() {
+  const DrivenRobot robot;
+  const Finding found = only_law(observed(robot, 5, [](const simulation::Simulation& at) {
+    const Eigen::ArrayXd speed = at.velocity.col(4).array();
+    return Eigen::VectorXd(60 * (50 * at.q.col(4).array() + 0.4).sin() * speed /
+                           speed.abs().maxCoeff());
+  }));
+  const std::string formula = found.chosen.hypothesis.law->written->formula;
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q5)*v5") != std::string::npos, formula.c_str());
+}
+
 /// A torque that follows the joint's load late, by 2 s.
 Eigen::VectorXd late_load(const simulation::Simulation& at) {
   Eigen::VectorXd late = -at.prediction.dynamic_load.col(4);
@@ -342,6 +353,7 @@ int main() {
   RUN_TEST(a_law_that_hardly_bends_is_weighed_against_the_line);
   RUN_TEST(a_wave_is_seen_though_its_size_is_nothing_on_average);
   RUN_TEST(a_wave_whose_size_follows_the_load_is_a_law);
+  RUN_TEST(a_wave_whose_size_follows_the_speed_is_a_law);
   RUN_TEST(what_a_joint_carried_before_is_found_by_a_lag);
   RUN_TEST(what_a_joint_carried_before_the_recording_is_no_constant);
   RUN_TEST(a_loop_is_a_law_where_its_effect_is_left_out);

@@ -36,6 +36,11 @@ class SensorTest(HilTest):
         model.write_text(text + f"tool: {{xyz: {TCP}, mass: {MASS}, com: {CENTER}}}\n")
         return model
 
+    def unplug(self):
+        """The next node has no sensor."""
+        lines = self.job.config.read_text().splitlines(keepends=True)
+        self.job.config.write_text("".join(line for line in lines if "sensor" not in line))
+
     def node(self, *options, **arguments):
         node = Flexcompd(self.job, "--trigger", "lockstep", "--priority", "0", *options, **arguments)
         self.addCleanup(node.__exit__)
@@ -75,12 +80,11 @@ class SensorTest(HilTest):
 
 class Can(SensorTest):
     def test_the_correction_is_that_of_the_same_wrench_over_can(self):
-        text = self.job.config.read_text()
         node = self.node(preload=shared_library(self.folder, "abort_on_allocation"))  # a tick never takes from the heap
         by_sensor = self.arm_and_follow(self.feel)
         self.assertEqual(0, node.stop(), node.messages())
         statistics = node.statistics()["wrench"]
-        self.job.config.write_text("".join(line + "\n" for line in text.splitlines() if "sensor" not in line))
+        self.unplug()
         self.node()
         by_can = self.arm_and_follow(lambda q, wrench: self.peer.send_wrench(wrench))
 
@@ -152,8 +156,7 @@ class Rsi(SensorTest):
 
     def test_corrections_are_those_of_the_same_wrench_in_the_telegram(self):
         by_sensor = self.drive(press=self.feel_as_told)
-        text = self.job.config.read_text()
-        self.job.config.write_text("".join(line + "\n" for line in text.splitlines() if "sensor" not in line))
+        self.unplug()
         by_telegram = self.drive("--rsi-wrench", "FT", press=lambda datagram: None)
         self.assertGreater(max(map(abs, by_telegram[-1])), 0.01)
         self.assertLess(max(abs(a - b) for x, y in zip(by_sensor, by_telegram) for a, b in zip(x, y)), 4 * ROUNDING)

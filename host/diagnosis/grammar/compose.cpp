@@ -199,10 +199,8 @@ bool is_known(const Material& material, const Lead& lead, const std::set<std::st
   if (driver == nullptr) {
     return false;
   }
-  const std::string wanted = lead.factor.text == lead.factor.signal ? "line" : "sign";
-  const auto shape = std::find_if(shapes().begin(), shapes().end(),
-                                  [&](const Shape& each) { return each.name == wanted; });
-  return effects.count(known_as({lead.seat, driver, {}, 0, 0, false}, *shape)) > 0;
+  const Shape& shape = shape_named(lead.factor.text == lead.factor.signal ? "line" : "sign");
+  return effects.count(known_as({lead.seat, driver, {}, 0, 0}, shape)) > 0;
 }
 
 /// A lead with each of its shapes, those with a name in the catalogue among them.
@@ -287,9 +285,7 @@ bool has_name(const Composed& law, const std::set<std::string>& effects) {
 
 /// A wave whose size follows a second driver, with each of those that gain most.
 std::vector<Composed> swelling(const Material& material, const Lead& lead) {
-  const Shape& wave = *std::find_if(shapes().begin(), shapes().end(), [](const Shape& each) {
-    return !each.parameters.empty() && each.parameters.front().sought == Sought::wave;
-  });
+  const Shape& wave = shape_named("wave of any order");
   return modulated(material, composed_of(material, lead, {&wave, false, {}}, {lead.wave}));
 }
 
@@ -337,13 +333,14 @@ Composed without_fitted_constant(const Material& material, Composed law) {
 /// The line in the place of a law that bends by less than a hundredth of what it does, else
 /// nothing.
 std::optional<Composed> straight(const Material& material, const Composed& law) {
-  const Shape& line = shapes().front();
+  constexpr double kLeastBend = 0.01;
+  const Shape& line = shape_named("line");
   if (law.form.shape == &line || law.form.modulation.driver != nullptr ||
       !line.fits(*law.lead.seat, *law.lead.driver) || is_redundant(law.lead, line)) {
     return std::nullopt;
   }
   Composed plain = composed_of(material, law.lead, {&line, law.form.has_constant, {}}, {});
-  return plain.gain > 0.99 * law.gain ? std::optional(std::move(plain)) : std::nullopt;
+  return plain.gain > (1 - kLeastBend) * law.gain ? std::optional(std::move(plain)) : std::nullopt;
 }
 
 /// Before each law with a second driver the law without, to whose better values the whole fit may
@@ -353,7 +350,7 @@ std::vector<Composed> after_plain(const Material& material, std::vector<Composed
   std::vector<Composed> all;
   for (Composed& law : laws) {
     if (law.form.modulation.driver != nullptr && !has_name(law, effects)) {
-      all.push_back(composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters));
+      all.push_back(without_constant(material, law));
     }
     if (std::optional<Composed> line = straight(material, law); line && !has_name(*line, effects)) {
       all.push_back(without_fitted_constant(material, std::move(*line)));

@@ -143,8 +143,7 @@ std::optional<Lead> lead_of(const Material& material, const Seat& seat, const Dr
   }
   const bool is_time = driver.kind == SignalKind::time;
   const Normal normal = hats.normal(seat, factor);
-  Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()),
-            1,     false};
+  Lead lead{&seat, &driver, factor, seat.is_sensor() ? 0 : normal.gain(normal.amplitude()), 1};
   if (factor.text.empty() && is_time && seat.is_sensor()) {
     lead.gain = std::max(lead.gain, best_step(seat));
   }
@@ -223,7 +222,7 @@ std::vector<Lead> screen(const Material& material, const std::vector<Seat>& seat
   const auto end = std::find_if(leads.begin(), leads.end(),
                                 [&](const Lead& each) { return !(each.gain > least); });
   leads.erase(end, leads.end());
-  leads.resize(std::min(leads.size(), kMostLeads), Lead{nullptr, nullptr, {}, 0, 0, false});
+  leads.resize(std::min(leads.size(), kMostLeads), Lead{nullptr, nullptr, {}, 0, 0});
   const double most = leads.empty() ? 0 : leads.front().gain;
   const std::vector<Lead> waves = swelling_waves(material, seats, most, looked_at);
   leads.insert(leads.end(), waves.begin(), waves.end());

@@ -212,6 +212,11 @@ const std::vector<Shape>& shapes() {
   return kShapes;
 }
 
+const Shape& shape_named(const std::string& name) {
+  return *std::find_if(shapes().begin(), shapes().end(),
+                       [&](const Shape& each) { return each.name == name; });
+}
+
 const std::vector<Shape>& modulations() {
   static const std::vector<Shape> kModulations = {{"scale", {"1", "$"}, {}, {}},
                                                   {"swell", {"1", "$", "$^2"}, {}, {}},

@@ -51,6 +51,9 @@ struct Shape {
 /// All shapes, the simplest first.
 const std::vector<Shape>& shapes();
 
+/// The first of them that has this name. One must.
+const Shape& shape_named(const std::string& name);
+
 /// Shapes of a second driver: each term of a law may be multiplied with each term of one of them.
 const std::vector<Shape>& modulations();
 
