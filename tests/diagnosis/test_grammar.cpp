@@ -133,6 +133,38 @@ void a_wave_that_another_joint_turns_round_is_one_law() {
                            formula.c_str());
 }
 
+/// The laws that are worth a fit.
+std::vector<grammar::Composed> composed(const grammar::Material& material) {
+  const Observations& observations = material.observations;
+  const auto seats = grammar::seats_of(observations, material.rows, fit(observations, {}, 0));
+  std::size_t looked_at = 0;
+  return grammar::compose(material, grammar::screen(material, seats, &looked_at), {}, &looked_at);
+}
+
+/// The first of them that follows a driver by a shape, or the end.
+std::vector<grammar::Composed>::const_iterator follows(const std::vector<grammar::Composed>& laws,
+                                                       const char* shape, const char* driver) {
+  return std::find_if(laws.begin(), laws.end(), [&](const grammar::Composed& each) {
+    return std::string(each.form.shape->name) == shape && each.lead.driver->name == driver;
+  });
+}
+
+/// Few stretches have rows beyond the stop. Halves without most of these prefer another law of two
+/// numbers, though the stop fits better.
+void a_stop_that_few_stretches_touch_is_weighed() {
+  const DrivenRobot robot;
+  const Observations observations = observed(robot, 5, [](const simulation::Simulation& at) {
+    const Eigen::ArrayXd angle = at.q.col(4).array();
+    const double stop = angle.minCoeff() + 0.1 * (angle.maxCoeff() - angle.minCoeff());
+    return Eigen::VectorXd(300 * (stop - angle).max(0));
+  });
+  const grammar::Material material(observations);
+  const auto laws = composed(material);
+  TEST_ASSERT_TRUE(std::any_of(laws.begin(), laws.end(), [](const grammar::Composed& each) {
+    return std::string(each.form.shape->name) == "stop below" && each.numbers() == 2;
+  }));
+}
+
 /// A limit that only the driver's peaks reach: noise that is cut off looks so.
 void a_law_that_hardly_bends_is_weighed_against_the_line() {
   const DrivenRobot robot;
@@ -142,13 +174,8 @@ void a_law_that_hardly_bends_is_weighed_against_the_line() {
     return Eigen::VectorXd(60 * load.min(most).max(-most) / most);
   });
   const grammar::Material material(observations);
-  const auto seats = grammar::seats_of(observations, material.rows, fit(observations, {}, 0));
-  std::size_t looked_at = 0;
-  const auto laws =
-      grammar::compose(material, grammar::screen(material, seats, &looked_at), {}, &looked_at);
-  const auto limit = std::find_if(laws.begin(), laws.end(), [](const grammar::Composed& each) {
-    return std::string(each.form.shape->name) == "limit" && each.lead.driver->name == "tau4";
-  });
+  const auto laws = composed(material);
+  const auto limit = follows(laws, "limit", "tau4");
   TEST_ASSERT_TRUE(limit != laws.end() && limit != laws.begin());
   TEST_ASSERT_EQUAL_STRING("line", std::prev(limit)->form.shape->name);
   TEST_ASSERT_EQUAL_STRING("tau4", std::prev(limit)->lead.driver->name.c_str());
@@ -164,6 +191,8 @@ void a_wave_is_seen_though_its_size_is_nothing_on_average() {
   }));
   const std::string formula = found.chosen.hypothesis.law->written->formula;
   TEST_ASSERT_TRUE_MESSAGE(formula.find("sin(k*q5)") != std::string::npos, formula.c_str());
+  TEST_ASSERT_TRUE(found.chosen.hypothesis.statement().find("usually the magnets of a motor") !=
+                   std::string::npos);
 }
 
 void a_wave_whose_size_follows_the_load_is_a_law() {
@@ -350,6 +379,7 @@ int main() {
   RUN_TEST(friction_that_another_joints_angle_raises_is_followed);
   RUN_TEST(friction_of_a_gear_that_drives_follows_its_power);
   RUN_TEST(a_wave_that_another_joint_turns_round_is_one_law);
+  RUN_TEST(a_stop_that_few_stretches_touch_is_weighed);
   RUN_TEST(a_law_that_hardly_bends_is_weighed_against_the_line);
   RUN_TEST(a_wave_is_seen_though_its_size_is_nothing_on_average);
   RUN_TEST(a_wave_whose_size_follows_the_load_is_a_law);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "effects/formula_law.hpp"
@@ -30,9 +31,18 @@ std::string cause_of_friction(SignalKind kind) {
   }
 }
 
-std::string cause_of_torque(const Lead& lead) {
+/// Has a shape waves of an order that the recordings tell, as teeth and magnets have?
+bool is_ripple(const Shape& shape) {
+  return std::any_of(shape.parameters.begin(), shape.parameters.end(),
+                     [](const ShapeParameter& each) { return each.sought == Sought::wave; });
+}
+
+std::string cause_of_torque(const Lead& lead, const Shape& shape) {
   if (is_friction(lead)) {
     return cause_of_friction(lead.driver->kind);
+  }
+  if (lead.driver->kind == SignalKind::angle && is_ripple(shape)) {
+    return "usually the magnets of a motor or the teeth of a gear";
   }
   switch (lead.driver->kind) {
     case SignalKind::angle:
@@ -109,7 +119,7 @@ std::string usual_cause(const Lead& lead, const Shape& shape) {
   }
   switch (lead.seat->place.kind) {
     case PlaceKind::joint_torque:
-      return cause_of_torque(lead);
+      return cause_of_torque(lead, shape);
     case PlaceKind::joint_angle:
       return cause_of_angle(lead);
     case PlaceKind::sensor_wrench:

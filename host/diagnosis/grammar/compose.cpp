@@ -1,7 +1,6 @@
 #include "diagnosis/grammar/compose.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 
@@ -11,7 +10,6 @@
 namespace flexcomp::diagnosis::grammar {
 namespace {
 
-constexpr int kRefinements = 5;              // halvings of the step around the best start
 constexpr double kMostHalves = 0.8;          // in which a richer law must predict better: of halves
                                              // that say nothing one in two does
 constexpr std::size_t kModulated = 3;        // leads of which a second driver is sought
@@ -19,141 +17,6 @@ constexpr std::size_t kMostModulations = 3;  // of each that are weighed
 constexpr std::size_t kProved = 4;           // laws worth a fit, of those that are proved on halves
 constexpr std::size_t kForeseeing = 4;       // and of the others that predict best
 constexpr double kWorthwhile = 6;  // squares over the noise that it must gain for each number more
-
-/// A form of a lead along all rows, by its parameters.
-class Fitted {
- public:
-  Fitted(const Material& material, const Lead& lead, const Form& form)
-      : observations_(material.observations), rows_(material.rows), lead_(lead), form_(form) {}
-
-  /// The terms, a constant where the form has one, and last what a beginning leaves behind.
-  Eigen::MatrixXd courses(const Values& parameters) const {
-    Eigen::MatrixXd courses =
-        courses_of(*form_.shape, *lead_.driver, rows_, observations_, parameters);
-    const auto append = [&](const Eigen::VectorXd& course) {
-      courses.conservativeResize(Eigen::NoChange, courses.cols() + 1);
-      courses.rightCols<1>() = course;
-    };
-    if (form_.has_constant) {
-      append(Eigen::VectorXd::Ones(courses.rows()));
-    }
-    if (has_beginning()) {
-      append((-(rows_.time.array() - rows_.time[0]) / parameters.front()).exp());
-    }
-    if (lead_.factor.course.size() > 0) {
-      courses.array().colwise() *= lead_.factor.course.array();
-    }
-    return form_.modulation.driver == nullptr ? courses : modulated(courses);
-  }
-
-  /// What lags remembers loads that nobody recorded, unless there are several recordings, which
-  /// began each elsewhere.
-  bool has_beginning() const {
-    return form_.shape->lags() && form_.modulation.driver == nullptr && !observations_.is_static &&
-           observations_.train_scenes == 1;
-  }
-
-  double gain(const Values& parameters) const {
-    const Eigen::MatrixXd all = courses(parameters);
-    if (!all.allFinite()) {
-      return 0;
-    }
-    const Normal normal = normal_of(*lead_.seat, all);
-    return normal.gain(normal.amplitude());
-  }
-
-  /// The best parameters: the best start, and around it in ever smaller steps.
-  Values best() const {
-    const std::vector<Values> starts =
-        starts_of(*form_.shape, *lead_.driver, observations_, lead_.wave);
-    Values best = starts.front();
-    double most = -1;
-    for (const Values& start : starts) {
-      const double own = starts.size() > 1 ? gain(start) : 0;
-      if (own > most) {
-        most = own;
-        best = start;
-      }
-    }
-    return refined(std::move(best), most);
-  }
-
- private:
-  /// Each course times each of what the second driver does.
-  Eigen::MatrixXd modulated(const Eigen::MatrixXd& courses) const {
-    const Eigen::MatrixXd by =
-        courses_of(*form_.modulation.shape, *form_.modulation.driver, rows_, observations_, {});
-    Eigen::MatrixXd all(courses.rows(), courses.cols() * by.cols());
-    for (Eigen::Index i = 0; i < courses.cols(); ++i) {
-      all.middleCols(i * by.cols(), by.cols()) = by.array().colwise() * courses.col(i).array();
-    }
-    return all;
-  }
-
-  Values refined(Values best, double most) const {
-    const std::vector<Bounds> bounds = bounds_of(*form_.shape, *lead_.driver, observations_);
-    for (std::size_t i = 0; i < best.size(); ++i) {
-      const bool is_place = form_.shape->parameters[i].sought == Sought::threshold ||
-                            form_.shape->parameters[i].sought == Sought::wave;
-      double step = is_place ? bounds[i].step * 5 : 0.4 * best[i];
-      for (int k = 0; k < kRefinements; ++k, step /= 2) {
-        for (const double change : {-step, step}) {
-          Values moved = best;
-          moved[i] = std::clamp(moved[i] + change, bounds[i].lower, bounds[i].upper);
-          const double own = gain(moved);
-          if (own > most) {
-            most = own;
-            best = std::move(moved);
-          }
-        }
-      }
-    }
-    return best;
-  }
-
-  const Observations& observations_;
-  const Rows& rows_;
-  const Lead& lead_;
-  Form form_;
-};
-
-/// Each term's amplitude by which it changes the samples as much as the largest term does.
-Eigen::VectorXd reach_of(const Normal& normal, const Eigen::VectorXd& amplitude) {
-  constexpr double kTiny = 1e-300;  // against a division by zero
-  const Eigen::VectorXd size = normal.gram.diagonal().cwiseMax(kTiny).cwiseSqrt();
-  return amplitude.cwiseAbs().cwiseProduct(size).maxCoeff() * size.cwiseInverse();
-}
-
-/// Gives the first term the beginning that fits best, by the last course, which goes: by how much
-/// what lags begins above its input, no more than the input ever changes. Halves that lack the
-/// first rows could not tell.
-double take_beginning(const Seat& seat, double span, Eigen::MatrixXd* courses) {
-  const Eigen::VectorXd amplitude = normal_of(seat, *courses).amplitude();
-  const double ahead = amplitude[amplitude.size() - 1] / amplitude[0];
-  const double beginning = std::isfinite(ahead) ? std::clamp(ahead, -span, span) : 0;
-  courses->col(0) += beginning * courses->col(courses->cols() - 1);
-  courses->conservativeResize(Eigen::NoChange, courses->cols() - 1);
-  return beginning;
-}
-
-Composed composed_of(const Material& material, const Lead& lead, const Form& form,
-                     Values parameters) {
-  Composed law{lead, form, std::move(parameters), {}, {}, {}, 0, {}};
-  const Fitted fitted(material, lead, form);
-  Eigen::MatrixXd courses = fitted.courses(law.parameters);
-  if (!courses.allFinite()) {
-    return law;
-  }
-  if (fitted.has_beginning()) {
-    law.beginning = take_beginning(*lead.seat, span_of_input(*form.shape, *lead.driver), &courses);
-  }
-  const Normal normal = normal_of(*lead.seat, courses);
-  law.amplitude = normal.amplitude();
-  law.reach = reach_of(normal, law.amplitude);
-  law.gain = normal.gain(law.amplitude);
-  law.unseen = unseen_gains(normals_by_stretch(*lead.seat, material.rows, courses));
-  return law;
-}
 
 /// Does a law that says more predict better, and in most of the halves?
 bool is_worth(const Composed& richer, const Composed& simpler) {
@@ -212,7 +75,7 @@ std::vector<Composed> laws_of(const Material& material, const Lead& lead,
     if (!shape.fits(*lead.seat, *lead.driver) || is_redundant(lead, shape)) {
       continue;
     }
-    const Values parameters = Fitted(material, lead, {&shape, may_have_constant, {}}).best();
+    const Values parameters = best_parameters(material, lead, {&shape, may_have_constant, {}});
     for (const bool has_constant : {false, true}) {
       if (has_constant && !may_have_constant) {
         continue;
@@ -242,8 +105,8 @@ std::vector<Composed> modulated(const Material& material, const Composed& law) {
                            driver.name != law.lead.driver->name && shape.suits(driver) &&
                            law.form.shape->terms.size() * shape.terms.size() <= kMostTerms;
       if (is_able) {
-        const Fitted fitted(material, law.lead, {law.form.shape, false, by});
-        const double gain = fitted.gain(law.parameters);
+        const double gain =
+            gain_of(material, law.lead, {law.form.shape, false, by}, law.parameters);
         const auto numbers = static_cast<double>(law.form.shape->terms.size()) *
                              static_cast<double>(shape.terms.size() - 1);
         if (gain > law.gain + std::max(kWorthwhile * numbers, kLeastOfRest * rest)) {
@@ -262,9 +125,24 @@ std::vector<Composed> modulated(const Material& material, const Composed& law) {
   return laws;
 }
 
+/// The twin of a law among others of its lead; null where it has none.
+std::shared_ptr<const Composed> twin_of(const Composed& law, const std::vector<Composed>& others) {
+  const Composed* twin = nullptr;
+  for (const Composed& each : others) {
+    if (each.complexity() == law.complexity() && each.gain > law.gain + kWorthwhile &&
+        (twin == nullptr || each.gain > twin->gain)) {
+      twin = &each;
+    }
+  }
+  return twin == nullptr ? nullptr : std::make_shared<const Composed>(*twin);
+}
+
 /// Laws that are worth a fit: the best that is proved, and the one that predicts best, where that
-/// is another. The second may follow what only a few stretches show.
+/// is another. The second may follow what only a few stretches show. Each has its twin.
 std::vector<Composed> worth_fitting(std::vector<Composed> laws) {
+  for (Composed& law : laws) {
+    law.twin = twin_of(law, laws);
+  }
   best_first(&laws);
   const auto foreseeing = std::max_element(
       laws.begin(), laws.end(),
@@ -343,6 +221,19 @@ std::optional<Composed> straight(const Material& material, const Composed& law) 
   return plain.gain > (1 - kLeastBend) * law.gain ? std::optional(std::move(plain)) : std::nullopt;
 }
 
+/// After each law its twin.
+std::vector<Composed> with_twins(std::vector<Composed> laws) {
+  std::vector<Composed> all;
+  for (Composed& law : laws) {
+    const std::shared_ptr<const Composed> twin = std::move(law.twin);
+    all.push_back(std::move(law));
+    if (twin != nullptr) {
+      all.push_back(*twin);
+    }
+  }
+  return all;
+}
+
 /// Before each law with a second driver the law without, to whose better values the whole fit may
 /// give what it gains. Before each that hardly bends the line: noise cut off looks like a limit.
 std::vector<Composed> after_plain(const Material& material, std::vector<Composed> laws,
@@ -361,10 +252,6 @@ std::vector<Composed> after_plain(const Material& material, std::vector<Composed
 }
 
 }  // namespace
-
-Composed without_constant(const Material& material, const Composed& law) {
-  return composed_of(material, law.lead, {law.form.shape, false, {}}, law.parameters);
-}
 
 std::vector<Composed> compose(const Material& material, const std::vector<Lead>& leads,
                               const std::set<std::string>& effects, std::size_t* looked_at) {
@@ -391,7 +278,7 @@ std::vector<Composed> compose(const Material& material, const std::vector<Lead>&
   });
   all.resize(std::min(all.size(), kForeseeing));
   std::move(all.begin(), all.end(), std::back_inserter(chosen));
-  return after_plain(material, std::move(chosen), effects);
+  return after_plain(material, with_twins(std::move(chosen)), effects);
 }
 
 }  // namespace flexcomp::diagnosis::grammar

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/grammar/compose.hpp"
 #include "diagnosis/grammar/known.hpp"
 #include "diagnosis/grammar/written.hpp"
 #include "diagnosis/rest.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/grammar/compose.hpp"
+#include "diagnosis/grammar/composed.hpp"
 
 namespace flexcomp::diagnosis::grammar {
 
