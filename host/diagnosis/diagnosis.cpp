@@ -27,6 +27,16 @@ bool has_enough(const Observations& observations) {
   return observations.train >= kFewestSamples && observations.size() > observations.train;
 }
 
+/// Why there is not enough.
+std::string what_lacks(const Observations& observations) {
+  const std::string counts =
+      fmt::format("too little data: {} samples to fit to and {} to check with", observations.train,
+                  observations.size() - observations.train);
+  return observations.has(simulation::joint_torque)
+             ? counts + " (a joint that stands still counts for none: friction hides its torque)"
+             : counts;
+}
+
 /// A load test's noise is what the fullest fit leaves; single samples far from it are outliers.
 void learn_noise(Observations* observations, const std::vector<Hypothesis>& hypotheses,
                  const Dictionary& dictionary, const Fit& given) {
@@ -145,10 +155,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
                    const Settings& settings) {
   Diagnosis diagnosis;
   if (!has_enough(*observations)) {
-    withdraw(*observations,
-             fmt::format("too little data: {} samples to fit to and {} to check with",
-                         observations->train, observations->size() - observations->train),
-             &diagnosis);
+    withdraw(*observations, what_lacks(*observations), &diagnosis);
     return diagnosis;
   }
   Basis basis = basis_of(observations, hypotheses, settings);

@@ -59,6 +59,40 @@ std::vector<Chosen> kept_of(const Inquiry& inquiry, const Fit& found) {
   return kept;
 }
 
+/// Does a fit leave next to nothing beyond the noise, of what was fitted to and of what was held
+/// out?
+bool leaves_little(const Observations& observations, const Fit& before, const Fit& after) {
+  const auto beyond_noise = [&](const Fit& fit, bool held_out) {
+    const Part part = observations.part(held_out);
+    const Eigen::Index count = part.end - part.first;
+    return fit.remainder.segment(part.first, count).squaredNorm() - static_cast<double>(count);
+  };
+  const auto is_little = [&](bool held_out) {
+    return beyond_noise(after, held_out) <= (1 - kLeastExplained) * beyond_noise(before, held_out);
+  };
+  return is_little(false) && is_little(true);
+}
+
+/// What numbers are fitted beside in any case: what was given, and a finding that accounts for
+/// nearly all of the torques by itself, as a load does that nobody told the model of. Masses of
+/// several links do the same together, and would share it.
+Fit base_of(const Inquiry& inquiry, const Fit& found) {
+  Fit base = inquiry.given;
+  if (!inquiry.observations.has(simulation::joint_torque)) {
+    return base;
+  }
+  for (const Chosen& each : found.chosen) {
+    if (!is_chosen(inquiry.given.chosen, each.hypothesis)) {
+      Fit alone = fit_with(inquiry, inquiry.given, each, kSteps);
+      if (alone.train_sum < base.train_sum &&
+          leaves_little(inquiry.observations, inquiry.given, alone)) {
+        base = std::move(alone);
+      }
+    }
+  }
+  return base;
+}
+
 /// How numbers came to be fitted together, so that the same way can be gone over another noise.
 struct Way {
   bool is_alone = true;        ///< without the findings that were made one by one
@@ -67,21 +101,20 @@ struct Way {
 };
 
 /// The numbers of a machine together, in the place of those that were found one by one: beside the
-/// other findings, or without them where that predicts as well. Nothing where single numbers
-/// predict better. Tries the ways given, and gives the one that was best.
-Fit together(const Inquiry& inquiry, const Fit& found, const std::vector<Hypothesis>& hypotheses,
-             Way* way) {
+/// other findings, or beside the base alone where that predicts as well. Nothing where single
+/// numbers predict better. Tries the ways given, and gives the one that was best.
+Fit together(const Inquiry& inquiry, const Fit& base, const Fit& found,
+             const std::vector<Hypothesis>& hypotheses, Way* way) {
   const Observations& observations = inquiry.observations;
   const std::vector<Chosen> kept = kept_of(inquiry, found);
-  const bool keeps_any = kept.size() > inquiry.given.chosen.size();
+  const bool keeps_any = kept.size() > base.chosen.size();
   Families alone;
   Families beside;
   in_parallel(
       2, [](std::size_t, std::size_t) {},
       [&](std::size_t i) {
         if (i == 0 && way->is_alone) {
-          alone = retune_whole(observations, inquiry.given, hypotheses, inquiry.dictionary,
-                               way->extras);
+          alone = retune_whole(observations, base, hypotheses, inquiry.dictionary, way->extras);
         } else if (i == 1 && way->is_beside && keeps_any) {
           const Fit rest = fit(observations, kept, kSteps, &inquiry.dictionary);
           beside = retune_whole(observations, rest, hypotheses, inquiry.dictionary, way->extras);
@@ -136,8 +169,9 @@ void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   const Dictionary& dictionary = inquiry.dictionary;
   const bool is_begun = !diagnosis->choice.begun.chosen.empty();
   const Fit& found = is_begun ? diagnosis->choice.begun : diagnosis->choice.fit;
+  const Fit base = base_of(inquiry, found);
   if (is_begun || are_many(inquiry, found)) {
-    take_members(inquiry, together(inquiry, found, hypotheses, way), 0, diagnosis);
+    take_members(inquiry, together(inquiry, base, found, hypotheses, way), 0, diagnosis);
   }
   if (diagnosis->is_weighed_whole || diagnosis->verdict == Verdict::explained) {
     return;
@@ -146,7 +180,7 @@ void refit_in(const Inquiry& inquiry, const std::vector<Hypothesis>& hypotheses,
   diagnosis->retuned = retune(observations, diagnosis->choice.fit, hypotheses, dictionary);
   take_members(inquiry, Fit(diagnosis->retuned), findings, diagnosis);
   if (findings > 0) {
-    const Fit afresh = retune_whole(observations, inquiry.given, hypotheses, dictionary).fit;
+    const Fit afresh = retune_whole(observations, base, hypotheses, dictionary).fit;
     if (!afresh.chosen.empty() && predicts_better(observations, diagnosis->updated(), afresh)) {
       take_members(inquiry, afresh, diagnosis->choice.findings.size(), diagnosis);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/driven_robot.hpp"
+#include "diagnosis/families/candidates.hpp"
 #include "diagnosis/families/elimination.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
@@ -154,6 +155,30 @@ void numbers_that_cannot_be_told_apart_stay_near_the_model() {
   TEST_ASSERT_DOUBLE_WITHIN(0.01, expected[1], found[1]);
 }
 
+/// Both are bodies on the flange, one of them by itself, the other as a part of the link.
+void a_load_says_what_the_last_links_mass_does_and_no_other_links() {
+  simulation::Machine truth = robot().machine();
+  truth.robot.elastic.payload_mass = 60;
+  truth.robot.elastic.payload_center = {0.1, 0.15, 0.2};
+  const Observations observations = robot().observed(truth);
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
+  const auto load = std::find_if(hypotheses.begin(), hypotheses.end(),
+                                 [](const Hypothesis& each) { return each.effect() == "payload"; });
+  const diagnosis::Fit found = fit(observations, {{*load, {60, 6, 9, 12}}}, 3);
+  const Eigen::MatrixXd said = diagnosis::what_is_said(found, 1, observations.train);
+  const auto is_said_of = [&](int joint) {
+    const Hypothesis mass(effects::find_law("link_mass", "mounted"), joint, robot().robot);
+    const diagnosis::Entry* entry = dictionary.find(mass);
+    TEST_ASSERT_NOT_NULL(entry);
+    return diagnosis::is_said(
+        dictionary.columns.middleCols(entry->first, entry->count).topRows(observations.train),
+        said);
+  };
+  TEST_ASSERT_TRUE(is_said_of(6));
+  TEST_ASSERT_FALSE(is_said_of(3));
+}
+
 }  // namespace
 
 int main() {
@@ -163,5 +188,6 @@ int main() {
   RUN_TEST(what_was_left_out_makes_uncertain_what_stays_in_its_place);
   RUN_TEST(tracked_positions_that_err_slowly_deviate_more_than_noise_of_their_size);
   RUN_TEST(numbers_that_cannot_be_told_apart_stay_near_the_model);
+  RUN_TEST(a_load_says_what_the_last_links_mass_does_and_no_other_links);
   return UNITY_END();
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/plausible.hpp"
+#include "linear_algebra/span.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -27,6 +28,25 @@ bool could_matter(const Hypothesis& hypothesis, const Eigen::MatrixXd& columns,
     }
   }
   return false;
+}
+
+Eigen::MatrixXd what_is_said(const Fit& fit, std::size_t findings, Eigen::Index train) {
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < findings; ++i) {
+    count += static_cast<Eigen::Index>(fit.chosen[i].values.size());
+  }
+  return count == 0 ? Eigen::MatrixXd(train, 0)
+                    : linear_algebra::orthonormal_basis(fit.derivative.topLeftCorner(train, count));
+}
+
+bool is_said(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& said) {
+  constexpr double kSame = 0.99;  // of what it does
+  if (said.cols() == 0) {
+    return false;
+  }
+  const Eigen::MatrixXd shares = said.transpose() * columns;
+  return (shares.colwise().squaredNorm().array() > kSame * columns.colwise().squaredNorm().array())
+      .all();
 }
 
 double usual_width(const Observations& observations, const Hypothesis& hypothesis,

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "diagnosis/fit.hpp"
 #include "diagnosis/observations.hpp"
 #include "diagnosis/search/hypothesis.hpp"
 
@@ -18,6 +19,14 @@ bool is_candidate(const Observations& observations, const Hypothesis& hypothesis
 /// is left out, all others are told in its joint's unit of torque.
 bool could_matter(const Hypothesis& hypothesis, const Eigen::MatrixXd& columns,
                   const Eigen::VectorXd& target);
+
+/// Orthonormal columns that hold all that the first `findings` of a fit can do to the samples to
+/// fit to, to first order.
+Eigen::MatrixXd what_is_said(const Fit& fit, std::size_t findings, Eigen::Index train);
+
+/// Do findings say already what a hypothesis would, as a payload says what a heavier last link
+/// does? Beside it neither would be told. `columns`: its derivatives, a parameter each.
+bool is_said(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& said);
 
 /// Standard deviation of a number of machines as they are: what models are usually off by, or a
 /// part of its plausible range where that is not known.

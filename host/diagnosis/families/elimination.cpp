@@ -57,11 +57,13 @@ Elimination::Elimination(const Observations& observations, const Fit& about, std
     target_ += columns.topRows(observations.train) *
                Eigen::Map<const Eigen::VectorXd>(chosen.values.data(), count);
   }
+  const Eigen::MatrixXd said = what_is_said(about, given, observations.train);
   for (const Hypothesis& each : hypotheses) {
     const Entry* entry = dictionary.find(each);
     if (is_candidate(observations, each) && !is_chosen(about.chosen, each) && entry != nullptr) {
       const auto columns = dictionary.columns.middleCols(entry->first, entry->count);
-      if (could_matter(each, columns.topRows(observations.train), target_)) {
+      const Eigen::MatrixXd own = columns.topRows(observations.train);
+      if (could_matter(each, own, target_) && !is_said(own, said)) {
         add({{each, Values(each.parameters.size(), 0.0)}, {}, false}, columns);
       }
     }

@@ -17,11 +17,19 @@ Json joint_or_null(int joint) { return joint > 0 ? Json(joint) : Json(nullptr); 
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// Null where the part has no samples of the channel.
+Json rms_or_null(const Observations& observations, const Eigen::VectorXd& values, Channel channel,
+                 bool held_out) {
+  const bool has_samples =
+      observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, held_out) > 0;
+  return has_samples ? Json(observations.rms(values, channel, held_out)) : Json(nullptr);
+}
+
 Json rms_of(const Observations& observations, const Eigen::VectorXd& values) {
   Json json = Json::object();
   for (const Channel channel : observations.channels()) {
-    json[kChannels[channel]] = {{"train_rms", observations.rms(values, channel, false)},
-                                {"holdout_rms", observations.rms(values, channel, true)}};
+    json[kChannels[channel]] = {{"train_rms", rms_or_null(observations, values, channel, false)},
+                                {"holdout_rms", rms_or_null(observations, values, channel, true)}};
   }
   return json;
 }

@@ -142,15 +142,19 @@ std::string statement_of_band(const Observations& observations, const Diagnosis&
     return "";
   }
   const std::string unit = unit_of(observations, simulation::joint_torque);
-  const auto written = [&](const Eigen::VectorXd& values) {
-    return readable(rms_in_band(observations, *band, values, true), unit);
-  };
+  const double error = rms_in_band(observations, *band, observations.residual, true);
+  if (!std::isfinite(error)) {  // nothing was held out
+    return "";
+  }
+  const std::string before = readable(error, unit);
+  const std::string after =
+      readable(rms_in_band(observations, *band, diagnosis.updated().remainder, true), unit);
   return fmt::format(
       "Below {:.0f} Hz, which is as fast as these angles can tell a motion (polynomials over "
       "{:.0f} "
-      "ms), held-out error of joint torque falls from {} to {}.",
-      band->frequency, 2e3 * band->half_window, written(observations.residual),
-      written(diagnosis.updated().remainder));
+      "ms), held-out error of joint torque {}.",
+      band->frequency, 2e3 * band->half_window,
+      after == before ? "is " + before : fmt::format("falls from {} to {}", before, after));
 }
 
 std::string statement_of_clock(const ClockCheck& clock) {
