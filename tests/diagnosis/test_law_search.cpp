@@ -95,6 +95,22 @@ void a_law_is_found_beside_an_effect() {
   TEST_ASSERT_EQUAL_STRING("a*sin(3*q4) + b*cos(3*q4)", law_at(found, 5).c_str());
 }
 
+/// A course of another signal times the direction of motion comes nearer to both at once than dry
+/// friction by itself.
+void friction_and_a_stop_of_one_joint_are_told_apart() {
+  const Diagnosis found = diagnosed_with([](const simulation::Simulation& at) {
+    Eigen::MatrixXd torques = Eigen::MatrixXd::Zero(at.q.rows(), 6);
+    const Eigen::ArrayXd angle = at.q.col(4).array();
+    const double stop = angle.minCoeff() + 0.7 * (angle.maxCoeff() - angle.minCoeff());
+    torques.col(4) = 60 * at.velocity.col(4).array().sign() + 900 * (angle - stop).max(0);
+    return torques;
+  });
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_TRUE(has(found, "coulomb_friction", 5));
+  const std::string formula = law_at(found, 5);
+  TEST_ASSERT_TRUE_MESSAGE(formula.find("*step(q5 - d)") != std::string::npos, formula.c_str());
+}
+
 /// Ripple of the catalogue accounts for most of a ripple that another joint swells a little, and is
 /// chosen while a load hides the rest.
 void an_effect_that_stands_for_a_law_gives_way_to_it() {
@@ -188,6 +204,7 @@ int main() {
   UNITY_BEGIN();
   RUN_TEST(a_law_at_a_quiet_joint_is_kept_beside_a_loud_one);
   RUN_TEST(a_law_is_found_beside_an_effect);
+  RUN_TEST(friction_and_a_stop_of_one_joint_are_told_apart);
   RUN_TEST(an_effect_that_stands_for_a_law_gives_way_to_it);
   RUN_TEST(an_effect_that_hides_a_law_gives_way_to_it);
   RUN_TEST(an_effect_stays_where_a_law_gains_next_to_nothing);

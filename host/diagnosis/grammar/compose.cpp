@@ -55,15 +55,9 @@ bool is_redundant(const Lead& lead, const Shape& shape) {
   return lead.is_of_itself() && shape.parameters.empty();
 }
 
-/// Is a factor by itself an effect of the catalogue, as dry friction is the direction of motion?
-/// Then it is no law's to say.
+/// Is a factor by itself an effect of the catalogue? Then it is no law's to say.
 bool is_known(const Material& material, const Lead& lead, const std::set<std::string>& effects) {
-  const Driver* driver = find_driver(material.drivers, lead.factor.signal);
-  if (driver == nullptr) {
-    return false;
-  }
-  const Shape& shape = shape_named(lead.factor.text == lead.factor.signal ? "line" : "sign");
-  return effects.count(known_as({lead.seat, driver, {}, 0, 0}, shape)) > 0;
+  return effects.count(factor_as(material, lead)) > 0;
 }
 
 /// A lead with each of its shapes, those with a name in the catalogue among them.

@@ -56,4 +56,13 @@ std::string constant_as(const Lead& lead) {
   return "";
 }
 
+std::string factor_as(const Material& material, const Lead& lead) {
+  const Driver* driver = find_driver(material.drivers, lead.factor.signal);
+  if (driver == nullptr) {
+    return "";
+  }
+  const Shape& shape = shape_named(lead.factor.text == lead.factor.signal ? "line" : "sign");
+  return known_as({lead.seat, driver, {}, 0, 0}, shape);
+}
+
 }  // namespace flexcomp::diagnosis::grammar

@@ -14,4 +14,8 @@ std::string known_as(const Lead& lead, const Shape& shape);
 /// an angle or of a torque; empty where there is none.
 std::string constant_as(const Lead& lead);
 
+/// The effect of the catalogue that a lead's factor is by itself, as the direction of motion is dry
+/// friction; empty where there is none.
+std::string factor_as(const Material& material, const Lead& lead);
+
 }  // namespace flexcomp::diagnosis::grammar

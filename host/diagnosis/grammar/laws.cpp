@@ -25,12 +25,24 @@ std::set<std::string> effects_of(const Inquiry& inquiry) {
   return effects;
 }
 
-/// A fit with one law more, and the effect of the catalogue that the law's constant is by itself;
-/// empty where it has none.
+/// A fit with one law more, and the effect of the catalogue that its constant, or its factor with a
+/// constant in the place of the shape, is by itself; empty where it has none.
 struct WithLaw {
   Fit fit;
   std::string constant;
 };
+
+/// The effect that a law's constant is by itself, or its factor, if that is the direction of
+/// motion: other factors vary as a whole, as a torque's gain does with heat. A law of few numbers
+/// says hardly more than an effect, and stands for itself.
+std::string constant_of(const Material& material, const Composed& law) {
+  constexpr std::size_t kFew = 2;
+  if (law.form.has_constant) {
+    return constant_as(law.lead);
+  }
+  const bool is_by_direction = law.lead.factor.text != law.lead.factor.signal;
+  return is_by_direction && law.numbers() > kFew ? factor_as(material, law.lead) : "";
+}
 
 /// A fit with one law more that holds; nothing chosen where there is none.
 WithLaw with_law(const Inquiry& inquiry, const Material& material, const Fit& before) {
@@ -52,7 +64,7 @@ WithLaw with_law(const Inquiry& inquiry, const Material& material, const Fit& be
       }
     } else if (best.fit.chosen.empty() ||
                bic_gain(observations, best.fit, grown) > kStrongEvidence) {
-      best = {std::move(grown), law.form.has_constant ? constant_as(law.lead) : ""};
+      best = {std::move(grown), constant_of(material, law)};
     }
   }
   return best;
@@ -65,9 +77,9 @@ Fit with_effect(const Inquiry& inquiry, const Attempt& before) {
                                                                                          : Fit{};
 }
 
-/// A fit with the effect that the law's constant is by itself, at the joint where it does most, if
-/// that is most of what the law does, counted by how many times less is left: the law of what is
-/// left is sought beside it. Else nothing chosen.
+/// A fit with the effect that the law's constant or factor is by itself, at the joint where it does
+/// most, if that is most of what the law does, counted by how many times less is left: the law of
+/// what is left is sought beside it. Else nothing chosen.
 Fit with_constant(const Inquiry& inquiry, const Attempt& before, const WithLaw& law) {
   constexpr double kMost = 0.5;
   Fit best;
