@@ -518,6 +518,19 @@ class Diagnose(unittest.TestCase):
         self.assertIn("too little data", found["unexplained"]["reason"])
         self.assertEqual(found["findings"], [])
 
+    def test_a_robot_that_stands_still_where_it_was_held_out_tells_no_torque(self):
+        fitted = self.torques(2, lambda angles: [0.0] * len(angles)).rename(self.folder / "a.csv")
+        columns = [f"q_meas_{k}" for k in JOINTS] + [f"tau_{k}" for k in JOINTS]
+        still = self.recorded(columns, [[*swing(0), *[1.0] * 6]] * 500)
+        done = run("diagnose", "--model", ROBOT, "--recording", fitted, "--holdout", still,
+                   "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("a joint that stands still counts for none", done.stdout)
+        self.assertNotIn("nan", done.stdout)
+        found = json.loads((self.out / "diagnosis.json").read_text())
+        self.assertIsNone(found["baseline"]["joint_torque"]["holdout_rms"])
+        self.assertGreater(found["baseline"]["joint_torque"]["train_rms"], 0)
+
     def assert_refused(self, recording, saying, *more, model=ROBOT):
         refused = run("diagnose", "--model", model, "--recording", recording, *more, "--out", self.out)
         self.assertEqual(refused.returncode, 2)
