@@ -244,8 +244,15 @@ void add_convert(CLI::App* app, Action* action) {
           "COLUMN=NAME:UNIT, a column of the recording from one of the table; no unit is SI; "
           ":UNIT*FACTOR scales; :UNIT*-1-90 turns round and moves the zero")
       ->allow_extra_args(false);
-  command->add_option("--header-line", options->layout.header_line, "line of the table's names")
-      ->check(CLI::PositiveNumber);
+  CLI::Option* header =
+      command->add_option("--header-line", options->layout.header_line, "line of the table's names")
+          ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--names", options->layout.names,
+                   "NAME,NAME,… of the first columns, where no line of the table has them")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->excludes(header);
   command->add_option("--first-row", options->layout.first_row,
                       "line of the table's first row, where it is not the next");
   command->add_flag("--corrected", options->corrected,

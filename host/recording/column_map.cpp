@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "error.hpp"
 #include "files/one_line.hpp"
@@ -30,6 +32,16 @@ struct Source {
 
 std::string listed(const std::vector<std::string>& names) {
   return files::one_line(fmt::format("{}", fmt::join(names, ", ")), kLongestMessage);
+}
+
+/// Is the line that should name the columns a row of numbers?
+bool are_numbers(const std::vector<std::string>& names) {
+  return std::all_of(names.begin(), names.end(), [](const std::string& name) {
+    double number = 0;
+    const char* end = name.data() + name.size();
+    const auto [read, error] = std::from_chars(name.data(), end, number);
+    return error == std::errc{} && read == end;
+  });
 }
 
 std::string with_number(std::string name, int number) {
@@ -128,8 +140,11 @@ class Resolver {
     }
     const std::optional<Name> name = find(source);
     if (!name) {
-      refuse(rule, fmt::format("{} has no column '{}'; it has {}", table_.file(),
-                               files::one_line(source), listed(table_.columns())));
+      refuse(rule, fmt::format("{} has no column '{}'; it has {}{}", table_.file(),
+                               files::one_line(source), listed(table_.columns()),
+                               are_numbers(table_.columns())
+                                   ? "; where no line names the columns, give --names"
+                                   : ""));
     }
     refuse_what_is_double(rule, target, *name);
     try {

@@ -166,6 +166,15 @@ class Column {
 
 ForeignTable::ForeignTable(const std::filesystem::path& path, const ForeignLayout& layout)
     : file_(path.string()), text_(files::read_text(path)), layout_(layout) {
+  if (layout_.names.empty()) {
+    find_names();
+  } else {
+    layout_.header_line = 0;
+    take_names();
+  }
+}
+
+void ForeignTable::find_names() {
   Lines lines(text_);
   std::string_view line;
   while (lines.next(&line) && lines.number() < layout_.header_line) {
@@ -177,6 +186,22 @@ ForeignTable::ForeignTable(const std::filesystem::path& path, const ForeignLayou
   line = without_comment_mark(line);
   separator_ = separator_of(line);
   split(file_, lines.number(), line, separator_, &columns_);
+}
+
+void ForeignTable::take_names() {
+  Lines lines(text_);
+  std::string_view line;
+  while (lines.next(&line) && lines.number() < layout_.first_row) {
+  }
+  separator_ = separator_of(line);
+  split(file_, lines.number(), line, separator_, &columns_);
+  if (layout_.names.size() > columns_.size()) {
+    throw InputError(fmt::format("{}:{}: expected {} cells as there are names, found {}", file_,
+                                 lines.number(), layout_.names.size(), columns_.size()));
+  }
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    columns_[i] = i < layout_.names.size() ? layout_.names[i] : std::to_string(i + 1);
+  }
 }
 
 NumberTable ForeignTable::numbers(const std::vector<std::size_t>& chosen) const {

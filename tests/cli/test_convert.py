@@ -30,6 +30,23 @@ class Convert(Command):
         self.assertAlmostEqual(-378.75, float(second["tau_1"]), 12)
         self.assertIn("out.csv: 2 rows\nleft out, because no rule names it: Zustand\n", self.said)
 
+    def test_columns_that_no_line_names_are_named_by_the_user(self):
+        rows = self.converted("838.5,0.1,-1.5,7\n838.6,0.2,-1.4,8\n",
+                              ("--names", "time,a1,a2", "--map", "t=time", "--map", "q_meas_*=a*"))
+        self.assertEqual([["0", "0.1", "-1.5"], ["0.2", "-1.4"]],
+                         [list(rows[0].values()), list(rows[1].values())[1:]])
+        self.assertAlmostEqual(0.1, float(rows[1]["t"]), 9)
+        self.assertIn("left out, because no rule names it: 4\n", self.said)
+
+    def test_a_table_without_names_is_told_how_to_give_them(self):
+        table = self.file("axes.txt", "838.5,0.1\n838.6,0.2\n")
+        out = self.folder / "out.csv"
+        self.assert_refused("convert", table, "--map", "t=time", "--out", out,
+                            saying="has no column 'time'; it has 838.5, 0.1; where no line names the columns, "
+                                   "give --names")
+        self.assert_refused("convert", table, "--names", "time,a1,a2", "--map", "t=time", "--out", out,
+                            saying="axes.txt:1: expected 3 cells as there are names, found 2")
+
     def test_what_it_did_is_told_as_json(self):
         self.converted(rules=(*RULES, "--header-line", "2", "--json"))
         self.assertEqual({"rows": 2, "left_out": ["Zustand"]}, json.loads(self.said))
