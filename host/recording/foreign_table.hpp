@@ -15,7 +15,7 @@ struct ForeignLayout {
   std::size_t first_row = 0;    ///< line of the first row, where it is not the one after the names
   /// Of the first columns, where no line names them; those behind are called by their numbers,
   /// from 1. Empty: a line does.
-  std::vector<std::string> names = {};
+  std::vector<std::string> names;
 };
 
 /// A table of text as others write it. Commas, semicolons or tabs separate its cells, whichever the

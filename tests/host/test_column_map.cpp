@@ -75,7 +75,7 @@ void a_separator_at_the_end_of_every_line_is_skipped() {
 
 void lines_above_the_names_and_units_below_are_skipped() {
   const std::string text = "made by a drive\n\ntime;m1\n[s];[Nm]\n0;7\n";
-  const Recording rows = recording(text, {"t=time", "tau_1=m1"}, {3, 5});
+  const Recording rows = recording(text, {"t=time", "tau_1=m1"}, {3, 5, {}});
   TEST_ASSERT_EQUAL_INT(1, rows.size());
   close(7, (*rows.tau)(0, 0));
 }
