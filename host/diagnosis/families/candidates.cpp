@@ -31,10 +31,7 @@ bool could_matter(const Hypothesis& hypothesis, const Eigen::MatrixXd& columns,
 }
 
 Eigen::MatrixXd what_is_said(const Fit& fit, std::size_t findings, Eigen::Index train) {
-  Eigen::Index count = 0;
-  for (std::size_t i = 0; i < findings; ++i) {
-    count += static_cast<Eigen::Index>(fit.chosen[i].values.size());
-  }
+  const Eigen::Index count = fit.first_parameter(findings);
   return count == 0 ? Eigen::MatrixXd(train, 0)
                     : linear_algebra::orthonormal_basis(fit.derivative.topLeftCorner(train, count));
 }

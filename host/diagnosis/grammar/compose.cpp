@@ -134,13 +134,15 @@ std::shared_ptr<const Composed> twin_of(const Composed& law, const std::vector<C
 /// Laws that are worth a fit: the best that is proved, and the one that predicts best, where that
 /// is another. The second may follow what only a few stretches show. Each has its twin.
 std::vector<Composed> worth_fitting(std::vector<Composed> laws) {
-  for (Composed& law : laws) {
-    law.twin = twin_of(law, laws);
-  }
   best_first(&laws);
   const auto foreseeing = std::max_element(
       laws.begin(), laws.end(),
       [](const Composed& a, const Composed& b) { return mean(a.unseen) < mean(b.unseen); });
+  for (const auto law : {laws.begin(), foreseeing}) {
+    if (law != laws.end()) {
+      law->twin = twin_of(*law, laws);
+    }
+  }
   std::vector<Composed> chosen;
   if (foreseeing != laws.begin() && foreseeing != laws.end()) {
     chosen.push_back(std::move(*foreseeing));
