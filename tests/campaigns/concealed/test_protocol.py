@@ -19,7 +19,7 @@ from unittest import mock
 
 HERE = pathlib.Path(__file__).resolve().parent
 FAKES = HERE / "protocol" / "fakes"
-sys.path[:0] = [str(FAKES), str(HERE), str(HERE.parent / "diagnosis")]
+sys.path[:0] = [str(FAKES), str(HERE), str(HERE.parent), str(HERE.parent / "diagnosis")]
 
 import campaign  # noqa: E402
 from protocol import (cases, goals, judging, loop_section, loops, report, sandbox, seal,  # noqa: E402
@@ -418,12 +418,12 @@ class Scoring(unittest.TestCase):
             "tcp_position": {"rms": 3e-5 / 3**0.5, "stretches": []}}}})
         self.assertAlmostEqual(5**0.5, each.error("flexcomp", "holdout"))
 
-    def test_the_best_black_box_of_each_case_is_the_one_to_beat(self):
+    def test_the_best_rival_of_each_case_is_the_one_to_beat(self):
         errors = {"nominal": constant(8, 8), "flexcomp": constant(1, 2), "PySINDy": constant(2, 4),
                   "boosting": constant(1, 8), "refit": constant(2, 1.5)}
         each = scored(errors=errors)
-        self.assertEqual(("PySINDy", 4.0), goals.best_black_box(each, "untrained"))
-        self.assertEqual(0.5, goals.against_black_box(each, "untrained"))
+        self.assertEqual(("PySINDy", 4.0), goals.best_rival(each, "untrained"))
+        self.assertEqual(0.5, goals.against_rival(each, "untrained"))
 
     def test_losing_to_the_refit_is_listed_and_chance_told_apart(self):
         clear = scored("001", {"flexcomp": constant(1, 2), "refit": constant(1, 1.5)})

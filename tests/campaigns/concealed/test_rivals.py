@@ -5,6 +5,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 # Read when numpy is loaded. On matrices as small as these, threads only wait for one another.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -14,9 +15,9 @@ import numpy as np  # noqa: E402
 import yaml  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 
-from rivals import black_box, contest, features, recording, refit, residual  # noqa: E402
+from rivals import black_box, contest, features, recording, refit, residual, toolbox  # noqa: E402
 
 try:
     from rivals import boosting, gaussian_process, sindy
@@ -179,6 +180,79 @@ class Refit(unittest.TestCase):
     def test_the_fitted_model_still_finds_its_urdf(self):
         text = yaml.safe_load((refit.Model(self.nominal).write(self.folder / "x.yaml")).read_text())
         self.assertEqual(str(self.folder.resolve() / "arm.urdf"), text["urdf"])
+
+
+LOADED = 1  # the joint that a wrench loads in the stand-in
+
+
+class Toolboxes(unittest.TestCase):
+    """A stand-in for a package: it says twice the torque that it is given for the judged motion."""
+
+    SAYS_TWICE = (
+        "import argparse, csv\n"
+        "parser = argparse.ArgumentParser()\n"
+        "parser.add_argument('rival')\n"
+        "for word in ('--model', '--holdout', '--out'): parser.add_argument(word)\n"
+        "parser.add_argument('--recording', action='append')\n"
+        "options = parser.parse_args()\n"
+        "rows = list(csv.reader(open(options.holdout)))\n"
+        "keep = [k for k, name in enumerate(rows[0]) if name == 't' or name[:4] == 'tau_']\n"
+        "table = [[rows[0][k] for k in keep]]\n"
+        "table += [[row[keep[0]], *(2 * float(row[k]) for k in keep[1:])] for row in rows[1:]]\n"
+        "csv.writer(open(options.out, 'w')).writerows(table)\n")
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        script = self.folder / "package.py"
+        script.write_text(self.SAYS_TWICE)
+        python = self.folder / "python"  # drops "-W ignore -m machines.rivals"
+        python.write_text(f'#!/bin/sh\nshift 4\nexec "{sys.executable}" "{script}" "$@"\n')
+        python.chmod(0o755)
+        asked = mock.patch.dict(os.environ, {toolbox.PYTHON: str(python)})
+        asked.start()
+        self.addCleanup(asked.stop)
+
+    def recording(self, seed, wrench):
+        """contest.Data with torques; a wrench's share of the nominal ones is 100 N·m at LOADED."""
+        time, angles = motion(seed, rows=80)
+        groups = {"q_meas": angles, "tau": np.zeros((80, 6))} | (
+            {"wrench": np.zeros((80, 6))} if wrench else {})
+        nominal = np.full((80, 6), 7.0)
+        nominal[:, LOADED] += 100 if wrench else 0
+        left = {"joint_torque": np.zeros((80, 6))}
+        return contest.Data(self.folder / f"{seed}.csv", recording.Recording(time, groups),
+                            {"joint_torque": nominal}, left,
+                            {"joint_torque": np.ones((80, 6), bool)})
+
+    def predicted(self, judged):
+        box = toolbox.Toolbox("FIGAROH", self.folder / "robot.yaml",
+                              lambda path: {"joint_torque": np.full((80, 6), 7.0)}, self.folder)
+        return box.predictions([self.recording(1, wrench=False)], {"holdout": judged})["holdout"]
+
+    def test_the_share_of_a_wrench_is_none_of_the_packages_business(self):
+        said = self.predicted(self.recording(2, wrench=True))
+        np.testing.assert_allclose(said[:, 0], 14.0)
+        np.testing.assert_allclose(said[:, LOADED], 114.0)
+
+    def test_rows_without_angles_have_no_prediction(self):
+        judged = self.recording(2, wrench=False)
+        judged.recording.groups["q_meas"][5] = np.nan
+        said = self.predicted(judged)
+        self.assertTrue(np.isnan(said[5]).all())
+        np.testing.assert_allclose(np.delete(said, 5, axis=0), 14.0)
+
+    def test_a_package_has_nothing_to_learn_without_torques(self):
+        box = toolbox.Toolbox("FIGAROH", None, None, self.folder)
+        with self.assertRaisesRegex(ValueError, "of which there are none"):
+            box.predictions([data(linear_law, 1)], {})
+
+    def test_they_compete_only_where_somebody_asks(self):
+        self.assertIn("FIGAROH", contest.methods(True, True))
+        del os.environ[toolbox.PYTHON]
+        self.assertNotIn("FIGAROH", contest.methods(True, True))
+        self.assertEqual([contest.NOMINAL], contest.methods(False, False))
 
 
 class Judging(unittest.TestCase):

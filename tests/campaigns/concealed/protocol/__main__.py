@@ -80,6 +80,7 @@ def _check_files(truths, folder):
 def _command(options):
     words = ["tools/concealed", "--seed", str(options.seed), "--cases", str(options.cases)]
     words += ["--no-rivals"] * options.no_rivals + ["--no-loop"] * options.no_loop
+    words += ["--toolboxes"] * options.toolboxes
     return shlex.join(words)
 
 

@@ -50,6 +50,8 @@ def parse(words):
     parser.add_argument("--rival-limit", type=float, default=60.0, metavar="S",
                         help="the same for each rival (default 60)")
     parser.add_argument("--no-rivals", action="store_true", help="leave the rivals out")
+    parser.add_argument("--toolboxes", action="store_true",
+                        help="mujoco.sysid and FIGAROH among the rivals, where there are torques")
     parser.add_argument("--no-loop", action="store_true",
                         help="mill no circles with the diagnosed models")
     options = parser.parse_args(words)

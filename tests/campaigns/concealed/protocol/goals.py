@@ -12,7 +12,7 @@ MODELS = (NOMINAL, DIAGNOSED, REFIT)
 EFFECT, JOINT = "right effect named first", "right joint"
 ALARMS, CLAIMS = "false alarms on clean recordings", "confident wrong findings in foreign physics"
 HELD_OUT = "held-out error / noise, median"
-BLACK_BOX = "untrained region: error / best black box's, median"
+RIVAL = "untrained region: error / best rival's, median"
 WORSE = "untrained region: cases worse than the plain refit"
 LOOP = "closed loop: circularity / that with the nominal model, median"
 
@@ -22,7 +22,7 @@ GOALS = (
     Goal(ALARMS, 0.02, False, 10),
     Goal(CLAIMS, 0.05, False, 10),
     Goal(HELD_OUT, 1.2, False, 80),
-    Goal(BLACK_BOX, 0.5, False, 80),
+    Goal(RIVAL, 0.5, False, 80),
     Goal(WORSE, 0, False, 100),
     Goal(LOOP, 0.25, False, 10),
 )
@@ -42,20 +42,21 @@ def median(values):
     return statistics.median(values) if values else None
 
 
-def black_boxes(scored):
+def rivals(scored):
+    """Methods that are neither flexcomp nor its models: black boxes, and toolboxes where they were asked."""
     return sorted({method for each in scored for method in each.errors} - set(MODELS))
 
 
-def best_black_box(each, region):
+def best_rival(each, region):
     """(method, error in units of the noise) of the best one, or None."""
-    errors = [(each.error(method, region), method) for method in black_boxes([each])]
+    errors = [(each.error(method, region), method) for method in rivals([each])]
     errors = [pair for pair in errors if pair[0] is not None]
     return min(errors)[::-1] if errors else None
 
 
-def against_black_box(each, region):
-    """flexcomp's error over the best black box's; None where there is none."""
-    best, own = best_black_box(each, region), each.error(DIAGNOSED, region)
+def against_rival(each, region):
+    """flexcomp's error over the best rival's; None where there is none."""
+    best, own = best_rival(each, region), each.error(DIAGNOSED, region)
     return own / best[1] if best and own is not None else None
 
 
@@ -108,7 +109,7 @@ def figures(scored):
         "parameters within their 95 % interval": coverage(told(scored)),
         "parameters without an interval": _rate(
             error.std is None for each in scored for error in each.parameters),
-        BLACK_BOX: median(against_black_box(each, "untrained") for each in effects),
+        RIVAL: median(against_rival(each, "untrained") for each in effects),
         WORSE: len(worse_than_refit(scored)) if refitted else None,
         "of these, by more than chance": sum(
             each.beyond_chance(DIAGNOSED, REFIT, "untrained")

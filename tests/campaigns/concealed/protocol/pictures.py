@@ -5,7 +5,7 @@ import math
 import statistics
 
 from . import svg
-from .goals import black_boxes
+from .goals import rivals
 from .judging import DIAGNOSED, NOMINAL
 
 BEFORE, AFTER, NOISE = "#c0392b", "#1f6fb4", "#222222"
@@ -66,7 +66,7 @@ def coverage_picture(parameters):
 
 def rivals_picture(scored, region):
     """Error of each method in each case, and the median as a bar."""
-    methods = [NOMINAL, *black_boxes(scored), "refit", DIAGNOSED]
+    methods = [NOMINAL, *rivals(scored), "refit", DIAGNOSED]
     columns = {}
     for method in methods:
         pairs = [(each.error(method, region), each) for each in scored]

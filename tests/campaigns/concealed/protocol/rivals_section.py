@@ -11,7 +11,7 @@ def _medians(scored):
     families = (goals.of_families(scored, "single", "pair"), goals.of_families(scored, "clean"),
                 goals.of_families(scored, "foreign"))
     rows = []
-    for method in (NOMINAL, *goals.black_boxes(scored), goals.REFIT, DIAGNOSED):
+    for method in (NOMINAL, *goals.rivals(scored), goals.REFIT, DIAGNOSED):
         cells = [number(goals.median(each.error(method, region) for each in family))
                  for family in families for region in ("holdout", "untrained")]
         failed = sum(method in each.failures for each in scored)
@@ -37,7 +37,7 @@ def _lost_to_refit(scored):
 
 def section(scored):
     """HTML."""
-    if not goals.black_boxes(scored):
+    if not goals.rivals(scored):
         return "<p>The rivals were not asked (<code>--no-rivals</code>).</p>"
     html = paragraph(
         "All learn from the training recordings alone; the untrained recording does the same",

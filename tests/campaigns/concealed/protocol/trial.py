@@ -2,15 +2,19 @@
 
 import dataclasses
 import json
+import os
 import pathlib
 import shutil
 import sys
 import tempfile
 
+from rivals import contest, toolbox
+
 from . import cases
 
 PACKAGES = pathlib.Path(__file__).resolve().parents[1]
 RIVALS = PACKAGES / "rivals"
+MACHINES = PACKAGES.parent / "machines"  # how toolboxes are asked
 ANSWER, LEARNED = "diagnosis.json", "updated_model.yaml"
 SLACK = 30.0  # s, for simulations besides the rivals themselves
 
@@ -28,7 +32,10 @@ class Way:
 
 def needed_to_read(tool):
     """Folders that runs see besides the system: the tool, this Python, the rivals."""
-    return [tool, pathlib.Path(sys.prefix), pathlib.Path(sys.base_prefix), RIVALS]
+    folders = [tool, pathlib.Path(sys.prefix), pathlib.Path(sys.base_prefix), RIVALS, MACHINES]
+    if toolbox.is_asked():
+        folders.append(pathlib.Path(os.environ[toolbox.PYTHON]).parents[1])
+    return folders
 
 
 def _keep(source, target):
@@ -58,9 +65,9 @@ def _compete(way, trainings, work):
         words += ["--learned", f"out/{LEARNED}"]
     if not way.rivals:
         words.append("--models-only")
-    methods = 6 if way.rivals else 2
+    methods = len(contest.methods(True, way.rivals))
     return way.sandbox.run(words, work, methods * way.rival_limit + SLACK,
-                           {"PYTHONPATH": str(PACKAGES)})
+                           {"PYTHONPATH": f"{PACKAGES}:{PACKAGES.parent}"} | toolbox.environment())
 
 
 def run(way, case, answers):

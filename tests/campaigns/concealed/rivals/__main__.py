@@ -87,8 +87,7 @@ def main():
         match = contest.Contest(options.tool, options.model, options.train, judged, options.learned)
     except simulation.SimulationFailed as error:
         sys.exit(f"the nominal model cannot be simulated: {error}")
-    methods = [contest.NOMINAL] + ([contest.DIAGNOSED] if options.learned else [])
-    methods += [] if options.models_only else contest.RIVALS
+    methods = contest.methods(options.learned is not None, not options.models_only)
     compete(match, methods, options.limit, options.out)
 
 

@@ -1,4 +1,4 @@
-"""All ways to predict on one case: nominal model, diagnosed model, plain refit, black boxes."""
+"""All ways to predict on one case: nominal model, diagnosed model, plain refit, black boxes, toolboxes."""
 
 import dataclasses
 import functools
@@ -8,13 +8,22 @@ import tempfile
 
 import numpy as np
 
-from . import recording, residual, simulation
+from . import recording, residual, simulation, toolbox
 
 NOMINAL, DIAGNOSED, REFIT = "nominal", "flexcomp", "refit"
 MODELS = (NOMINAL, DIAGNOSED)
 # Modules, loaded when they are needed: their libraries take seconds to load.
 BLACK_BOXES = {"PySINDy": "sindy", "boosting": "boosting", "Gaussian process": "gaussian_process"}
 RIVALS = (REFIT, *BLACK_BOXES)
+TOOLBOXES = tuple(toolbox.MODULES)  # only where the environment names their Python
+
+
+def methods(learned, rivals):
+    """Names of all that compete. learned: whether there is a diagnosed model; rivals: whether they are asked."""
+    found = [NOMINAL, DIAGNOSED] if learned else [NOMINAL]
+    if rivals:
+        found += [*RIVALS, *(TOOLBOXES if toolbox.is_asked() else ())]
+    return found
 
 
 def _module(name):
@@ -62,11 +71,26 @@ class Contest:
             with tempfile.TemporaryDirectory() as scratch:
                 return self._left_by_model(_module("refit").learn(
                     self._model, self.trainings, self._simulate, pathlib.Path(scratch)))
+        if method in TOOLBOXES:
+            return self._left_by_toolbox(method)
         return self._left_by_black_box(_module(BLACK_BOXES[method]).learn)
 
     def _left_by_model(self, model):
         return {name: residual.residuals(data.recording.channels, self._simulate(model, data.path))
                 for name, data in self.judged.items()}
+
+    def _left_by_toolbox(self, name):
+        """Channels other than torques stay as the nominal model has them."""
+        with tempfile.TemporaryDirectory() as scratch:
+            box = toolbox.Toolbox(name, self._model, functools.partial(self._simulate, self._model),
+                                  pathlib.Path(scratch))
+            predicted = box.predictions(self.trainings, self.judged)
+        left = {each: dict(data.residual) for each, data in self.judged.items()}
+        for each, torque in predicted.items():
+            left[each][toolbox.CHANNEL] = (
+                self.judged[each].residual[toolbox.CHANNEL]
+                + self.judged[each].nominal[toolbox.CHANNEL] - torque)
+        return left
 
     def _left_by_black_box(self, learn):
         black_box = _module("black_box")

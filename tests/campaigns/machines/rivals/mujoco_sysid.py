@@ -75,25 +75,22 @@ def _torques(model, data, motion):
     return found
 
 
-class _AlongMotions:
-    """A custom rollout, and the residual of its torques with biases."""
+class _AlongMotion:
+    """A custom rollout, and the residual of its torques with biases. One for each motion: sequences that
+    share a residual must be of one length."""
 
-    def __init__(self, spec, motions):
-        self.motions = motions
+    def __init__(self, spec, motion):
+        self.motion = motion
         model = spec.compile()
         self.sequences = [sysid.ModelSequences(
-            name="robot", spec=spec, sequence_name=[f"motion {i}" for i in range(len(motions))],
-            initial_state=[sysid.create_initial_state(model, motion.angle[0], motion.speed[0])
-                           for motion in motions],
-            control=[sysid.TimeSeries.from_control_names(motion.time, motion.torque, model)
-                     for motion in motions],
-            sensordata=[sysid.TimeSeries.from_names(motion.time, motion.torque, model)
-                        for motion in motions])]
+            name="robot", spec=spec, sequence_name=["motion"],
+            initial_state=[sysid.create_initial_state(model, motion.angle[0], motion.speed[0])],
+            control=[sysid.TimeSeries.from_control_names(motion.time, motion.torque, model)],
+            sensordata=[sysid.TimeSeries.from_names(motion.time, motion.torque, model)])]
 
     def rollout(self, models, datas, control_signal, initial_states, **_):
-        trajectories = []
+        trajectories, motion = [], self.motion
         for index, model in enumerate(models):
-            motion = self.motions[index % len(self.motions)]
             torque = _torques(model, mujoco.MjData(model), motion)
             state = np.column_stack([motion.time, motion.angle, motion.speed])
             trajectories.append(sysid.SystemTrajectory(
@@ -101,6 +98,22 @@ class _AlongMotions:
                 sensordata=sysid.TimeSeries.from_names(motion.time, torque, model),
                 initial_state=initial_states[index], state=sysid.TimeSeries(motion.time, state)))
         return trajectories
+
+
+def _residual(spec, motions, parameters):
+    """A function of a parameter vector: what is left along every motion, one after the other."""
+    transform = _transform(spec, parameters)
+    each_motion = []
+    for motion in motions:
+        along = _AlongMotion(spec, motion)
+        each_motion.append(sysid.build_residual_fn(
+            models_sequences=along.sequences, custom_rollout=along.rollout,
+            modify_residual=transform.apply))
+
+    def residual(vector, of, **options):
+        parts = [each(vector, of, **options) for each in each_motion]
+        return tuple(sum((list(part) for part in lists), []) for lists in zip(*parts))
+    return residual
 
 
 def _transform(spec, parameters):
@@ -116,12 +129,8 @@ def predict(nominal, training, held_out):
     inner = [motion.rows(motion.inner) for motion in training]
     motions = [motion.rows(slice(None, None, max(1, len(motion.time) // ROWS))) for motion in inner]
     parameters = _parameters(spec, nominal, np.vstack([motion.torque for motion in motions]))
-    along = _AlongMotions(spec, motions)
-    residual = sysid.build_residual_fn(
-        models_sequences=along.sequences, custom_rollout=along.rollout,
-        modify_residual=_transform(spec, parameters).apply)
-    found, result = sysid.optimize(parameters, residual, optimizer="mujoco", max_iters=MOST_ITERATIONS,
-                                   verbose=False)
+    found, _ = sysid.optimize(parameters, _residual(spec, motions, parameters), optimizer="mujoco",
+                              max_iters=MOST_ITERATIONS, verbose=False)
     model = sysid.apply_param_modifiers(found, _spec(nominal))
     bias = [found[f"{joint.name}_bias"].value[0] for joint in spec.joints]
     return _torques(model, mujoco.MjData(model), held_out) + bias, ""

@@ -14,7 +14,8 @@ import pysindy
 from ..programs import BIN, SOURCE, on_one_core, run
 from ..result import Curve, Figure, Ratio, Topic
 
-sys.path[:0] = [str(SOURCE / "tests" / "campaigns" / "concealed"), str(SOURCE / "tests" / "campaigns" / "diagnosis")]
+CAMPAIGNS = SOURCE / "tests" / "campaigns"
+sys.path[:0] = [str(CAMPAIGNS / "concealed"), str(CAMPAIGNS / "diagnosis"), str(CAMPAIGNS)]
 from generator import case  # noqa: E402
 from rivals import black_box, contest, features, simulation, sindy  # noqa: E402
 
