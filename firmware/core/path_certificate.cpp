@@ -12,6 +12,12 @@ namespace {
 /// Most points looked at on one move; past it a table is none that a builder would make.
 constexpr double kMostSteps = 1e6;
 
+/// Least distance between the planes of a segment, in parts of its chord.
+constexpr double kLeastSpan = 0.7;
+
+/// How far (rad) beyond a plane between segments the program may lie: nodes are rounded to float.
+constexpr double kPlaneSlack = 1e-6;
+
 template <typename Scalar, int Joints>
 JointVector<Scalar, Joints> read(const float* numbers) {
   return Eigen::Map<const JointVector<float, Joints>>(numbers).template cast<Scalar>();
@@ -39,10 +45,7 @@ void PathCertificate<Scalar, Joints>::check_move(const float* from, const float*
     return;
   }
   const TableError<Scalar> curvature = curvature_of(from, to, motion, span);
-  const Scalar most = std::min(tolerance_.position / curvature.position,
-                               tolerance_.orientation / curvature.orientation);
-  const Scalar longest = std::sqrt(Scalar(8) * share_ * most);
-  const Scalar wanted = std::ceil(Scalar(1) / std::min(longest, Scalar(1)));
+  const Scalar wanted = std::ceil(Scalar(1) / std::min(longest_part(curvature), Scalar(1)));
   if (!(wanted <= Scalar(kMostSteps))) {
     check->holds = false;
     return;
@@ -52,16 +55,91 @@ void PathCertificate<Scalar, Joints>::check_move(const float* from, const float*
   const Scalar between = step * step / Scalar(8);
   for (std::uint32_t i = 0; i <= steps && check->holds; ++i) {
     const Angles q = start + (static_cast<Scalar>(i) * step) * motion;
-    const Scalar t = place_on_segment<Scalar, Joints>(from, to, q).blend();
-    const TableEntry<Scalar, Joints> entry = blend_segment<Scalar, Joints>(from, to, layout_, t, q);
-    TableError<Scalar> error = entry_error(model_, exact_entry(model_, q), entry, bound_);
+    Scalar outside = 0;
+    TableError<Scalar> error = error_at(from, to, q, &outside);
     error.position += between * curvature.position + bounds_.rounding.position;
     error.orientation += between * curvature.orientation + bounds_.rounding.orientation;
     check->error = larger(check->error, error);
-    check->width = std::max(check->width, entry.outside);
+    check->width = std::max(check->width, outside);
     check->holds =
         error.position <= tolerance_.position && error.orientation <= tolerance_.orientation;
   }
+}
+
+template <typename Scalar, int Joints>
+TableError<Scalar> PathCertificate<Scalar, Joints>::error_at(const float* from, const float* to,
+                                                             const Angles& q,
+                                                             Scalar* outside) const {
+  const Scalar t = place_on_segment<Scalar, Joints>(from, to, q).blend();
+  const TableEntry<Scalar, Joints> entry = blend_segment<Scalar, Joints>(from, to, layout_, t, q);
+  *outside = entry.outside;
+  return entry_error(model_, exact_entry(model_, q), entry, bound_);
+}
+
+template <typename Scalar, int Joints>
+bool PathCertificate<Scalar, Joints>::is_between_neighbours(const float* from, const float* to,
+                                                            const Angles& start,
+                                                            const Angles& motion) const {
+  const Angles first = read<Scalar, Joints>(from + layout_.angles);
+  const Angles second = read<Scalar, Joints>(to + layout_.angles);
+  const Angles opens = read<Scalar, Joints>(from + layout_.switching);
+  const Angles closes = read<Scalar, Joints>(to + layout_.switching);
+  const Angles end = start + motion;
+  const auto past = [](const Angles& normal, const Angles& q, const Angles& node) {
+    return normal.dot(q - node);
+  };
+  return std::min(past(opens, start, first), past(opens, end, first)) >= -Scalar(kPlaneSlack) &&
+         std::max(past(closes, start, second), past(closes, end, second)) <= Scalar(kPlaneSlack);
+}
+
+template <typename Scalar, int Joints>
+auto PathCertificate<Scalar, Joints>::side(const float* from, const float* to,
+                                           const Angles& q) const -> Side {
+  const Angles opens = read<Scalar, Joints>(from + layout_.switching);
+  const Angles closes = read<Scalar, Joints>(to + layout_.switching);
+  if (opens.dot(q - read<Scalar, Joints>(from + layout_.angles)) < Scalar(0)) {
+    return Side::before;
+  }
+  if (closes.dot(q - read<Scalar, Joints>(to + layout_.angles)) > Scalar(0)) {
+    return Side::behind;
+  }
+  const Scalar t = place_on_segment<Scalar, Joints>(from, to, q).blend();
+  const Scalar off_chord = blend_segment<Scalar, Joints>(from, to, layout_, t, q).outside;
+  return off_chord <= static_cast<Scalar>(from[layout_.width]) ? Side::on : Side::off;
+}
+
+template <typename Scalar, int Joints>
+TableError<Scalar> PathCertificate<Scalar, Joints>::curvature_beside(const float* from,
+                                                                     const float* to,
+                                                                     const Angles& motion) const {
+  return curvature_of(from, to, motion, Scalar(kLeastSpan) * chord_length(from, to));
+}
+
+template <typename Scalar, int Joints>
+Scalar PathCertificate<Scalar, Joints>::part_beside(const float* from, const float* to,
+                                                    const Angles& motion) const {
+  const Scalar quarter = chord_length(from, to) / (Scalar(4) * motion.norm());
+  return std::min(std::min(Scalar(1), quarter), longest_part(curvature_beside(from, to, motion)));
+}
+
+template <typename Scalar, int Joints>
+TableError<Scalar> PathCertificate<Scalar, Joints>::error_beside(const float* from, const float* to,
+                                                                 const Angles& start,
+                                                                 const Angles& motion) const {
+  Scalar outside = 0;
+  TableError<Scalar> error = larger(error_at(from, to, start, &outside),
+                                    error_at(from, to, Angles(start + motion), &outside));
+  const TableError<Scalar> curvature = curvature_beside(from, to, motion);
+  error.position += curvature.position / Scalar(8) + bounds_.rounding.position;
+  error.orientation += curvature.orientation / Scalar(8) + bounds_.rounding.orientation;
+  return error;
+}
+
+template <typename Scalar, int Joints>
+Scalar PathCertificate<Scalar, Joints>::longest_part(const TableError<Scalar>& curvature) const {
+  const Scalar most = std::min(tolerance_.position / curvature.position,
+                               tolerance_.orientation / curvature.orientation);
+  return std::sqrt(Scalar(8) * share_ * most);
 }
 
 template <typename Scalar, int Joints>
@@ -112,6 +190,12 @@ TableError<Scalar> PathCertificate<Scalar, Joints>::inside_error(const float* fr
               bounds_.rounding.orientation};
 }
 
+template <typename Scalar, int Joints>
+Scalar PathCertificate<Scalar, Joints>::chord_length(const float* from, const float* to) const {
+  return (read<Scalar, Joints>(to + layout_.angles) - read<Scalar, Joints>(from + layout_.angles))
+      .norm();
+}
+
 /// Smallest distance between the segment's two planes along a move; zero if the move leaves the
 /// room between them or the planes lean too far towards each other for the blend to be smooth.
 template <typename Scalar, int Joints>
@@ -121,14 +205,12 @@ Scalar PathCertificate<Scalar, Joints>::smallest_span(const float* from, const f
   const auto first = place_on_segment<Scalar, Joints>(from, to, start);
   const auto second = place_on_segment<Scalar, Joints>(from, to, end);
   const Scalar span = std::min(first.gone + first.left, second.gone + second.left);
-  const Scalar chord =
-      (read<Scalar, Joints>(to + layout_.angles) - read<Scalar, Joints>(from + layout_.angles))
-          .norm();
+  const Scalar chord = chord_length(from, to);
   // Nodes are rounded to float, so the ends of a program piece may lie outside by that much.
   const Scalar slack = Scalar(1e-6) + Scalar(1e-3) * chord;
   const Scalar lowest =
       std::min(std::min(first.gone, first.left), std::min(second.gone, second.left));
-  return lowest >= -slack && span >= Scalar(0.7) * chord ? span : Scalar(0);
+  return lowest >= -slack && span >= Scalar(kLeastSpan) * chord ? span : Scalar(0);
 }
 
 template <typename Scalar, int Joints>

@@ -41,6 +41,25 @@ class PathCertificate {
   void check_move(const float* from, const float* to, const Angles& start, const Angles& motion,
                   SegmentCheck<Scalar>* check) const;
 
+  /// Does a straight move in joint space lie on the segment's side of the planes that tell it from
+  /// its neighbours?
+  bool is_between_neighbours(const float* from, const float* to, const Angles& start,
+                             const Angles& motion) const;
+
+  /// Where joint angles lie, as a lookup sees them whose cursor is on the segment: it goes to the
+  /// segment before or behind, or stays, or looks elsewhere.
+  enum class Side { before, on, behind, off };
+  Side side(const float* from, const float* to, const Angles& q) const;
+
+  /// Part of a straight move beside the segment, 1 at most, over which `error_beside` is worth
+  /// asking for: a quarter of the chord, or less where curvature would take more than its share.
+  Scalar part_beside(const float* from, const float* to, const Angles& motion) const;
+
+  /// Bound on the error of a lookup that stays on the segment during a short straight move beside
+  /// it.
+  TableError<Scalar> error_beside(const float* from, const float* to, const Angles& start,
+                                  const Angles& motion) const;
+
   /// Checks the chord between two nodes: what can be looked at without the program.
   void check_chord(const float* from, const float* to, SegmentCheck<Scalar>* check) const;
 
@@ -50,8 +69,15 @@ class PathCertificate {
   TableError<Scalar> inside_error(const float* from, const float* to) const;
 
  private:
+  TableError<Scalar> error_at(const float* from, const float* to, const Angles& q,
+                              Scalar* outside) const;
+  /// Longest part of a move between points looked at, for curvature's share of the tolerance.
+  Scalar longest_part(const TableError<Scalar>& curvature) const;
+  Scalar chord_length(const float* from, const float* to) const;
   Scalar smallest_span(const float* from, const float* to, const Angles& start,
                        const Angles& end) const;
+  TableError<Scalar> curvature_beside(const float* from, const float* to,
+                                      const Angles& motion) const;
   TableError<Scalar> curvature_of(const float* from, const float* to, const Angles& motion,
                                   Scalar span) const;
 

@@ -33,7 +33,10 @@ class Segment {
         past_to_(q - PackedSix<Scalar>::read(to + kPath.angles)) {}
 
   bool is_before() const { return along(past_from_, from_ + kPath.switching) < Scalar(0); }
-  bool is_behind() const { return along(past_to_, to_ + kPath.switching) > Scalar(0); }
+  bool is_behind() const { return past_second() > Scalar(0); }
+  /// Distances (rad) before the first and past the second of the planes between segments.
+  Scalar before_first() const { return -along(past_from_, from_ + kPath.switching); }
+  Scalar past_second() const { return along(past_to_, to_ + kPath.switching); }
 
   SegmentPlace<Scalar> place() const {
     return {along(past_from_, from_ + kPath.normal_out), -along(past_to_, to_ + kPath.normal_in)};
@@ -75,6 +78,8 @@ class Segment<float> {
 
   bool is_before() const { return along_[0] < 0.0F; }
   bool is_behind() const { return along_[2] > 0.0F; }
+  float before_first() const { return -along_[0]; }
+  float past_second() const { return along_[2]; }
 
   SegmentPlace<float> place() const { return {along_[1], -along_[3]}; }
 
@@ -111,12 +116,49 @@ Scalar width_of(const Table& table, std::uint32_t segment) {
   return static_cast<Scalar>(table.record(segment)[kPath.width]);
 }
 
+/// `q` is outside a segment, too, where it is past a plane beyond which another segment begins: a
+/// look-up leaves the segment there.
 template <typename Scalar>
 [[gnu::always_inline]] inline SegmentFind<Scalar> find_on(const Table& table, std::uint32_t segment,
                                                           const PackedSix<Scalar>& q) {
   Segment<Scalar> there = segment_of(table, segment, q);
   const Scalar t = there.blend();
-  return {segment, t, there.off_chord(t) - width_of<Scalar>(table, segment)};
+  Scalar outside = there.off_chord(t) - width_of<Scalar>(table, segment);
+  if (outside <= Scalar(0)) {
+    const bool closed = table.shape().closed;
+    if (segment > 0 || closed) {
+      outside = std::max(outside, there.before_first());
+    }
+    if (segment < table.shape().node_count - 2 || closed) {
+      outside = std::max(outside, there.past_second());
+    }
+  }
+  return {segment, t, outside};
+}
+
+/// Has a node no plane between the segments that meet there? The program turns back on itself.
+inline bool turns_back(const float* record) {
+  return std::all_of(record + kPath.switching, record + kPath.switching + 6,
+                     [](float number) { return number == 0.0F; });
+}
+
+/// The other segment at a node where the program turns back, if `q` is less outside it: no plane
+/// leads there.
+template <typename Scalar>
+SegmentFind<Scalar> look_round_the_corner(const Table& table, const PackedSix<Scalar>& q,
+                                          SegmentFind<Scalar> find) {
+  const std::uint32_t here = find.segment;
+  const std::uint32_t last = table.shape().node_count - 2;
+  const bool closed = table.shape().closed;
+  if ((here < last || closed) && turns_back(table.record(here + 1))) {
+    const SegmentFind<Scalar> next = find_on(table, here < last ? here + 1 : 0, q);
+    find = next.outside < find.outside ? next : find;
+  }
+  if ((here > 0 || closed) && turns_back(table.record(here))) {
+    const SegmentFind<Scalar> previous = find_on(table, here > 0 ? here - 1 : last, q);
+    find = previous.outside < find.outside ? previous : find;
+  }
+  return find;
 }
 
 /// Moves from the cursor's segment to the one that `q` lies in, by at most two segments in one
@@ -265,6 +307,11 @@ template <typename Scalar>
                                              SegmentFind<Scalar> find, TableCursor* cursor) {
   // A raster of a million points is found again in five calls.
   constexpr std::uint32_t kWorkACall = 30;
+  find = look_round_the_corner(table, q, find);
+  if (find.outside <= Scalar(0)) {
+    cursor->searched = 0;
+    return find;
+  }
   return table.index() == nullptr
              ? search_in_turn(table, q, find, cursor)
              : IndexSearch<Scalar>(table, q, *cursor).improve(find, kWorkACall, cursor);

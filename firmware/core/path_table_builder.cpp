@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "instantiate.hpp"
 #include "path_certificate.hpp"
@@ -18,6 +20,12 @@ constexpr double kInsideMargin = 1.01;
 
 /// Shortest segment (1-norm, rad) that is tried before the tolerance is given up.
 constexpr double kShortestSegment = 1e-6;
+
+/// Segments before a corner that can be made anew with shorter ones.
+constexpr std::uint32_t kRemembered = 64;
+
+/// Moves (rad) that a lookup does not tell from none.
+constexpr double kResolution = 1e-6;
 
 /// Sets nodes along one program as far apart as the tolerance allows.
 template <typename Scalar, int Joints>
@@ -47,6 +55,7 @@ class PathTableBuilder {
     std::uint32_t node = 0;
     write_node(node, place);
     Scalar length = Scalar(0.1);
+    Scalar longest = std::numeric_limits<Scalar>::infinity();
     while (!path_.is_end(place)) {
       if (!writer_.fits(std::uint64_t{node} + 2)) {
         return Result::buffer_too_small;
@@ -59,16 +68,33 @@ class PathTableBuilder {
       record[writer_.layout().width] =
           static_cast<float>(Scalar(1.01) * check.width + Scalar(1e-6));
       if (check.holds && is_plausible_width(record, writer_.record(node + 1), writer_.layout())) {
-        error_ = larger(error_, check.error);
-        inside_ = larger(inside_, certificate_.inside_error(record, writer_.record(node + 1)));
-        place = next;
-        ++node;
-        length *= Scalar(1.5);
-      } else {
-        length *= Scalar(0.7);
-        if (length < Scalar(kShortestSegment)) {
+        const Angles chord = path_.angles(next) - path_.angles(place);
+        remember(node, {place, std::min(length, chord.cwiseAbs().sum())});
+        const bool corner = turns_back(node + 1);
+        const std::uint32_t wide = corner ? too_wide_for_what_follows(node, next) : kNone;
+        if (wide == kNone) {
+          error_ = larger(error_, check.error);
+          inside_ = larger(inside_, certificate_.inside_error(record, writer_.record(node + 1)));
+          place = next;
+          ++node;
+          length = std::min(length * Scalar(1.5), longest);
+          if (corner) {
+            longest = std::numeric_limits<Scalar>::infinity();
+          }
+          continue;
+        }
+        if (node - wide >= kRemembered) {
           return Result::tolerance_not_met;
         }
+        node = wide;
+        place = remembered(wide).begin;
+        write_node(node, place);
+        length = remembered(wide).length;
+        longest = Scalar(0.7) * length;
+      }
+      length *= Scalar(0.7);
+      if (length < Scalar(kShortestSegment)) {
+        return Result::tolerance_not_met;
       }
     }
     writer_.header().closed = path_.is_closed() ? 1 : 0;
@@ -79,6 +105,9 @@ class PathTableBuilder {
   }
 
  private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::uint32_t kGoesOn = kNone - 1;
+
   void write_node(std::uint32_t node, const Place& place) {
     const RecordLayout& layout = writer_.layout();
     const auto directions = path_.directions(place);
@@ -105,9 +134,90 @@ class PathTableBuilder {
     while (check.holds && (place.piece != to.piece || place.fraction != to.fraction)) {
       const Place begin = place;
       const Angles motion = path_.straight_move(begin, to, &place);
-      certificate_.check_move(first, second, path_.angles(place) - motion, motion, &check);
+      const Angles start = path_.angles(place) - motion;
+      certificate_.check_move(first, second, start, motion, &check);
+      check.holds = check.holds && certificate_.is_between_neighbours(first, second, start, motion);
     }
     return check;
+  }
+
+  /// Where one segment begins, and how long it was to be.
+  struct Begin {
+    Place begin;
+    Scalar length = 0;
+  };
+  void remember(std::uint32_t node, const Begin& begin) { begins_[node % kRemembered] = begin; }
+  const Begin& remembered(std::uint32_t node) const { return begins_[node % kRemembered]; }
+
+  bool turns_back(std::uint32_t node) {
+    const float* const plane = writer_.record(node) + writer_.layout().switching;
+    return std::all_of(plane, plane + Joints, [](float number) { return number == 0.0F; });
+  }
+
+  /// Where the program turns back no plane tells the segments apart: a lookup stays on those before
+  /// the corner while their widths hold the program behind it. Where that retraces its own way,
+  /// this does no harm. Returns the number of a segment that is too wide, so that what is read
+  /// there is off by more than the tolerance, or kNone.
+  std::uint32_t too_wide_for_what_follows(std::uint32_t node, const Place& corner) {
+    std::uint32_t segment = node;
+    for (Place place = path_.retraced(corner); !path_.is_end(place);) {
+      Place reached;
+      const Angles motion = path_.straight_move(place, path_.end_of_piece(place), &reached);
+      const std::uint32_t wide =
+          too_wide_for(path_.angles(reached) - motion, motion, node, &segment);
+      if (wide != kGoesOn) {
+        return wide;
+      }
+      place = reached;
+    }
+    return kNone;
+  }
+
+  /// The same for one straight move, on which the lookup begins with `segment`; kGoesOn where it is
+  /// on one of the segments at the end of the move too.
+  std::uint32_t too_wide_for(Angles q, Angles motion, std::uint32_t last, std::uint32_t* segment) {
+    using Side = typename PathCertificate<Scalar, Joints>::Side;
+    for (Scalar part = 0; part < Scalar(1);) {
+      if (!follow(q, last, segment)) {
+        return kNone;
+      }
+      const float* const first = writer_.record(*segment);
+      const float* const second = writer_.record(*segment + 1);
+      const Scalar least = Scalar(kResolution) / motion.norm();
+      part = certificate_.part_beside(first, second, motion);
+      while (part > least && certificate_.side(first, second, q + part * motion) != Side::on) {
+        part /= Scalar(2);
+      }
+      if (part > least) {
+        const TableError<Scalar> error = certificate_.error_beside(first, second, q, part * motion);
+        if (!(error.position <= tolerance_.position &&
+              error.orientation <= tolerance_.orientation)) {
+          return *segment;
+        }
+        error_ = larger(error_, error);
+      }
+      part = std::min(std::max(part, least), Scalar(1));
+      q += part * motion;
+      motion *= Scalar(1) - part;
+    }
+    return kGoesOn;
+  }
+
+  /// Moves to the segment that a lookup goes to, up to `last`; false where it leaves them.
+  bool follow(const Angles& q, std::uint32_t last, std::uint32_t* segment) {
+    using Side = typename PathCertificate<Scalar, Joints>::Side;
+    Side came_from = Side::on;
+    for (;;) {
+      const Side side =
+          certificate_.side(writer_.record(*segment), writer_.record(*segment + 1), q);
+      const bool at_end = side == Side::before ? *segment == 0 : *segment == last;
+      if (side == Side::off || side == Side::on || at_end ||
+          (came_from != Side::on && side != came_from)) {
+        return side == Side::on;
+      }
+      *segment += side == Side::before ? -1U : 1U;
+      came_from = side;
+    }
   }
 
   const RobotModel<Scalar, Joints>& model_;
@@ -116,7 +226,8 @@ class PathTableBuilder {
   PathCertificate<Scalar, Joints> certificate_;
   TableWriter& writer_;
   TableError<Scalar> error_;
-  TableError<Scalar> inside_;  ///< at all angles that a lookup takes for inside
+  std::array<Begin, kRemembered> begins_{};  ///< of the last segments
+  TableError<Scalar> inside_;                ///< at all angles that a lookup takes for inside
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "program_path.hpp"
 
+#include <algorithm>
+
 #include "instantiate.hpp"
 
 namespace flexcomp {
@@ -13,6 +15,9 @@ constexpr double kTurnedBack = 1e-3;
 
 /// Programs whose ends lie this close (rad) are closed: below the resolution of `float` angles.
 constexpr double kClosedGap = 1e-6;
+
+/// A piece retraces another where their ends lie this close (rad), each beside the other.
+constexpr double kSameWay = 1e-7;
 
 }  // namespace
 
@@ -125,6 +130,35 @@ auto ProgramPath<Scalar, Joints>::advanced(Place from, Scalar length) const -> P
     }
     length -= rest;
     place.fraction = Scalar(1);
+  }
+}
+
+template <typename Scalar, int Joints>
+auto ProgramPath<Scalar, Joints>::retraced(const Place& corner) const -> Place {
+  Place there = corner;   // on the way on
+  Place mirror = corner;  // on the way back
+  for (;;) {
+    if (there.fraction >= Scalar(1)) {
+      there = {next_piece(there.piece), Scalar(0)};
+    }
+    if (mirror.fraction <= Scalar(0)) {
+      mirror = {previous_piece(mirror.piece), Scalar(1)};
+    }
+    if (there.piece >= count_ || mirror.piece >= count_) {
+      return there.piece >= count_ ? Place{count_ - 2, Scalar(1)} : there;
+    }
+    const Scalar whole_on = piece_motion(there.piece).norm();
+    const Scalar whole_back = piece_motion(mirror.piece).norm();
+    const Scalar on = (Scalar(1) - there.fraction) * whole_on;
+    const Scalar back = mirror.fraction * whole_back;
+    const Scalar both = std::min(on, back);
+    const Angles apart =
+        piece_motion(there.piece) / whole_on + piece_motion(mirror.piece) / whole_back;
+    if (!(apart.norm() * both <= Scalar(kSameWay))) {
+      return there;
+    }
+    there.fraction = both < on ? there.fraction + both / whole_on : Scalar(1);
+    mirror.fraction = both < back ? mirror.fraction - both / whole_back : Scalar(0);
   }
 }
 

@@ -40,6 +40,14 @@ class ProgramPath {
   /// Moves on by `length` (1-norm, rad), but not past a sharp corner or the end.
   Place advanced(Place from, Scalar length) const;
 
+  /// End of the piece that lies behind a place.
+  Place end_of_piece(const Place& place) const {
+    return {place.fraction < Scalar(1) ? place.piece : next_piece(place.piece), Scalar(1)};
+  }
+
+  /// How far the program behind a corner runs back along the way that it came.
+  Place retraced(const Place& corner) const;
+
   /// Motion from `from` to `to` within the same piece, or to the end of it if `to` is further on;
   /// `reached` is where it ends.
   Angles straight_move(const Place& from, const Place& to, Place* reached) const;

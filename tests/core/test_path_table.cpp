@@ -164,14 +164,14 @@ void a_finer_tolerance_costs_about_the_square_root_in_nodes() {
 /// Runs along a program without looking at the whole table again and checks every step, but for
 /// `lost` ones at most that the lookup itself says are outside.
 template <typename Scalar>
-void check_run(const Program<Scalar>& program, Scalar tolerance, int lost) {
+void check_run(const Program<Scalar>& program, Scalar tolerance, int lost, int a_piece = 1000) {
   const auto model = kr270<Scalar>();
   const Built<Scalar> built(model, program, requirements(tolerance));
   TEST_ASSERT_EQUAL(Result::ok, built.result);
   TableCursor cursor;
-  const auto steps = static_cast<int>(1000 * (program.size() - 1));
+  const auto steps = a_piece * static_cast<int>(program.size() - 1);
   for (int i = 0; i < steps; ++i) {
-    const JointVector<Scalar, 6> q = on_program(program, i / 1000.0);
+    const JointVector<Scalar, 6> q = on_program(program, static_cast<double>(i) / a_piece);
     if (look_up<Scalar, 6>(built.table, q, &cursor).outside > 0) {
       --lost;
       continue;
@@ -234,6 +234,60 @@ void turn_off_backwards(Scalar tolerance) {
 void a_program_that_turns_off_backwards_is_found_again() {
   turn_off_backwards<double>(2e-7);
   turn_off_backwards<float>(2e-6F);
+}
+
+/// Two arcs in the plane of two joints that touch where the program turns back: it comes beside
+/// itself. `first` and `second` are their curvatures (1/rad), to one side; `piece` is in rad.
+template <typename Scalar>
+Program<Scalar> cusp(double first, double second, double piece) {
+  constexpr double kWay = 0.04;
+  const auto pieces = static_cast<int>(kWay / piece);
+  Program<Scalar> points;
+  for (int i = -pieces; i <= pieces; ++i) {
+    const double curvature = i < 0 ? first : second;
+    const double turned = curvature * piece * std::abs(i);
+    JointVector<Scalar, 6> q = loop_angles<Scalar>(0);
+    q[1] += static_cast<Scalar>(std::sin(turned) / curvature);
+    q[2] += static_cast<Scalar>((1 - std::cos(turned)) / curvature);
+    points.push_back(q);
+  }
+  return points;
+}
+
+template <typename Scalar>
+void come_back_beside_itself(Scalar tolerance, int lost) {
+  for (const double piece : {0.002, 0.0005, 0.00001}) {
+    for (const double second : {50.0, 25.0, 48.0, -20.0}) {
+      check_run(cusp<Scalar>(50, second, piece), tolerance, lost, static_cast<int>(piece / 4e-6));
+    }
+  }
+}
+
+/// Where the pieces at the corner are short, no plane lies between the two arcs.
+void a_program_that_comes_back_beside_itself_keeps_the_certificate() {
+  come_back_beside_itself<double>(1e-5, 10);
+  come_back_beside_itself<double>(1e-6, 10);
+  come_back_beside_itself<float>(5e-6F, 10);
+}
+
+/// Turns of a bore, one beside the other: many segments may hold a place, but a lookup must not
+/// leave the one that it is given for others that do not.
+void a_place_that_was_located_is_looked_up_there() {
+  Program<double> turns;
+  for (int i = 0; i <= 3 * kPieces; ++i) {
+    turns.push_back(loop_angles<double>(kTurn * (i % kPieces) / kPieces));
+    turns.back()[3] += 2e-4 * i / kPieces;
+  }
+  for (const double tolerance : {1e-6, 1e-5, 1e-4}) {
+    const Built<double> built(kr270<double>(), turns, requirements(tolerance));
+    TEST_ASSERT_EQUAL(Result::ok, built.result);
+    for (double place = 0; place < 3 * kPieces; place += 0.0371) {
+      TableCursor cursor;
+      const JointVector<double, 6> q = on_program(turns, place);
+      locate<double, 6>(built.table, q, &cursor);
+      TEST_ASSERT_TRUE((look_up<double, 6>(built.table, q, &cursor).outside == 0));
+    }
+  }
 }
 
 template <typename Scalar>
@@ -503,6 +557,8 @@ int main() {
   RUN_TEST(corners_of_every_angle_keep_the_certificate);
   RUN_TEST(a_program_that_runs_back_on_itself_is_followed);
   RUN_TEST(a_program_that_turns_off_backwards_is_found_again);
+  RUN_TEST(a_program_that_comes_back_beside_itself_keeps_the_certificate);
+  RUN_TEST(a_place_that_was_located_is_looked_up_there);
   RUN_TEST(after_a_jump_any_segment_is_found_from_any_other);
   RUN_TEST(a_look_up_after_a_jump_costs_no_more_than_a_few_segments);
   RUN_TEST(what_a_tick_reads_is_the_response_of_the_entry);
