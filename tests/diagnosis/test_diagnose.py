@@ -319,6 +319,20 @@ class Diagnose(unittest.TestCase):
         self.assertAlmostEqual(found["ry"]["value"], -0.2 / 9.81, delta=5e-4)
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_an_encoder_with_another_zero_is_named_by_the_torques_of_the_weights(self):
+        zero = 0.015  # rad; the joint stands so much further than it reads
+        heavy = self.changed_model("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]")
+        moved = [f"q_meas_{k}" for k in JOINTS]
+        turned = self.recorded([*moved, *[f"tau_{k}" for k in JOINTS]], [
+            [q + (zero if k == 2 else 0) for k, q in enumerate(swing(i * PERIOD))] + [0.0] * 6 for i in range(2500)])
+        draw = random.Random(7)
+        torques = [[float(row[f"tau_{k}"]) + draw.gauss(0, 2) for k in JOINTS] for row in self.simulated(turned, heavy)]
+        recording = self.recorded([*moved, *[f"tau_{k}" for k in JOINTS]], [
+            swing(i * PERIOD) + torques[i] for i in range(2500)])
+        found = self.only_finding(recording, "joint_offset", 3, heavy)
+        self.assertAlmostEqual(found["parameters"]["offset"]["value"], zero, delta=1e-3)
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_viscous_friction_unlike_in_its_two_directions_is_named(self):
         joint, forwards, backwards = 3, 900.0, 500.0  # N·m·s/rad
 

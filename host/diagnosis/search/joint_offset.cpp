@@ -3,10 +3,11 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Needs the TCP or link encoders.
+/// Needs the TCP, link encoders, or torques that hold weights: these hang elsewhere than it reads.
 bool prepare_joint_offset(const Observations& observations, Hypothesis* hypothesis) {
   hypothesis->set_bounds({{-0.1, 0.1, 1e-4}});
-  return sees_angles(observations);
+  return sees_angles(observations) ||
+         (observations.has(simulation::joint_torque) && observations.has_weight());
 }
 
 }  // namespace

@@ -61,6 +61,15 @@ bool is_more_usual(const Alternative& one, const Finding& finding) {
          one.delta_bic < std::max(kSameEvidence, kUnusual * finding.evidence.delta_bic);
 }
 
+/// Does one number of an alternative do nearly what the many of a finding do? A body has up to ten,
+/// some of which fit what other errors leave.
+bool is_far_plainer(const Alternative& one, const Finding& finding) {
+  constexpr std::size_t kFewer = 3;
+  return one.chosen.values.size() + kFewer <= finding.chosen.values.size() &&
+         finding.chosen.hypothesis.traits().is_body &&
+         one.delta_bic < kFarPlainer * finding.evidence.delta_bic;
+}
+
 /// Is an alternative plainer than the finding? Three cases:
 /// - it has fewer parameters, and no evidence speaks for the finding;
 /// - it has as many, acts on the whole machine instead of one joint (the payload, not the last
@@ -135,7 +144,7 @@ std::optional<Selection> plainer(const Inquiry& inquiry, const Selection& select
   for (std::size_t i = 0; i < selection.findings.size(); ++i) {
     const Finding& finding = selection.findings[i];
     for (const Alternative& other : finding.alternatives) {
-      const bool is_usual = is_more_usual(other, finding);
+      const bool is_usual = is_more_usual(other, finding) || is_far_plainer(other, finding);
       if (is_usual || is_plainer(other, finding) || is_the_law(other, finding)) {
         std::vector<Chosen> chosen = selection.fit.chosen;
         chosen[i] = other.chosen;

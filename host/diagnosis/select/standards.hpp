@@ -85,6 +85,9 @@ constexpr double kFarMoreEvidence = 20;
 /// noise, which change comparisons by as much (effects planted into real recordings,
 /// tests/campaigns/machines).
 constexpr double kUnusual = 0.02;
+/// Share of a finding's gain in BIC: within it one number takes the place of a body's many. A real
+/// machine has errors besides, which change such comparisons by as much.
+constexpr double kFarPlainer = 0.01;
 /// Times the squares: a form of the same law that leaves no more may be the machine's (measured on
 /// loops of MuJoCo's sliders, tools/concealed, seeds 771203 and 828101: Prandtl and Ishlinskii's
 /// against Bouc and Wen's).
