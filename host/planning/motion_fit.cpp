@@ -45,7 +45,36 @@ class Fit {
     Motion one = motion_;
     one.end = poses_[last];
     one.arc = *through;
-    return off(one, first, last) <= tolerance_ ? std::optional<Motion>(one) : std::nullopt;
+    const bool fits = off(one, first, last) <= tolerance_ && bulges_as_it_should(one, first, last);
+    return fits ? std::optional<Motion>(one) : std::nullopt;
+  }
+
+  /// Is an arc between neighbouring poses as high above their chord as the program's own arc there?
+  /// Three poses are on a circle, always, which may lead anywhere between them.
+  bool bulges_as_it_should(const Motion& one, std::size_t first, std::size_t last) const {
+    if (one.arc.normal.dot(motion_.arc.normal) <= 0) {
+      return false;
+    }
+    const double own = radius_at(motion_.end.position, motion_.arc);
+    const double radius = radius_at(poses_[first].position, one.arc);
+    double before = 0;
+    for (std::size_t i = first + 1; i <= last; ++i) {
+      const double share = i == last ? 1 : share_of(one, first, last, i);
+      const double half = (share - before) * one.arc.angle / 2;
+      const double half_chord = radius * std::sin(half);
+      const double height = radius * (1 - std::cos(half));
+      if (!(half < M_PI / 2) || !(half_chord < own) ||
+          std::abs(height - (own - std::sqrt(own * own - half_chord * half_chord))) > tolerance_) {
+        return false;
+      }
+      before = share;
+    }
+    return true;
+  }
+
+  static double radius_at(const Vector3<double>& place, const programs::Arc& arc) {
+    const Vector3<double> off = place - arc.center;
+    return (off - arc.normal.dot(off) * arc.normal).norm();
   }
 
   std::optional<Motion> line(std::size_t first, std::size_t last) {

@@ -200,6 +200,43 @@ void a_circle_stays_arcs() {
   }
 }
 
+/// Where the force sets in, a correction jumps against the motion. The circle through three points
+/// there leads far off between them.
+void no_arc_leads_where_no_pose_is() {
+  std::vector<Pose<double>> poses(3);
+  poses[0].position = {0, 0, 0};
+  poses[1].position = {-0.4e-3, -1.1e-3, 0};
+  poses[2].position = {-0.4e-3, -0.7e-3, 0.1e-3};
+  Motion quarter;
+  quarter.kind = MotionKind::circular;
+  quarter.end.position = {0, 5e-3, 5e-3};
+  quarter.arc.center = {0, 0, 5e-3};
+  quarter.arc.normal = Vector3<double>::UnitX();
+  quarter.arc.angle = M_PI / 2;
+  for (const Motion& one : fit_motion(quarter, poses, 0, 2, 5e-6)) {
+    TEST_ASSERT_TRUE(one.kind == MotionKind::linear);
+  }
+}
+
+/// A correction moves and bends a circle a little: it stays arcs.
+void a_circle_that_is_corrected_stays_arcs() {
+  std::vector<Pose<double>> poses(181);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double angle = static_cast<double>(i) * M_PI / 180;
+    const double radius = 0.05 + 5e-4 * std::cos(angle);
+    poses[i].position = {radius * std::cos(angle) + 1e-3, radius * std::sin(angle), 0};
+  }
+  Motion half;
+  half.kind = MotionKind::circular;
+  half.end.position = {-0.05, 0, 0};
+  half.arc.angle = M_PI;
+  const std::vector<Motion> arcs = fit_motion(half, poses, 0, 180, 5e-6);
+  TEST_ASSERT_TRUE(arcs.size() <= 16);
+  for (const Motion& one : arcs) {
+    TEST_ASSERT_TRUE(one.kind == MotionKind::circular);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -214,5 +251,7 @@ int main() {
   RUN_TEST(points_are_added_only_where_the_correction_bends);
   RUN_TEST(a_turning_correction_counts_as_well);
   RUN_TEST(a_circle_stays_arcs);
+  RUN_TEST(no_arc_leads_where_no_pose_is);
+  RUN_TEST(a_circle_that_is_corrected_stays_arcs);
   return UNITY_END();
 }
