@@ -90,6 +90,16 @@ flexcomp_result_t flexcomp_model_validate(const flexcomp_model_t* model) {
   return model == nullptr ? FLEXCOMP_BAD_ARGUMENT : to_c(flexcomp::validate(convert(*model)));
 }
 
+const char* flexcomp_model_unusable_member(const flexcomp_model_t* model, size_t* joint) {
+  const flexcomp::UnusableMember member = model == nullptr
+                                              ? flexcomp::UnusableMember{nullptr, FLEXCOMP_JOINTS}
+                                              : flexcomp::unusable_member(convert(*model));
+  if (joint != nullptr) {
+    *joint = member.joint;
+  }
+  return member.name;
+}
+
 uint64_t flexcomp_model_hash(const flexcomp_model_t* model) {
   return model == nullptr ? 0 : flexcomp::model_hash(convert(*model));
 }
@@ -102,12 +112,20 @@ flexcomp_result_t flexcomp_model_evaluate(const flexcomp_model_t* model,
   }
   const Model robot = convert(*model);
   const auto kinematics = flexcomp::forward_kinematics<float, kJoints>(robot, vector6(q));
+  flexcomp::Compliance<float> computed = flexcomp::Compliance<float>::Zero();
+  if (compliance != nullptr) {
+    computed = flexcomp::tcp_compliance(robot, kinematics);
+  }
+  if (!kinematics.tcp.rotation.allFinite() || !kinematics.tcp.position.allFinite() ||
+      !computed.allFinite()) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
   if (tcp != nullptr) {
     copy(kinematics.tcp.rotation, tcp->rotation);
     copy(kinematics.tcp.position, tcp->position);
   }
   if (compliance != nullptr) {
-    copy(flexcomp::tcp_compliance(robot, kinematics), compliance);
+    copy(computed, compliance);
   }
   return FLEXCOMP_OK;
 }
@@ -120,12 +138,22 @@ flexcomp_result_t flexcomp_model_respond(const flexcomp_model_t* model,
     return FLEXCOMP_BAD_ARGUMENT;
   }
   const Model robot = convert(*model);
+  flexcomp::Twist<float> bent = flexcomp::Twist<float>::Zero();
+  Angles against = Angles::Zero();
   if (deflection != nullptr) {
-    copy(flexcomp::deflection<float, kJoints>(robot, vector6(q), vector6(wrench)).tcp, deflection);
+    bent = flexcomp::deflection<float, kJoints>(robot, vector6(q), vector6(wrench)).tcp;
   }
   if (correction != nullptr) {
-    copy(flexcomp::setpoint_correction<float, kJoints>(robot, vector6(q), vector6(wrench)),
-         correction);
+    against = flexcomp::setpoint_correction<float, kJoints>(robot, vector6(q), vector6(wrench));
+  }
+  if (!bent.allFinite() || !against.allFinite()) {
+    return FLEXCOMP_BAD_ARGUMENT;
+  }
+  if (deflection != nullptr) {
+    copy(bent, deflection);
+  }
+  if (correction != nullptr) {
+    copy(against, correction);
   }
   return FLEXCOMP_OK;
 }
@@ -154,6 +182,10 @@ flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const
       {lower[0], upper[0]}, {lower[1], upper[1]}, {lower[2], upper[2]}, {lower[3], upper[3]}};
   return to_c(flexcomp::build_grid_table<float, kJoints>(
       convert(*model), ranges, convert(*requirements), buffer, capacity, size));
+}
+
+flexcomp_result_t flexcomp_table_size(const void* data, size_t available, size_t* size) {
+  return to_c(flexcomp::Table::find_size(data, available, size));
 }
 
 flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table) {
@@ -275,5 +307,5 @@ flexcomp_result_t flexcomp_compensator_tick(flexcomp_compensator_t* compensator,
   output->status = ticked.status;
   output->latched_faults = ticked.latched_faults;
   output->state = static_cast<flexcomp_state_t>(ticked.state);
-  return FLEXCOMP_OK;
+  return object(compensator)->is_configured() ? FLEXCOMP_OK : FLEXCOMP_BAD_CONFIG;
 }

@@ -27,16 +27,34 @@ struct Member {
   const char* name;
 };
 
-}  // namespace
-
+/// The first of the members that are counted in periods which cannot be with this period, or null.
 template <typename Scalar, int Joints>
-const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config) {
+const char* unusable_in_periods(const CompensatorConfig<Scalar, Joints>& config, Scalar period) {
   constexpr Scalar kMostHoldTicks = Scalar(1e9);  // what a counter holds
   // Steps much smaller than this would be lost to the rounding of a float near 1: no fade would
   // end.
   constexpr Scalar kMostFadeTicks = Scalar(1e6);
+  if (!lasts(config.hold_time, period, kMostHoldTicks)) {
+    return "hold_time";
+  }
+  if (!lasts(config.fade_time, period, kMostFadeTicks)) {
+    return "fade_time";
+  }
   JointGuards<Scalar, Joints> guards;
-  const std::array<Member, 13> members = {{
+  return guards.configure(config.limits, period) == Result::ok ? nullptr : "limits";
+}
+
+/// Is a period such as no control loop has?
+template <typename Scalar>
+bool is_unusual(Scalar period) {
+  return period < Scalar(1e-4) || period > Scalar(1);
+}
+
+}  // namespace
+
+template <typename Scalar, int Joints>
+const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config) {
+  const std::array<Member, 10> members = {{
       {is_positive(config.period), "period"},
       {is_positive(config.gain) && config.gain <= Scalar(1), "gain"},
       {std::isfinite(config.filter_cutoff) && config.filter_cutoff >= Scalar(0), "filter_cutoff"},
@@ -49,16 +67,16 @@ const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config) {
        "joint_speed"},
       {is_positive(config.deflection_limit), "deflection_limit"},
       {is_positive(config.chart_margin), "chart_margin"},
-      {lasts(config.hold_time, config.period, kMostHoldTicks), "hold_time"},
-      {lasts(config.fade_time, config.period, kMostFadeTicks), "fade_time"},
-      {guards.configure(config.limits, config.period) == Result::ok, "limits"},
   }};
   for (const Member& member : members) {
     if (!member.is_usable) {
       return member.name;
     }
   }
-  return nullptr;
+  const char* const member = unusable_in_periods(config, config.period);
+  const bool period_is_at_fault = member != nullptr && is_unusual(config.period) &&
+                                  unusable_in_periods(config, Scalar(1e-3)) == nullptr;
+  return period_is_at_fault ? "period" : member;
 }
 
 #define FLEXCOMP_UNUSABLE_MEMBER(Scalar, Joints) \

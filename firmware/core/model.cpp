@@ -61,29 +61,60 @@ bool not_negative(Scalar value) {
   return std::isfinite(value) && value >= Scalar(0);
 }
 
+struct Member {
+  bool is_usable;
+  const char* name;
+};
+
+/// The name of the first that is not usable, or null.
+template <std::size_t Count>
+const char* first_unusable(const std::array<Member, Count>& members) {
+  for (const Member& member : members) {
+    if (!member.is_usable) {
+      return member.name;
+    }
+  }
+  return nullptr;
+}
+
 template <typename Scalar>
-bool is_valid(const Joint<Scalar>& joint) {
-  return is_rigid(joint.origin) && joint.axis.allFinite() &&
-         std::abs(joint.axis.norm() - Scalar(1)) < Scalar(1e-4) && std::isfinite(joint.lower) &&
-         std::isfinite(joint.upper) && joint.lower < joint.upper &&
-         not_negative(joint.compliance) && std::isfinite(joint.cubic_compliance) &&
-         none_negative(joint.link_compliance) && not_negative(joint.mass) &&
-         joint.center_of_mass.allFinite();
+const char* unusable_member_of(const Joint<Scalar>& joint) {
+  return first_unusable<9>({{
+      {is_rigid(joint.origin), "origin"},
+      {joint.axis.allFinite() && std::abs(joint.axis.norm() - Scalar(1)) < Scalar(1e-4), "axis"},
+      {std::isfinite(joint.lower), "lower"},
+      {std::isfinite(joint.upper) && joint.lower < joint.upper, "upper"},
+      {not_negative(joint.compliance), "compliance"},
+      {std::isfinite(joint.cubic_compliance), "cubic_compliance"},
+      {none_negative(joint.link_compliance), "link_compliance"},
+      {not_negative(joint.mass), "mass"},
+      {joint.center_of_mass.allFinite(), "center_of_mass"},
+  }});
 }
 
 }  // namespace
 
 template <typename Scalar, int Joints>
-Result validate(const RobotModel<Scalar, Joints>& model) {
-  for (const Joint<Scalar>& joint : model.joints) {
-    if (!is_valid(joint)) {
-      return Result::bad_model;
+UnusableMember unusable_member(const RobotModel<Scalar, Joints>& model) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (const char* const name = unusable_member_of(model.joints[i])) {
+      return {name, i};
     }
   }
-  const bool valid = is_rigid(model.tool) && none_negative(model.base_compliance) &&
-                     none_negative(model.tool_compliance) && model.gravity.allFinite() &&
-                     not_negative(model.payload_mass) && model.payload_center.allFinite();
-  return valid ? Result::ok : Result::bad_model;
+  const char* const name = first_unusable<6>({{
+      {is_rigid(model.tool), "tool"},
+      {none_negative(model.base_compliance), "base_compliance"},
+      {none_negative(model.tool_compliance), "tool_compliance"},
+      {model.gravity.allFinite(), "gravity"},
+      {not_negative(model.payload_mass), "payload_mass"},
+      {model.payload_center.allFinite(), "payload_center"},
+  }});
+  return {name, model.joints.size()};
+}
+
+template <typename Scalar, int Joints>
+Result validate(const RobotModel<Scalar, Joints>& model) {
+  return unusable_member(model).name == nullptr ? Result::ok : Result::bad_model;
 }
 
 template <typename Scalar, int Joints>
@@ -123,7 +154,8 @@ std::uint64_t model_hash(const RobotModel<Scalar, Joints>& model) {
   return hash.value();
 }
 
-#define FLEXCOMP_VALIDATE(Scalar, Joints) \
+#define FLEXCOMP_VALIDATE(Scalar, Joints)                                     \
+  template UnusableMember unusable_member(const RobotModel<Scalar, Joints>&); \
   template Result validate(const RobotModel<Scalar, Joints>&);
 FLEXCOMP_INSTANTIATE_CONTROL(FLEXCOMP_VALIDATE)
 

@@ -7,7 +7,7 @@ const char* describe(Result result) {
     case Result::ok:
       return "ok";
     case Result::bad_argument:
-      return "an argument is null, empty or unknown";
+      return "an argument is null, misaligned, unknown or out of its range";
     case Result::bad_model:
       return "a number of the robot model is not finite or out of its range";
     case Result::bad_config:

@@ -82,27 +82,40 @@ bool numbers_are_finite(const void* data, std::size_t size) {
 
 }  // namespace
 
-Result Table::open(const void* data, std::size_t size, Table* table) {
-  if (data == nullptr || table == nullptr) {
+Result Table::find_size(const void* data, std::size_t available, std::size_t* size) {
+  if (data == nullptr || size == nullptr) {
     return Result::bad_argument;
   }
   if (reinterpret_cast<std::uintptr_t>(data) % alignof(TableHeader) != 0) {
     return Result::table_misaligned;
   }
   const auto* header = static_cast<const TableHeader*>(data);
-  if (size >= sizeof header->magic && header->magic != kMagic) {
+  if (available >= sizeof header->magic && header->magic != kMagic) {
     return Result::table_not_a_table;
   }
-  if (size < sizeof(TableHeader)) {
+  if (available < sizeof(TableHeader)) {
     return Result::table_truncated;
   }
   if (header->version != kTableVersion) {
     return Result::table_version;
   }
-  if (header->size > size) {
+  if (header->size > available) {
     return Result::table_truncated;
   }
-  if (header->size < size || size % 4 != 0 || table_crc(data, size) != header->crc ||
+  if (!fields_are_consistent(*header)) {
+    return Result::table_corrupt;
+  }
+  *size = header->size;
+  return Result::ok;
+}
+
+Result Table::open(const void* data, std::size_t size, Table* table) {
+  std::size_t own = 0;
+  const Result result = table == nullptr ? Result::bad_argument : find_size(data, size, &own);
+  if (result != Result::ok) {
+    return result;
+  }
+  if (own != size || table_crc(data, size) != static_cast<const TableHeader*>(data)->crc ||
       !numbers_are_finite(data, size)) {
     return Result::table_corrupt;
   }

@@ -43,8 +43,9 @@ typedef struct flexcomp_follower_config {
 
 /// Bytes of a follower.
 #define FLEXCOMP_FOLLOWER_BYTES 192
-/// The correction that a robot moves by, for callers with a transport of their own (LCM, say). Do
-/// not touch the member.
+/// The correction that a robot moves by, for callers with a transport of their own (LCM, say).
+/// Static or on a stack the compiler aligns it; other memory must start at a multiple of 64 bytes,
+/// which malloc does not promise (`aligned_alloc` of C11 does). Do not touch the member.
 typedef struct flexcomp_follower {
 #ifdef __cplusplus
   alignas(64) unsigned char bytes[FLEXCOMP_FOLLOWER_BYTES];  ///< opaque
@@ -94,7 +95,8 @@ typedef struct flexcomp_client_config {
 
 /// Bytes of a client.
 #define FLEXCOMP_CLIENT_BYTES 6144
-/// Room for a client, static or on a stack. Do not touch the member.
+/// Room for a client, static or on a stack; other memory as for a follower. Do not touch the
+/// member.
 typedef struct flexcomp_client {
 #ifdef __cplusplus
   alignas(64) unsigned char bytes[FLEXCOMP_CLIENT_BYTES];  ///< opaque

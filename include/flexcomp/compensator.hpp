@@ -73,7 +73,8 @@ struct CompensatorConfig {
 };
 
 /// The first number that no compensator takes, by its member's name ("limits" for any joint's);
-/// null where it takes all.
+/// null where it takes all. Times and limits are counted in periods: where they would do with a
+/// period of 1 ms and do not with one outside 0.1 ms to 1 s, it is "period".
 template <typename Scalar, int Joints>
 const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config);
 
@@ -126,8 +127,8 @@ class Compensator {
   using Input = CompensatorInput<Scalar, Joints>;    ///< one for each tick
   using Output = CompensatorOutput<Scalar, Joints>;  ///< one for each tick
 
-  /// Takes a configuration and forgets all that was. Returns ok or bad_config
-  /// (`unusable_member`).
+  /// Takes a configuration and forgets all that was, the correction too: not while a robot moves by
+  /// one. Returns ok, or bad_config (`unusable_member`) with nothing changed.
   Result configure(const Config& config);
 
   /// Gives it a table, which must outlive its use. Between ticks, in any state: the correction
@@ -150,6 +151,10 @@ class Compensator {
   Output tick(const Input& input);
 
   State state() const { return state_; }  ///< after the last call
+
+  /// Has it a configuration? One whose `configure` failed, or that was never given one, has none,
+  /// and corrects nothing.
+  bool is_configured() const { return config_.period > Scalar(0); }
 
  private:
   using Angles = JointVector<Scalar, Joints>;

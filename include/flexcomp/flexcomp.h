@@ -11,9 +11,11 @@
 /// The calls in their order, and the thread that makes them:
 ///
 ///     at start (any thread)
+///       flexcomp_table_size            how long the table is, where what holds it is longer
 ///       flexcomp_table_open            check a table where it lies (flash, or a buffer you keep)
 ///       flexcomp_table_check_model     with the model at hand: does it say the same of the robot?
-///       flexcomp_compensator_init      period, limits, ranges, the robot's fingerprint
+///       flexcomp_compensator_init      period, limits, ranges, the robot's fingerprint; only while
+///                                      nothing is corrected, because it begins anew
 ///       flexcomp_compensator_set_table
 ///     every period (the control thread)
 ///       flexcomp_compensator_tick      send output.setpoint to the drives, in every state
@@ -26,8 +28,8 @@
 ///       flexcomp_table_build_path, flexcomp_table_build_grid, flexcomp_model_evaluate
 ///
 /// A bad input holds the correction; if it lasts, the correction fades to zero and is latched. It
-/// never jumps. Every call says in its result or status what is wrong; no number from outside is
-/// trusted.
+/// never jumps, unless flexcomp_compensator_init is called while it is not zero. Every call says in
+/// its result or status what is wrong; no number from outside is trusted.
 ///
 /// SI units throughout (m, rad, s, N, N·m, kg); vectors in the robot base frame unless said
 /// otherwise. A wrench is {fx, fy, fz, mx, my, mz}: force and moment acting ON the tool at the tool
@@ -36,6 +38,8 @@
 /// No call allocates, blocks, does I/O, or keeps anything outside the objects it is given. Calls on
 /// different objects may run at the same time; one object belongs to one thread at a time. Nothing
 /// here is a safety function. README.md beside this file in the sources has a whole program.
+///
+/// For C11 or later, and C++11 or later.
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -51,15 +55,15 @@ extern "C" {
 /// Result of a call. Stable numbers.
 typedef enum flexcomp_result {
   FLEXCOMP_OK = 0,
-  FLEXCOMP_BAD_ARGUMENT = 1,       ///< a null pointer, a size of zero, or an unknown option
-  FLEXCOMP_BAD_MODEL = 2,          ///< a number of the model is not finite or out of its range
-  FLEXCOMP_BAD_CONFIG = 3,         ///< a number of the configuration is not finite or out of range
-  FLEXCOMP_BAD_PATH = 4,           ///< fewer than two distinct points, or one not finite
-  FLEXCOMP_BUFFER_TOO_SMALL = 5,   ///< no table within the tolerance fits
-  FLEXCOMP_TOLERANCE_NOT_MET = 6,  ///< finer than the arithmetic can certify
+  FLEXCOMP_BAD_ARGUMENT = 1,         ///< null, misaligned, unknown, or a number that cannot be
+  FLEXCOMP_BAD_MODEL = 2,            ///< a number of the model is not finite or out of its range
+  FLEXCOMP_BAD_CONFIG = 3,           ///< a number of the configuration is out of its range
+  FLEXCOMP_BAD_PATH = 4,             ///< fewer than two distinct points, or one not finite
+  FLEXCOMP_BUFFER_TOO_SMALL = 5,     ///< no table within the tolerance fits
+  FLEXCOMP_TOLERANCE_NOT_MET = 6,    ///< finer than the arithmetic can certify
   FLEXCOMP_CHART_NOT_INVARIANT = 7,  ///< this model needs a path table
   FLEXCOMP_TABLE_MISALIGNED = 8,     ///< a table must start at a multiple of 4 bytes
-  FLEXCOMP_TABLE_TRUNCATED = 9,      ///< fewer bytes than the table says it has
+  FLEXCOMP_TABLE_TRUNCATED = 9,      ///< fewer bytes than the table says it has, or than a header
   FLEXCOMP_TABLE_NOT_A_TABLE = 10,   ///< another magic number
   FLEXCOMP_TABLE_VERSION = 11,       ///< another version of the format
   FLEXCOMP_TABLE_CORRUPT = 12,       ///< CRC-32 or a field contradicts the content; NaN, infinity
@@ -79,7 +83,9 @@ typedef enum flexcomp_state {
   FLEXCOMP_STATE_LATCHED = 5      ///< no correction after a fault, until a reset
 } flexcomp_state_t;
 
-/// Bits of the status word. Stable numbers; the lower half are faults, the upper half remarks.
+/// Bits of the status word. Stable numbers; the lower half are faults, the upper half remarks. As
+/// constants of an enumeration they are of type int: to take one away under -Wsign-conversion write
+/// `status &= ~(uint32_t)FLEXCOMP_WRENCH_STALE`.
 enum {
   FLEXCOMP_SETPOINT_NOT_FINITE = 1 << 0,
   FLEXCOMP_SETPOINT_STALE = 1 << 1,         ///< age above the limit, negative or not finite
@@ -110,22 +116,23 @@ const char* flexcomp_describe_status_bit(uint32_t bit);
 /// Version of the library, for example "0.1.0"; never null.
 const char* flexcomp_version(void);
 
-/// A robot: rotations are row by row; a frame's pose is given in the frame before it.
+/// A robot: rotations are row by row; a frame's pose is given in the frame before it. All numbers
+/// of a model are finite.
 typedef struct flexcomp_pose {
-  float rotation[9];  ///< row by row
+  float rotation[9];  ///< row by row; right-handed, columns of length 1 at right angles, to 1e-4
   float position[3];  ///< m
 } flexcomp_pose_t;
 
 /// A joint, its spring, and the link that it moves.
 typedef struct flexcomp_joint {
   flexcomp_pose_t origin;    ///< joint frame in the previous link's frame
-  float axis[3];             ///< unit vector in the joint frame
+  float axis[3];             ///< unit vector in the joint frame, to 1e-4
   float lower;               ///< rad
-  float upper;               ///< rad
-  float compliance;          ///< rad/(N·m), c1 in wind-up = c1 τ + c3 τ³
-  float cubic_compliance;    ///< rad/(N·m)³, c3
-  float link_compliance[6];  ///< m/N (3), rad/(N·m) (3), of the moved link in its frame
-  float mass;                ///< kg, of the moved link
+  float upper;               ///< rad, above `lower`
+  float compliance;          ///< rad/(N·m), c1 in wind-up = c1 τ + c3 τ³; 0 or more
+  float cubic_compliance;    ///< rad/(N·m)³, c3; below 0 for a hardening spring
+  float link_compliance[6];  ///< m/N (3), rad/(N·m) (3), of the moved link in its frame; 0 or more
+  float mass;                ///< kg, of the moved link; 0 or more
   float center_of_mass[3];   ///< m, link frame
 } flexcomp_joint_t;
 
@@ -133,21 +140,29 @@ typedef struct flexcomp_joint {
 typedef struct flexcomp_model {
   flexcomp_joint_t joints[FLEXCOMP_JOINTS];  ///< base to tip
   flexcomp_pose_t tool;                      ///< TCP in the last link's frame
-  float base_compliance[6];                  ///< base frame
-  float tool_compliance[6];                  ///< tool frame
+  float base_compliance[6];                  ///< base frame; 0 or more
+  float tool_compliance[6];                  ///< tool frame; 0 or more
   float gravity[3];                          ///< m/s²; zero leaves weight out
-  float payload_mass;                        ///< kg
+  float payload_mass;                        ///< kg; 0 or more
   float payload_center[3];                   ///< m, tool frame
 } flexcomp_model_t;
 
-/// FLEXCOMP_OK, FLEXCOMP_BAD_ARGUMENT or FLEXCOMP_BAD_MODEL. Cost: about 1,000 operations.
+/// FLEXCOMP_OK, FLEXCOMP_BAD_ARGUMENT or FLEXCOMP_BAD_MODEL (`flexcomp_model_unusable_member` says
+/// which number). Cost: about 1,000 operations.
 flexcomp_result_t flexcomp_model_validate(const flexcomp_model_t* model);
+
+/// The first member of a model that is out of its range, by its name, for example "axis"; null
+/// where all are usable, or without a model. `joint`, unless null, receives the joint whose member
+/// it is, from 0, and FLEXCOMP_JOINTS for a member of the model itself or where there is none.
+const char* flexcomp_model_unusable_member(const flexcomp_model_t* model, size_t* joint);
 
 /// Fingerprint that ties tables to a robot; 0 for a null pointer. Cost: about 3,000 operations.
 uint64_t flexcomp_model_hash(const flexcomp_model_t* model);
 
 /// TCP pose, Jacobian-based compliance (6×6, row by row) and so on at joint angles `q` (rad).
-/// Null outputs are left out. FLEXCOMP_BAD_ARGUMENT for a null input or an angle not finite.
+/// Null outputs are left out. FLEXCOMP_OK, or BAD_ARGUMENT, with the outputs untouched, for a null
+/// input, an angle not finite, or where an output would not be. Whether the model is one is said by
+/// `flexcomp_model_validate` alone: call it first.
 /// Cost: about 1,500 operations, 12 sines and cosines; about 1.5 KiB of stack.
 flexcomp_result_t flexcomp_model_evaluate(const flexcomp_model_t* model,
                                           const float q[FLEXCOMP_JOINTS], flexcomp_pose_t* tcp,
@@ -155,26 +170,31 @@ flexcomp_result_t flexcomp_model_evaluate(const flexcomp_model_t* model,
 
 /// Deflection of the TCP (twist) under a wrench and the weights in the model, and what to add to
 /// the joint setpoint against it (rad), straight from the model. Null outputs are left out.
-/// FLEXCOMP_BAD_ARGUMENT for a null input or a number not finite. Cost: about 2,500 operations and
-/// 2 KiB of stack; with base, link or tool springs twice that.
+/// FLEXCOMP_OK, or BAD_ARGUMENT, with the outputs untouched, for a null input, an angle, force or
+/// moment not finite, or where an output would not be; `flexcomp_model_validate` comes first here,
+/// too. Cost: about 2,500 operations and 2 KiB of stack; with base, link or tool springs twice
+/// that.
 flexcomp_result_t flexcomp_model_respond(const flexcomp_model_t* model,
                                          const float q[FLEXCOMP_JOINTS], const float wrench[6],
                                          float deflection[6], float correction[FLEXCOMP_JOINTS]);
 
-/// Loads and tolerances that a table is built for.
+/// Loads and tolerances that a table is built for. All are finite.
 typedef struct flexcomp_table_requirements {
-  float force_bound;            ///< N, largest force that will act
+  float force_bound;            ///< N, largest force that will act; 0 or more, and not both 0
   float moment_bound;           ///< N·m
-  float position_tolerance;     ///< m, largest allowed error at the TCP
-  float orientation_tolerance;  ///< rad
-  float largest_gain;           ///< largest safe correction gain, 0 if not analysed
+  float position_tolerance;     ///< m, largest allowed error at the TCP; above 0
+  float orientation_tolerance;  ///< rad; above 0
+  /// Largest safe correction gain, 0 if not analysed. No compensator has a gain above 1: a larger
+  /// number, of a loop that would bear more, allows all of them.
+  float largest_gain;
 } flexcomp_table_requirements_t;
 
 /// Builds a path table for the program through `count` points of six joint angles each, into a
 /// 4-byte aligned buffer. `size` receives the bytes used.
 ///
-/// FLEXCOMP_OK, or BAD_ARGUMENT, BAD_MODEL, BAD_PATH, BUFFER_TOO_SMALL, TOLERANCE_NOT_MET; then the
-/// buffer holds no table. Cost: some thousand evaluations of the model a node (not for the tick);
+/// FLEXCOMP_OK, or BAD_ARGUMENT (also for a misaligned buffer or requirements out of their range),
+/// BAD_MODEL, BAD_PATH, BUFFER_TOO_SMALL, TOLERANCE_NOT_MET; then the buffer holds no table, and
+/// `size` is untouched. Cost: some thousand evaluations of the model a node (not for the tick);
 /// memory: the buffer, 244 to 544 bytes a node, and 12 KiB of stack.
 flexcomp_result_t flexcomp_table_build_path(const flexcomp_model_t* model, const float* points,
                                             size_t count,
@@ -182,8 +202,9 @@ flexcomp_result_t flexcomp_table_build_path(const flexcomp_model_t* model, const
                                             void* buffer, size_t capacity, size_t* size);
 
 /// Builds a joint-grid table over joints 2 to 5; `lower[i] == upper[i]` fixes a joint. As above;
-/// also CHART_NOT_INVARIANT for a robot whose joints 1 and 6 may not turn freely (base, link or
-/// tool springs; a TCP off the last axis; weight not along axis 1). Cost: the product of the nodes.
+/// BAD_ARGUMENT also for an angle not finite or a lower one above its upper; also
+/// CHART_NOT_INVARIANT for a robot whose joints 1 and 6 may not turn freely (base, link or tool
+/// springs; a TCP off the last axis; weight not along axis 1). Cost: the product of the nodes.
 flexcomp_result_t flexcomp_table_build_grid(const flexcomp_model_t* model, const float lower[4],
                                             const float upper[4],
                                             const flexcomp_table_requirements_t* requirements,
@@ -209,9 +230,19 @@ typedef struct flexcomp_table_info {
   float largest_gain;       ///< 0 if not analysed
 } flexcomp_table_info_t;
 
-/// Checks a table in place (flash) and opens it. FLEXCOMP_OK, or BAD_ARGUMENT, TABLE_MISALIGNED,
-/// TABLE_TRUNCATED, TABLE_NOT_A_TABLE, TABLE_VERSION, TABLE_CORRUPT. Cost: two passes over the
-/// bytes.
+/// Bytes of the table at the start of `available` bytes, by its header; `size` receives them, and
+/// is untouched unless the result is FLEXCOMP_OK. For a table in a longer place (a sector of flash)
+/// or with a signature behind it: `flexcomp table sign` appends 24 bytes, which begin at `size` and
+/// are not looked at here. FLEXCOMP_OK says that so many bytes are there and that the header does
+/// not contradict itself; `flexcomp_table_open` checks the rest. Else BAD_ARGUMENT,
+/// TABLE_MISALIGNED, TABLE_TRUNCATED, TABLE_NOT_A_TABLE, TABLE_VERSION, TABLE_CORRUPT. Cost: the
+/// header's alone.
+flexcomp_result_t flexcomp_table_size(const void* data, size_t available, size_t* size);
+
+/// Checks a table in place (flash) and opens it. `size` is exactly the table's, without a signature
+/// or anything else behind it: see `flexcomp_table_size`. FLEXCOMP_OK, or BAD_ARGUMENT (a null
+/// pointer), TABLE_MISALIGNED, TABLE_TRUNCATED (of size 0, too), TABLE_NOT_A_TABLE, TABLE_VERSION,
+/// TABLE_CORRUPT (also for bytes beyond the table's). Cost: two passes over the bytes.
 flexcomp_result_t flexcomp_table_open(const void* data, size_t size, flexcomp_table_t* table);
 
 /// Bytes that an index of a table takes, about 12 a node; 0 for a grid, which needs none, and for a
@@ -239,26 +270,28 @@ flexcomp_result_t flexcomp_table_index(flexcomp_table_t* table, void* memory, si
 flexcomp_result_t flexcomp_table_check_model(const flexcomp_table_t* table,
                                              const flexcomp_model_t* model);
 
-/// FLEXCOMP_OK, BAD_ARGUMENT, NO_TABLE (not opened) or TABLE_CORRUPT (its memory has changed
-/// since).
+/// FLEXCOMP_OK, BAD_ARGUMENT, NO_TABLE (not opened) or TABLE_CORRUPT (its header has changed since
+/// and contradicts itself; the records and the checksum are not looked at again).
 flexcomp_result_t flexcomp_table_describe(const flexcomp_table_t* table,
                                           flexcomp_table_info_t* info);
 
-/// Limits of one joint's correction, which hold whatever the input.
+/// Limits of one joint's correction, which hold whatever the input. All are above 0.
 typedef struct flexcomp_limits {
-  float value;         ///< rad, largest correction of the joint
-  float rate;          ///< rad/s
-  float acceleration;  ///< rad/s²
+  float value;  ///< rad, largest correction of the joint
+  float rate;   ///< rad/s; at least 1/64 of acceleration × period
+  /// rad/s²; large enough for a float: acceleration × period² is at least 1.6e-5 of the value.
+  float acceleration;
 } flexcomp_limits_t;
 
-/// Numbers of a compensator; the robot controller's, the sensor's and the job's.
+/// Numbers of a compensator; the robot controller's, the sensor's and the job's. All are finite,
+/// and above 0 where nothing else is said.
 typedef struct flexcomp_config {
   float period;              ///< s, from one tick to the next
   uint64_t model_hash;       ///< of the robot that is there; a table of another is refused
   float gain;                ///< share of the deflection that is corrected, above 0 to 1
   float filter_cutoff;       ///< Hz, of the low-pass on the wrench; 0: no filter
-  float force_range;         ///< N, largest plausible magnitude
-  float moment_range;        ///< N·m
+  float force_range;         ///< N, largest plausible magnitude; at most 1e19
+  float moment_range;        ///< N·m; at most 1e19
   float setpoint_age_limit;  ///< s, beyond it a setpoint is stale
   float wrench_age_limit;    ///< s
   float joint_speed[FLEXCOMP_JOINTS];         ///< rad/s, largest plausible
@@ -266,10 +299,12 @@ typedef struct flexcomp_config {
   float deflection_limit;                     ///< m, largest correction at the TCP
   float chart_margin;  ///< rad, outside the chart, over which the correction fades
   /// s, a fault may last before fading out. Bad ticks count up, good ones down: a fault that comes
-  /// and goes fades out too, once bad ticks outnumber good ones by this time.
+  /// and goes fades out too, once bad ticks outnumber good ones by this time. 0 or more, at most
+  /// 1e9 periods.
   float hold_time;
-  float fade_time;       ///< s, from nothing to full correction and back; at most 1e6 periods
-  uint32_t ready_ticks;  ///< good inputs in a row before it may be armed
+  /// s, from nothing to full correction and back; 0 or more, at most 1e6 periods.
+  float fade_time;
+  uint32_t ready_ticks;  ///< good inputs in a row before it may be armed; any number
 } flexcomp_config_t;
 
 /// Input of one tick.
@@ -293,7 +328,9 @@ typedef struct flexcomp_output {
 
 /// Bytes of a compensator.
 #define FLEXCOMP_COMPENSATOR_BYTES 768
-/// Room for a compensator. Do not touch the member; any memory will do, static included.
+/// Room for a compensator, static or on a stack, where the compiler aligns it. Other memory must
+/// start at a multiple of 16 bytes: malloc promises that on a 64-bit PC, not on every
+/// microcontroller. Do not touch the member.
 typedef struct flexcomp_compensator {
 #ifdef __cplusplus
   alignas(16) unsigned char bytes[FLEXCOMP_COMPENSATOR_BYTES];  ///< opaque
@@ -304,17 +341,28 @@ typedef struct flexcomp_compensator {
 
 /// The first number of a configuration that no compensator takes, by its member's name, for example
 /// "hold_time" ("limits" for any joint's); null where it takes all, or without a configuration.
+/// Times and limits are counted in periods: where they would do with a period of 1 ms and do not
+/// with one outside 0.1 ms to 1 s, it is "period".
 const char* flexcomp_config_unusable_member(const flexcomp_config_t* config);
 
-/// Takes a configuration and begins in FLEXCOMP_STATE_OFF. FLEXCOMP_OK, BAD_ARGUMENT or BAD_CONFIG
-/// (`flexcomp_config_unusable_member` says which number).
+/// Takes a configuration and begins anew in FLEXCOMP_STATE_OFF, whatever the memory held: a
+/// correction that was there is gone at once, and so are table, latched faults and good inputs. So
+/// it must not be called while a robot moves by a correction. No call changes the gain or another
+/// number in operation: disarm, tick until the state is FLEXCOMP_STATE_OFF, then init, set the
+/// table, and arm again after `ready_ticks`.
+///
+/// FLEXCOMP_OK; BAD_ARGUMENT (null pointer), with the compensator untouched; or BAD_CONFIG
+/// (`flexcomp_config_unusable_member` says which number). After BAD_CONFIG the compensator has no
+/// configuration: what it was is gone all the same, it cannot be armed, and each tick says
+/// BAD_CONFIG.
 flexcomp_result_t flexcomp_compensator_init(flexcomp_compensator_t* compensator,
                                             const flexcomp_config_t* config);
 
 /// Gives it a table, at any time between ticks, also while correcting: the correction then moves to
 /// the new table's within its limits. FLEXCOMP_OK, or BAD_ARGUMENT, NO_TABLE, TABLE_CORRUPT (its
-/// memory has changed since it was opened), TABLE_OTHER_MODEL, GAIN_TOO_HIGH with the table in use
-/// unchanged. Cost: one look at every node, or less with an index.
+/// header has changed since it was opened and contradicts itself; no more is looked at again),
+/// TABLE_OTHER_MODEL (also where no configuration was accepted), GAIN_TOO_HIGH with the table in
+/// use unchanged. Cost: one look at every node, or less with an index.
 ///
 /// The compensator keeps sizes and indices of the table in its own memory: should the table's
 /// memory change while it is in use, the correction may be wrong, within its limits, but nothing is
@@ -333,8 +381,11 @@ void flexcomp_compensator_disarm(flexcomp_compensator_t* compensator);
 flexcomp_result_t flexcomp_compensator_reset(flexcomp_compensator_t* compensator);
 
 /// One control period: check, filter, look up, deflect, invert, limit, fade. Constant time; the
-/// correction obeys its value, rate and acceleration limits whatever the input. FLEXCOMP_OK or
-/// BAD_ARGUMENT (null pointer; `output` untouched). Cost: about 2 KiB of stack.
+/// correction obeys its value, rate and acceleration limits whatever the input. FLEXCOMP_OK, or
+/// BAD_ARGUMENT (null pointer; `output` untouched), or BAD_CONFIG: no configuration was accepted,
+/// since `init` failed or the memory is zero as a static object's before it. `output` then passes
+/// the setpoint on without a correction. Memory that is neither zero nor of an `init` is not found
+/// out. Cost: about 2 KiB of stack.
 flexcomp_result_t flexcomp_compensator_tick(flexcomp_compensator_t* compensator,
                                             const flexcomp_input_t* input,
                                             flexcomp_output_t* output);
@@ -400,7 +451,9 @@ typedef struct flexcomp_arc_output {
 
 /// Bytes of a controller.
 #define FLEXCOMP_ARC_BYTES 3072
-/// Room for a controller, aligned for the widest vector registers. Do not touch the member.
+/// Room for a controller, aligned for the widest vector registers: static or on a stack the
+/// compiler sees to it. Other memory must start at a multiple of 64 bytes, which malloc does not
+/// promise (`aligned_alloc` of C11 does). Do not touch the member.
 typedef struct flexcomp_arc {
 #ifdef __cplusplus
   alignas(64) unsigned char bytes[FLEXCOMP_ARC_BYTES];  ///< opaque
@@ -410,8 +463,9 @@ typedef struct flexcomp_arc {
 } flexcomp_arc_t;
 
 /// Takes the nominal robot, each link's inertia about its centre of mass (link frame, row by row,
-/// kg·m²) and gains, and begins anew. FLEXCOMP_OK, BAD_ARGUMENT, BAD_MODEL (also for a joint
-/// without compliance) or BAD_CONFIG.
+/// kg·m²) and gains, and begins anew: not while it drives a robot. FLEXCOMP_OK, BAD_ARGUMENT,
+/// BAD_MODEL (also for a joint without compliance) or BAD_CONFIG. After the last two each tick says
+/// FLEXCOMP_ARC_NOT_CONFIGURED.
 flexcomp_result_t flexcomp_arc_init(flexcomp_arc_t* arc, const flexcomp_model_t* model,
                                     const float inertia[FLEXCOMP_JOINTS][9],
                                     const flexcomp_arc_gains_t* gains);

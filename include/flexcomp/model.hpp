@@ -4,6 +4,7 @@
 /// A robot: joints, springs and weights.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "flexcomp/status.hpp"
@@ -46,11 +47,21 @@ struct RobotModel {
   RobotModel<Other, Joints> cast() const;
 };
 
+/// A member that is out of its range.
+struct UnusableMember {
+  const char* name = nullptr;  ///< null where there is none
+  std::size_t joint = 0;       ///< from 0; as many as there are joints for a member of the model
+};
+
+/// The first member that `validate` refuses.
+template <typename Scalar, int Joints>
+UnusableMember unusable_member(const RobotModel<Scalar, Joints>& model);
+
 /// Checks that every number is finite, axes have unit length, rotations are orthonormal, limits are
 /// ordered, and compliances and masses are not negative (the cubic term may be: a hardening
 /// spring).
 ///
-/// Returns `Result::ok` or `Result::bad_model`.
+/// Returns `Result::ok` or `Result::bad_model` (`unusable_member`).
 template <typename Scalar, int Joints>
 Result validate(const RobotModel<Scalar, Joints>& model);
 

@@ -10,7 +10,7 @@ namespace flexcomp {
 /// Result of a call. The numbers are stable: they appear in logs and on the bus.
 enum class Result : std::uint8_t {
   ok = 0,
-  bad_argument = 1,         ///< a null pointer, a size of zero, or an unknown option
+  bad_argument = 1,         ///< null, misaligned, unknown, or a number that cannot be
   bad_model = 2,            ///< a number of the model is not finite or out of its range
   bad_config = 3,           ///< a number of the configuration is not finite or out of its range
   bad_path = 4,             ///< fewer than two distinct points, or a point that is not finite
@@ -18,7 +18,7 @@ enum class Result : std::uint8_t {
   tolerance_not_met = 6,    ///< the scalar type is too coarse for the tolerance
   chart_not_invariant = 7,  ///< turning joint 1 or 6 changes the compliance: use a path chart
   table_misaligned = 8,     ///< the table does not start at a multiple of 4 bytes
-  table_truncated = 9,      ///< fewer bytes than the table says it has
+  table_truncated = 9,      ///< fewer bytes than the table says it has, or than a header
   table_not_a_table = 10,   ///< the magic number is another
   table_version = 11,       ///< made for another version of the format
   table_corrupt = 12,  ///< the CRC-32 or a field contradicts the content, or a number is not finite

@@ -115,9 +115,14 @@ class Table {
  public:
   Table() = default;
 
+  /// Bytes of the table at the start of `available` bytes, by its header, which must not contradict
+  /// itself: for a table with something behind it. Returns as `open`; `size` is untouched unless
+  /// ok.
+  static Result find_size(const void* data, std::size_t available, std::size_t* size);
+
   /// Checks everything: alignment (4 bytes), magic number, version, size, CRC-32, consistent
-  /// fields, finite numbers. Cost: two passes over the bytes. Call it before use, not in the
-  /// control tick.
+  /// fields, finite numbers. `size` is exactly the table's. Cost: two passes over the bytes. Call
+  /// it before use, not in the control tick.
   ///
   /// Returns ok, or bad_argument, table_misaligned, table_truncated, table_not_a_table,
   /// table_version, table_corrupt; `table` is untouched unless ok.

@@ -119,6 +119,53 @@ static void a_table_whose_springs_are_not_the_models_is_found_out(void) {
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_check_model(&table, NULL));
 }
 
+/* As a signed table, or one in a sector of flash. */
+static void a_table_with_something_behind_it_is_opened_by_its_own_size(void) {
+  const flexcomp_model_t model = two_arms();
+  const size_t built = build_table(&model);
+  static const char signature[24] = "FCS1 and a counter, tag";
+  memcpy((char*)memory + built, signature, sizeof signature);
+  const size_t places[] = {built, built + sizeof signature, sizeof memory};
+  for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i) {
+    flexcomp_table_t table;
+    size_t size = 0;
+    TEST_ASSERT_EQUAL(i == 0 ? FLEXCOMP_OK : FLEXCOMP_TABLE_CORRUPT,
+                      flexcomp_table_open(memory, places[i], &table));
+    TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_size(memory, places[i], &size));
+    TEST_ASSERT_TRUE(size == built);
+    TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_open(memory, size, &table));
+  }
+}
+
+static void the_size_of_what_is_no_whole_table_is_not_told(void) {
+  const flexcomp_model_t model = two_arms();
+  const size_t built = build_table(&model);
+  size_t size = 7;
+  for (size_t there = 0; there < built; ++there) {
+    TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_TRUNCATED, flexcomp_table_size(memory, there, &size));
+  }
+  TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_MISALIGNED,
+                    flexcomp_table_size((const char*)memory + 1, built, &size));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_size(NULL, built, &size));
+  TEST_ASSERT_EQUAL(FLEXCOMP_BAD_ARGUMENT, flexcomp_table_size(memory, built, NULL));
+  /* Words of the header, wrong one after the other: magic number, version, size, node count. */
+  static const struct {
+    size_t word;
+    flexcomp_result_t result;
+  } wrong[] = {{0, FLEXCOMP_TABLE_NOT_A_TABLE},
+               {1, FLEXCOMP_TABLE_VERSION},
+               {2, FLEXCOMP_TABLE_CORRUPT},
+               {10, FLEXCOMP_TABLE_CORRUPT}};
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+    memory[wrong[i].word] -= 1;
+    TEST_ASSERT_EQUAL(wrong[i].result, flexcomp_table_size(memory, sizeof memory, &size));
+    memory[wrong[i].word] += 1;
+  }
+  memset(memory, 0xFF, 1000); /* flash that was erased */
+  TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_NOT_A_TABLE, flexcomp_table_size(memory, 1000, &size));
+  TEST_ASSERT_TRUE(size == 7);
+}
+
 static void a_compensator_uses_a_table_with_its_index(void) {
   static uint32_t index[64];
   const flexcomp_model_t model = two_arms();
@@ -202,6 +249,33 @@ static void a_loop_corrects_fades_and_resets(void) {
   flexcomp_compensator_disarm(&compensator);
 }
 
+/* Zero memory, as a static object's, and what a failed init leaves of one that corrected. */
+static void a_compensator_without_a_configuration_says_so_in_every_tick(void) {
+  const flexcomp_model_t model = two_arms();
+  const size_t size = build_table(&model);
+  flexcomp_table_t table;
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_table_open(memory, size, &table));
+  static flexcomp_compensator_t compensator;
+  flexcomp_config_t config = good_config(&model);
+  const flexcomp_input_t input = {{0, 0, 0.5f, 0.1f, 0.4f, 0}, 0, {0, 0, 0, 0, 0, 0}, 0, false};
+  for (int begun = 0; begun < 2; ++begun) {
+    flexcomp_output_t output;
+    TEST_ASSERT_EQUAL(FLEXCOMP_BAD_CONFIG,
+                      flexcomp_compensator_tick(&compensator, &input, &output));
+    TEST_ASSERT_EQUAL(FLEXCOMP_STATE_OFF, output.state);
+    TEST_ASSERT_EQUAL_FLOAT_ARRAY(input.setpoint, output.setpoint, FLEXCOMP_JOINTS);
+    TEST_ASSERT_EQUAL(FLEXCOMP_NO_TABLE, flexcomp_compensator_arm(&compensator));
+    TEST_ASSERT_EQUAL(FLEXCOMP_TABLE_OTHER_MODEL,
+                      flexcomp_compensator_set_table(&compensator, &table));
+    config.gain = 1;
+    TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_init(&compensator, &config));
+    TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_set_table(&compensator, &table));
+    TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_compensator_tick(&compensator, &input, &output));
+    config.gain = 2;
+    TEST_ASSERT_EQUAL(FLEXCOMP_BAD_CONFIG, flexcomp_compensator_init(&compensator, &config));
+  }
+}
+
 static void null_pointers_are_refused(void) {
   const flexcomp_model_t model = two_arms();
   const flexcomp_config_t config = good_config(&model);
@@ -265,6 +339,85 @@ static void numbers_that_are_not_finite_are_refused(void) {
   TEST_ASSERT_EQUAL(FLEXCOMP_BAD_CONFIG, flexcomp_compensator_init(&compensator, &config));
 }
 
+static void a_model_that_gives_no_number_is_refused(void) {
+  const float q[6] = {0};
+  const float wrench[6] = {0, 0, 1000, 0, 0, 0};
+  flexcomp_model_t model = two_arms();
+  model.joints[1].compliance = NAN;
+  flexcomp_pose_t tcp;
+  float compliance[36] = {7};
+  float deflection[6] = {7};
+  float correction[6] = {7};
+  const flexcomp_result_t bad = FLEXCOMP_BAD_ARGUMENT;
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_evaluate(&model, q, NULL, compliance));
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_respond(&model, q, wrench, deflection, NULL));
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_respond(&model, q, wrench, NULL, correction));
+  TEST_ASSERT_EQUAL(FLEXCOMP_OK, flexcomp_model_evaluate(&model, q, &tcp, NULL));
+  model.joints[2].origin.position[0] = INFINITY;
+  TEST_ASSERT_EQUAL(bad, flexcomp_model_evaluate(&model, q, &tcp, NULL));
+  TEST_ASSERT_EQUAL_FLOAT(2, tcp.position[0]);
+  TEST_ASSERT_EQUAL_FLOAT(7, compliance[0]);
+  TEST_ASSERT_EQUAL_FLOAT(7, deflection[0]);
+  TEST_ASSERT_EQUAL_FLOAT(7, correction[0]);
+}
+
+static void a_number_of_a_model_that_is_refused_is_named(void) {
+  flexcomp_model_t model = two_arms();
+  size_t joint = 0;
+  TEST_ASSERT_NULL(flexcomp_model_unusable_member(&model, &joint));
+  TEST_ASSERT_EQUAL(FLEXCOMP_JOINTS, joint);
+  TEST_ASSERT_NULL(flexcomp_model_unusable_member(NULL, &joint));
+  TEST_ASSERT_EQUAL(FLEXCOMP_JOINTS, joint);
+  flexcomp_joint_t* third = &model.joints[2];
+  const struct {
+    float* number;
+    float bad;
+    const char* name;
+    size_t joint;
+  } members[] = {{&third->origin.rotation[4], 1.1f, "origin", 2},
+                 {&third->origin.position[1], NAN, "origin", 2},
+                 {&third->axis[1], 1.001f, "axis", 2},
+                 {&third->lower, -INFINITY, "lower", 2},
+                 {&third->upper, -3, "upper", 2},
+                 {&third->compliance, -1e-9f, "compliance", 2},
+                 {&third->cubic_compliance, NAN, "cubic_compliance", 2},
+                 {&third->link_compliance[5], -1, "link_compliance", 2},
+                 {&third->mass, -1, "mass", 2},
+                 {&third->center_of_mass[0], INFINITY, "center_of_mass", 2},
+                 {&model.tool.rotation[0], -1, "tool", FLEXCOMP_JOINTS},
+                 {&model.base_compliance[0], -1, "base_compliance", FLEXCOMP_JOINTS},
+                 {&model.tool_compliance[3], NAN, "tool_compliance", FLEXCOMP_JOINTS},
+                 {&model.gravity[2], NAN, "gravity", FLEXCOMP_JOINTS},
+                 {&model.payload_mass, -1, "payload_mass", FLEXCOMP_JOINTS},
+                 {&model.payload_center[1], NAN, "payload_center", FLEXCOMP_JOINTS}};
+  for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+    const float good = *members[i].number;
+    *members[i].number = members[i].bad;
+    TEST_ASSERT_EQUAL(FLEXCOMP_BAD_MODEL, flexcomp_model_validate(&model));
+    TEST_ASSERT_EQUAL_STRING(members[i].name, flexcomp_model_unusable_member(&model, &joint));
+    TEST_ASSERT_EQUAL(members[i].joint, joint);
+    TEST_ASSERT_EQUAL_STRING(members[i].name, flexcomp_model_unusable_member(&model, NULL));
+    *members[i].number = good;
+  }
+}
+
+/* 1e-9 s makes more periods of a fade than can be; in 2 s no rate is near what is gained. */
+static void a_period_that_no_loop_has_is_named_rather_than_what_it_makes_unusable(void) {
+  const flexcomp_model_t model = two_arms();
+  flexcomp_config_t config = good_config(&model);
+  static const float periods[] = {1e-9f, 2};
+  for (size_t i = 0; i < 2; ++i) {
+    config.period = periods[i];
+    TEST_ASSERT_EQUAL_STRING("period", flexcomp_config_unusable_member(&config));
+    config.limits[2].rate = 0;
+    TEST_ASSERT_EQUAL_STRING(i == 0 ? "fade_time" : "limits",
+                             flexcomp_config_unusable_member(&config));
+    config.limits[2].rate = 1;
+  }
+  config.period = 0.9f; /* acceleration × period / 64 is more than the rate */
+  TEST_ASSERT_EQUAL_STRING("limits", flexcomp_config_unusable_member(&config));
+}
+
 static void a_number_that_is_refused_is_named(void) {
   flexcomp_model_t model = two_arms();
   flexcomp_config_t config = good_config(&model);
@@ -309,11 +462,17 @@ int main(void) {
   RUN_TEST(deflection_follows_from_the_levers);
   RUN_TEST(a_table_says_what_it_is);
   RUN_TEST(a_table_whose_springs_are_not_the_models_is_found_out);
+  RUN_TEST(a_table_with_something_behind_it_is_opened_by_its_own_size);
+  RUN_TEST(the_size_of_what_is_no_whole_table_is_not_told);
   RUN_TEST(a_compensator_uses_a_table_with_its_index);
   RUN_TEST(a_grid_table_can_be_built_too);
   RUN_TEST(a_loop_corrects_fades_and_resets);
+  RUN_TEST(a_compensator_without_a_configuration_says_so_in_every_tick);
   RUN_TEST(null_pointers_are_refused);
   RUN_TEST(numbers_that_are_not_finite_are_refused);
+  RUN_TEST(a_model_that_gives_no_number_is_refused);
+  RUN_TEST(a_number_of_a_model_that_is_refused_is_named);
+  RUN_TEST(a_period_that_no_loop_has_is_named_rather_than_what_it_makes_unusable);
   RUN_TEST(a_number_that_is_refused_is_named);
   RUN_TEST(everything_has_words);
   return UNITY_END();
