@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 BUILD = pathlib.Path(os.environ["FLEXCOMP_BUILD"])
 SOURCE = pathlib.Path(os.environ["FLEXCOMP_SOURCE"])
@@ -86,6 +87,19 @@ class Core(Job):
         compensator = flexcomp.Compensator(flexcomp.Config.read(self.config), flexcomp.Table.read(self.table))
         output = compensator.tick([0, -1, 1, 0, 0, 0], [math.nan] * 6)
         self.assertIn("wrench not finite", output.remarks)
+
+    def test_what_are_not_six_numbers_is_refused_by_its_name(self):
+        compensator = flexcomp.Compensator(flexcomp.Config.read(self.config), flexcomp.Table.read(self.table))
+        q, wrench = [0, -1, 1, 0, 0, 0], [0] * 6
+        for given, complaint in (((q[:5], wrench), "setpoint: expected 6 numbers, not 5"),
+                                 (([*q, 0], wrench), "setpoint: expected 6 numbers, not 7"),
+                                 ((q, []), "wrench: expected 6 numbers, not 0"),
+                                 ((q, [0] * 7), "wrench: expected 6 numbers, not 7")):
+            with self.assertRaisesRegex(ValueError, complaint):
+                compensator.tick(*given)
+        self.assertEqual(tuple(q), compensator.tick(q, wrench).setpoint)
+        with self.assertRaisesRegex(ValueError, "joint_speed: expected 6 numbers, not 2"):
+            flexcomp.Compensator(flexcomp.Config(model_hash=1, joint_speed=(1, 2)))
 
     def test_arming_too_early_is_refused(self):
         compensator = flexcomp.Compensator(flexcomp.Config.read(self.config), flexcomp.Table.read(self.table))
@@ -222,6 +236,45 @@ class Frames(unittest.TestCase):
         self.assertIsNone(decode(can.Message(arbitration_id=frame.arbitration_id, data=bytes(3), is_extended_id=False)))
 
 
+class Bus(unittest.TestCase):
+    """A client on a bus of python-can alone, where nobody answers."""
+
+    def setUp(self):
+        self.bus, self.other = (can.Bus(interface="virtual", channel=self.id()) for _ in range(2))
+        self.addCleanup(self.bus.shutdown)
+        self.addCleanup(self.other.shutdown)
+        self.client = flexcomp.Client(self.bus, 1, period=0.001)
+
+    def test_what_cannot_be_followed_is_refused_before_anything_is_sent(self):
+        q = [0.1] * 6
+        for given, complaint in (((q[:5],), "setpoint: expected 6 numbers, not 5"),
+                                 ((q, [0] * 7), "wrench: expected 6 numbers, not 7"),
+                                 (([*q[:5], math.nan],), "setpoint: expected finite numbers"),
+                                 (([*q[:5], math.inf],), "setpoint: expected finite numbers")):
+            with self.assertRaisesRegex(ValueError, complaint):
+                self.client.cycle(*given)
+        self.assertIsNone(self.other.recv(0))
+        self.assertEqual(tuple(q), self.client.cycle(q).drives)
+        self.assertIsNotNone(self.other.recv(0))
+
+    def test_a_command_that_is_none_is_refused_with_those_that_are(self):
+        with self.assertRaisesRegex(ValueError, "one of arm, disarm, reset, report, not 'foo'"):
+            self.client.request("foo")
+        self.assertIsNone(self.other.recv(0))
+
+
+class Words(unittest.TestCase):
+    def test_whatever_is_public_says_what_it_is(self):
+        silent = []
+        for name in flexcomp.__all__:
+            thing = getattr(flexcomp, name)
+            members = vars(thing).items() if isinstance(thing, type) else ()
+            silent += [f"{name}.{member}" for member, value in members if not member.startswith("_")
+                       and (callable(value) or isinstance(value, (classmethod, property))) and not value.__doc__]
+            silent += [] if thing.__doc__ else [name]
+        self.assertEqual([], silent)
+
+
 class Recordings(Job):
     def test_a_recording_is_a_frame_with_its_groups(self):
         recording = flexcomp.Recording.read(self.path)
@@ -272,6 +325,12 @@ class Commands(Job):
     def test_a_list_repeats_an_option(self):
         found = commands.check(model=KR270, recording=[self.path, self.path])
         self.assertIn("checks", found)
+
+    def test_a_program_that_is_not_there_is_an_error_that_names_it(self):
+        with unittest.mock.patch.dict(os.environ, {"FLEXCOMP_PROGRAM": "no-such-program"}):
+            with self.assertRaisesRegex(commands.CommandError, "^no-such-program: No such file") as caught:
+                commands.run("--version")
+        self.assertEqual(127, caught.exception.code)
 
     def test_unusable_input_is_an_error_with_the_commands_own_line(self):
         with self.assertRaisesRegex(commands.CommandError, "missing.csv") as caught:

@@ -43,6 +43,14 @@ def check(result, about=""):
         raise FlexcompError(result, about)
 
 
+def six(values, about):
+    """Six numbers as a list; raises ValueError for another count, and TypeError for what is none."""
+    numbers = [float(value) for value in values]
+    if len(numbers) != 6:
+        raise ValueError(f"{about}: expected 6 numbers, not {len(numbers)}")
+    return numbers
+
+
 class Aligned:
     """Zeroed memory of the library's alignment: `pointer`, of a type, for as long as this lives."""
 

@@ -1,11 +1,12 @@
 """A robot controller's side of the bus."""
 
 import dataclasses
+import math
 import time
 
 import can
 
-from ._core import Aligned, check, ffi, lib, node_words, reply_words, state_name, status_words
+from ._core import Aligned, check, ffi, lib, node_words, reply_words, six, state_name, status_words
 from .messages import DATABASE, JOINTS, Sender, decode
 
 OFF, FADING_IN, ACTIVE, HOLDING, FADING_OUT, LATCHED = range(6)  # states
@@ -54,6 +55,7 @@ class Answer:
 
     @property
     def state_name(self):
+        """The compensator's state in words."""
         return state_name(self.state)
 
     @property
@@ -116,6 +118,7 @@ class Client:
         self.close()
 
     def close(self):
+        """Closes the bus, if this client opened it; of a robot that still moves, `disarm` first."""
         if self._owns_bus:
             self.bus.shutdown()
 
@@ -126,7 +129,15 @@ class Client:
 
     def cycle(self, setpoint, wrench=None, saturated=False):
         """One period: sends the wrench on the tool at the TCP (N, N·m; base frame; nothing where another
-        sends it), then the setpoint (rad), and takes what comes."""
+        sends it), then the setpoint (rad), and takes what comes. Returns an Answer.
+
+        Raises ValueError, before anything is sent, where setpoint or wrench are not six numbers or the setpoint
+        is not finite: nothing could be said of where the robot is to go. A wrench that is not finite is sent as
+        "not available", which is a fault to the compensator."""
+        setpoint = six(setpoint, "setpoint")
+        if not all(map(math.isfinite, setpoint)):
+            raise ValueError(f"setpoint: expected finite numbers, not {setpoint}")
+        wrench = None if wrench is None else six(wrench, "wrench")
         now = time.monotonic()
         self._cycles += 1
         if self._cycles <= _IDENTITIES_AT_ONCE or now - self._named_at >= _IDENTITY_EVERY:
@@ -140,11 +151,14 @@ class Client:
         patience = _PATIENCE if self._latest else _PATIENCE_AT_FIRST
         answered = self._exchange(now + patience if self.lockstep else self._next)
         self.lost_cycles += not answered
-        drives = tuple(float(q) + c for q, c in zip(setpoint, self._follower.end_period()))
+        drives = tuple(q + c for q, c in zip(setpoint, self._follower.end_period()))
         return Answer(drives, answered, **self._latest)
 
     def request(self, command):
-        """Sends "arm", "disarm", "reset" or "report"; `reply` has the answer after one of the next cycles."""
+        """Sends "arm", "disarm", "reset" or "report"; `reply` has the answer after one of the next cycles. Raises
+        ValueError for another command."""
+        if command not in COMMANDS:
+            raise ValueError(f"command: expected one of {', '.join(COMMANDS)}, not {command!r}")
         self.reply = None
         self._send(self._sender.command(COMMANDS[command]))
 

@@ -10,10 +10,12 @@ import pathlib
 import subprocess
 
 _DOES_NOT_HOLD = 1
+_NOT_FOUND = 127  # as a shell
 
 
 class CommandError(Exception):
-    """A command that did not do its work: `code` is its exit code, the text what it says."""
+    """A command that did not do its work: `code` is its exit code, the text what it says. A program that is
+    not there has the code of a shell, 127."""
 
     def __init__(self, code, text):
         self.code = code
@@ -33,7 +35,11 @@ def _words(options):
 
 def _call(allowed, words, options):
     program = os.environ.get("FLEXCOMP_PROGRAM", "flexcomp")
-    done = subprocess.run([program, *map(str, words), *_words(options)], capture_output=True, text=True)
+    try:
+        done = subprocess.run([program, *map(str, words), *_words(options)], capture_output=True, text=True)
+    except OSError as error:
+        raise CommandError(_NOT_FOUND, f"{program}: {error.strerror}; $FLEXCOMP_PROGRAM names the program, or "
+                           "`flexcomp` is in the path") from None
     if done.returncode not in allowed:
         raise CommandError(done.returncode, (done.stderr or done.stdout).strip())
     return done.stdout

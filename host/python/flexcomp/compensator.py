@@ -5,7 +5,7 @@ import pathlib
 import struct
 import tomllib
 
-from ._core import FlexcompError, Aligned, check, ffi, lib, state_name, status_words
+from ._core import FlexcompError, Aligned, check, ffi, lib, six, state_name, status_words
 
 _TRAILER = 24  # bytes behind a signed table, which begin with this
 _TRAILER_MAGIC = b"FCS1"
@@ -38,10 +38,13 @@ class Table:
 
     @classmethod
     def read(cls, file):
+        """From a file, signed or not; a signature is left unchecked. Raises FlexcompError, and OSError for a file
+        that cannot be read."""
         return cls(pathlib.Path(file).read_bytes(), str(file))
 
     @property
     def info(self):
+        """What its header says: a TableInfo."""
         info = ffi.new("flexcomp_table_info_t *")
         check(lib.flexcomp_table_describe(self._view, info))
         return TableInfo(*(getattr(info, field.name) for field in dataclasses.fields(TableInfo)))
@@ -55,8 +58,8 @@ def _own_size(data):
     return before if struct.unpack_from("<I", data, _SIZE_PLACE)[0] == before else len(data)
 
 
-def _six(value):
-    return tuple(value) if isinstance(value, (list, tuple)) else (value,) * 6
+def _six(value, name):
+    return six(value if hasattr(value, "__iter__") else (value,) * 6, name)
 
 
 @dataclasses.dataclass
@@ -92,10 +95,11 @@ class Config:
         return cls(**taken | {"model_hash": int(values["model-hash"], 16)})
 
     def to_c(self):
+        """As the C API takes it: a flexcomp_config_t. Raises ValueError where a joint's numbers are not six."""
         config = ffi.new("flexcomp_config_t *")
-        limits = zip(_six(self.correction_limit), _six(self.correction_rate), _six(self.correction_acceleration),
-                     strict=True)
-        config.joint_speed = _six(self.joint_speed)
+        limits = zip(*(_six(getattr(self, name), name)
+                       for name in ("correction_limit", "correction_rate", "correction_acceleration")))
+        config.joint_speed = _six(self.joint_speed, "joint_speed")
         config.limits = list(limits)
         for field in dataclasses.fields(self):
             if not field.name.startswith(("joint_", "correction_")):
@@ -105,7 +109,7 @@ class Config:
 
 @dataclasses.dataclass(frozen=True)
 class Output:
-    """Result of a tick: rad; the deflection in m and rad."""
+    """Result of a tick: rad; the deflection in m and rad. `setpoint` is for the drives, in every state."""
 
     setpoint: tuple
     correction: tuple
@@ -116,6 +120,7 @@ class Output:
 
     @property
     def state_name(self):
+        """The state in words."""
         return state_name(self.state)
 
     @property
@@ -135,24 +140,29 @@ class Compensator:
             self.set_table(table)
 
     def set_table(self, table):
-        """Also while correcting."""
+        """Also while correcting: the correction moves to the new table's within its limits. Raises FlexcompError."""
         check(lib.flexcomp_compensator_set_table(self._object.pointer, table._view), "table")
         self._table = table  # its memory is read in every tick
 
     def arm(self):
-        """After `ready_ticks` good ticks."""
+        """Starts to correct, after `ready_ticks` good ticks; raises FlexcompError before."""
         check(lib.flexcomp_compensator_arm(self._object.pointer), "not armed")
 
     def disarm(self):
+        """Fades out: tick on until the state is off. Does nothing when off or latched."""
         lib.flexcomp_compensator_disarm(self._object.pointer)
 
     def reset(self):
+        """From latched to off, after a fault. Raises FlexcompError in any other state."""
         check(lib.flexcomp_compensator_reset(self._object.pointer), "not reset")
 
     def tick(self, setpoint, wrench, setpoint_age=0.0, wrench_age=0.0, external_fault=False):
-        """One period: setpoint (rad), wrench on the tool at the TCP in the base frame (N, N·m), ages (s)."""
+        """One period: setpoint (rad), wrench on the tool at the TCP in the base frame (N, N·m), ages (s).
+
+        Returns an Output. Bad numbers, also such as are not finite, are no exception: they are faults in its
+        `status`, and hold the correction. Raises ValueError where setpoint or wrench are not six numbers."""
         given = ffi.new("flexcomp_input_t *", {
-            "setpoint": list(setpoint), "setpoint_age": setpoint_age, "wrench": list(wrench),
+            "setpoint": six(setpoint, "setpoint"), "setpoint_age": setpoint_age, "wrench": six(wrench, "wrench"),
             "wrench_age": wrench_age, "external_fault": external_fault})
         made = ffi.new("flexcomp_output_t *")
         check(lib.flexcomp_compensator_tick(self._object.pointer, given, made))

@@ -25,6 +25,7 @@ class Recording:
 
     @classmethod
     def read(cls, file):
+        """From a file. Raises ValueError for what is no recording, and OSError for what cannot be read."""
         return cls(pandas.read_csv(file, dtype=float), str(file))
 
     @classmethod
@@ -37,6 +38,7 @@ class Recording:
 
     @property
     def time(self):
+        """Column `t`, in s."""
         return self.frame["t"].to_numpy()
 
     def group(self, name):
