@@ -95,7 +95,8 @@ int main(void) {
     /* send output.setpoint to the drives; log output.status */
   }
   printf("%s: TCP would be off by %.0f, %.0f, %.0f um; joint 2 corrected by %.1f urad\n",
-         flexcomp_describe_state(output.state), 1e6 * output.deflection[0],
-         1e6 * output.deflection[1], 1e6 * output.deflection[2], 1e6 * output.correction[1]);
+         flexcomp_describe_state(output.state), 1e6 * (double)output.deflection[0],
+         1e6 * (double)output.deflection[1], 1e6 * (double)output.deflection[2],
+         1e6 * (double)output.correction[1]);
   return output.state == FLEXCOMP_STATE_ACTIVE ? 0 : 1;
 }

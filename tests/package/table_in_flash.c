@@ -30,7 +30,11 @@ static flexcomp_result_t start(uint64_t model_hash) {
     config.limits[i] = (flexcomp_limits_t){.value = 0.01f, .rate = 0.1f, .acceleration = 5};
   }
   static flexcomp_table_t table;
-  flexcomp_result_t result = flexcomp_table_open(table_bytes, sizeof table_bytes, &table);
+  size_t size = 0; /* the table's: a signature or the rest of a sector may lie behind it */
+  flexcomp_result_t result = flexcomp_table_size(table_bytes, sizeof table_bytes, &size);
+  if (result == FLEXCOMP_OK) {
+    result = flexcomp_table_open(table_bytes, size, &table);
+  }
   if (result == FLEXCOMP_OK) {
     result = flexcomp_compensator_init(&compensator, &config);
   }

@@ -56,7 +56,8 @@ class InstalledPackage(unittest.TestCase):
         self.assertEqual((USAGE_OF_CONTROLLER, True), (done.returncode, done.stderr.startswith("usage: ")))
 
     def test_pkg_config_serves_a_c_compiler(self):
-        program = self.compile_by_pkg_config("controller_loop", "flexcomp", "-std=c11")
+        strict = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wdouble-promotion", "-Werror")
+        program = self.compile_by_pkg_config("controller_loop", "flexcomp", "-std=c11", *strict)
         self.assertRegex(run(program), r"^active: TCP would be off by ")
         self.assert_is_the_controller(self.compile_by_pkg_config("bus_controller", "flexcomp_client"))
 
@@ -94,14 +95,23 @@ class InstalledPackage(unittest.TestCase):
                        "PATH": f"{self.prefix / 'bin'}:{os.environ['PATH']}"}
         plan = f"flexcomp plan circle --model {KR270} --center 1.6,0,1.2 --plane xz --out path.csv\n"
 
-        def printed_with(fingerprint):
+        key = self.folder / "key"
+        key.touch(0o600)
+        key.write_text("3a7f0c9d51e2b8460f1d2c3b4a596877\n")
+        sign = "flexcomp table sign t.fct --key key --counter 7\n"
+        self.assertIn("\nod ", commands)
+
+        def printed_with(fingerprint, before_it_is_copied=""):
             script = (plan + commands.replace("robot.yaml", str(KR270)).replace("0x${hash}u", fingerprint)
+                      .replace("\nod ", f"\n{before_it_is_copied}od ")
                       + "\n./table_in_flash || true\n")
             done = subprocess.run(["bash", "-euc", script], cwd=self.folder, env=environment, check=True,
                                   capture_output=True, text=True)
             return done.stdout.splitlines()[-1]
 
         self.assertEqual("ok", printed_with("0x${hash}u"))
+        self.assertEqual("ok", printed_with("0x${hash}u", sign))
+        self.assertEqual("ok", printed_with("0x${hash}u", "truncate --size=65536 t.fct\n"))
         self.assertEqual("the table was made for another robot, tool or payload", printed_with("0x1u"))
 
     def test_a_robot_is_written_as_a_model_in_c_with_its_fingerprint(self):
