@@ -82,7 +82,7 @@ using Places = std::vector<int> (*)(int joints);
 
 /// A law of physics in one form. Acts at a joint (from 1 on) or on the whole machine (joint 0).
 struct Law {
-  std::string effect;       ///< of the contract's vocabulary
+  std::string effect;       ///< its name in robot.yaml and diagnosis.json
   std::string form;         ///< which of the effect's forms; may be empty
   Places joints = nullptr;  ///< where it may act
   Traits traits;
@@ -120,7 +120,7 @@ struct Law {
 
 using LawPointer = std::shared_ptr<const Law>;
 
-/// An effect of the contract's vocabulary, with a law for each form it takes.
+/// An effect by the name that robot.yaml and diagnosis.json have for it, with a law for each form.
 struct Effect {
   std::string name;
   std::string words;  ///< of its first law that has them
