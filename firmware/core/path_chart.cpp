@@ -145,18 +145,20 @@ inline bool turns_back(const float* record) {
 /// The other segment at a node where the program turns back, if `q` is less outside it: no plane
 /// leads there.
 template <typename Scalar>
-SegmentFind<Scalar> look_round_the_corner(const Table& table, const PackedSix<Scalar>& q,
-                                          SegmentFind<Scalar> find) {
+[[gnu::noinline]] SegmentFind<Scalar> look_round_the_corner(const Table& table,
+                                                            const PackedSix<Scalar>& q,
+                                                            SegmentFind<Scalar> find) {
   const std::uint32_t here = find.segment;
   const std::uint32_t last = table.shape().node_count - 2;
   const bool closed = table.shape().closed;
-  if ((here < last || closed) && turns_back(table.record(here + 1))) {
-    const SegmentFind<Scalar> next = find_on(table, here < last ? here + 1 : 0, q);
-    find = next.outside < find.outside ? next : find;
-  }
-  if ((here > 0 || closed) && turns_back(table.record(here))) {
-    const SegmentFind<Scalar> previous = find_on(table, here > 0 ? here - 1 : last, q);
-    find = previous.outside < find.outside ? previous : find;
+  for (std::uint32_t end = 0; end < 2; ++end) {
+    const std::uint32_t at_last = end == 0 ? 0 : last;
+    if ((here != at_last || closed) && turns_back(table.record(here + end))) {
+      const std::uint32_t wrapped = end == 0 ? last : 0;
+      const SegmentFind<Scalar> other =
+          find_on(table, here == at_last ? wrapped : here + 2 * end - 1, q);
+      find = other.outside < find.outside ? other : find;
+    }
   }
   return find;
 }
@@ -307,10 +309,16 @@ template <typename Scalar>
                                              SegmentFind<Scalar> find, TableCursor* cursor) {
   // A raster of a million points is found again in five calls.
   constexpr std::uint32_t kWorkACall = 30;
-  find = look_round_the_corner(table, q, find);
-  if (find.outside <= Scalar(0)) {
-    cursor->searched = 0;
-    return find;
+  // A first look at one number of the planes: few nodes have none.
+  const auto may_turn_back = [&table](std::uint32_t node) {
+    return table.record(node)[kPath.switching] == 0.0F;
+  };
+  if (may_turn_back(find.segment) || may_turn_back(find.segment + 1)) {
+    find = look_round_the_corner(table, q, find);
+    if (find.outside <= Scalar(0)) {
+      cursor->searched = 0;
+      return find;
+    }
   }
   return table.index() == nullptr
              ? search_in_turn(table, q, find, cursor)

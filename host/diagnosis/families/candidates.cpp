@@ -10,7 +10,12 @@
 namespace flexcomp::diagnosis {
 
 bool is_candidate(const Observations& observations, const Hypothesis& hypothesis) {
-  return hypothesis.traits().is_in_family && hypothesis.linear == hypothesis.parameters.size() &&
+  // Torques tell one encoder's zero from masses; all zeros beside all masses they do not.
+  const bool is_seen = hypothesis.traits().measures != effects::Measures::zero ||
+                       observations.has(simulation::tcp_position) ||
+                       observations.has(simulation::joint_deflection);
+  return hypothesis.traits().is_in_family && is_seen &&
+         hypothesis.linear == hypothesis.parameters.size() &&
          (!hypothesis.traits().is_body || observations.has(simulation::joint_torque));
 }
 
