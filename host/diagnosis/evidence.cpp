@@ -99,9 +99,9 @@ double independent_samples(const Observations& observations, const Eigen::Vector
 }
 
 double bic_gain(double samples, double sum_before, double sum_after, std::size_t parameters) {
-  constexpr double kTiny = 1e-300;  // against a division by zero
-  return samples * std::log(std::max(sum_before, kTiny) / std::max(sum_after, kTiny)) -
-         static_cast<double>(parameters) * std::log(samples);
+  constexpr double kTiny = 1e-300;  // zero has no logarithm
+  const double fall = std::log(std::max(sum_before, kTiny)) - std::log(std::max(sum_after, kTiny));
+  return samples * fall - static_cast<double>(parameters) * std::log(samples);
 }
 
 double bic_gain(const Observations& observations, const Fit& plain, const Fit& rich) {

@@ -545,6 +545,31 @@ class Diagnose(unittest.TestCase):
         self.assertIsNone(found["baseline"]["joint_torque"]["holdout_rms"])
         self.assertGreater(found["baseline"]["joint_torque"]["train_rms"], 0)
 
+    def test_positions_in_millimetres_end_in_a_verdict(self):
+        recording = measured(self.folder, ROBOT, seed=3, poses=19)
+        replace_columns(recording, "xyz", lambda *place: [1000 * value for value in place])
+        done = run("diagnose", "--model", ROBOT, "--recording", recording, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("units.position", done.stdout)
+        self.assertEqual(json.loads((self.out / "diagnosis.json").read_text())["findings"], [])
+
+    def test_rows_that_are_all_equal_end_in_a_verdict(self):
+        path = load_test(self.folder, 1, seed=3)
+        header, row = path.read_text().split()
+        row = row.partition(",")[2]
+        for rows in (1, 20):
+            with self.subTest(rows=rows):
+                path.write_text("\n".join([header + ",x,y,z", *(f"{t},{row},1.5,0.2,1.1" for t in range(rows))]) + "\n")
+                done = run("diagnose", "--model", ROBOT, "--recording", path, "--out", self.out)
+                self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_times_since_an_epoch_have_their_picture(self):
+        columns = [f"q_meas_{k}" for k in JOINTS] + ["x", "y", "z"]
+        recording = self.recorded(columns, [[*swing(k * PERIOD), 1.5, 0.2, 1.1] for k in range(40)])
+        replace_columns(recording, ["t"], lambda t: [1.7e9 + t])
+        done = run("diagnose", "--model", ROBOT, "--recording", recording, "--law-seconds", 0, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def assert_refused(self, recording, saying, *more, model=ROBOT):
         refused = run("diagnose", "--model", model, "--recording", recording, *more, "--out", self.out)
         self.assertEqual(refused.returncode, 2)
@@ -561,6 +586,8 @@ class Diagnose(unittest.TestCase):
         self.assert_refused(broken, "broken.csv:3")
         broken.write_text("\n".join([lines[0] + ",x,y,z", lines[1] + ",1,2,far"]) + "\n")
         self.assert_refused(broken, "broken.csv:2")
+        broken.write_text("\n".join([lines[0] + ",x,y,z", lines[1] + ",1,2,1e160"]) + "\n")
+        self.assert_refused(broken, "broken.csv:2: column 'z': '1e160' is larger than any measurement")
         broken.write_text("t,x,y,z\n0,1,2,3\n")
         self.assert_refused(broken, "joint angles are needed")
         good = measured(self.folder, ROBOT, seed=5, poses=30)

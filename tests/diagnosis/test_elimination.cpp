@@ -134,6 +134,18 @@ void tracked_positions_that_err_slowly_deviate_more_than_noise_of_their_size() {
   TEST_ASSERT_TRUE(diagnosis::deviation_of(observations, slow) > 4 * once);
 }
 
+/// Positions in millimetres, as it were: no plausible number of this arm moves it by a kilometre.
+void nothing_stays_where_no_number_could_matter() {
+  const test::SwingingRobot swinging(5);
+  const Observations observations =
+      swinging.observed(Eigen::MatrixXd::Constant(swinging.rows(), 3, 1000.0));
+  const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
+  const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
+  diagnosis::Elimination elimination(observations, fit(observations, {}, 0), hypotheses,
+                                     dictionary);
+  TEST_ASSERT_EQUAL_UINT64(0, elimination.best().size());
+}
+
 /// Two numbers that act alike but for a millionth: least squares makes them large and opposite.
 void numbers_that_cannot_be_told_apart_stay_near_the_model() {
   constexpr double kTrue = 10;
@@ -187,6 +199,7 @@ int main() {
   RUN_TEST(a_number_that_would_leave_its_bounds_is_held);
   RUN_TEST(what_was_left_out_makes_uncertain_what_stays_in_its_place);
   RUN_TEST(tracked_positions_that_err_slowly_deviate_more_than_noise_of_their_size);
+  RUN_TEST(nothing_stays_where_no_number_could_matter);
   RUN_TEST(numbers_that_cannot_be_told_apart_stay_near_the_model);
   RUN_TEST(a_load_says_what_the_last_links_mass_does_and_no_other_links);
   return UNITY_END();

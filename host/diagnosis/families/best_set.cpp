@@ -19,6 +19,10 @@ constexpr double kNoTolerance = 1e6;  // such units hold nothing
 constexpr double kSameError = 1.0002;
 constexpr double kClearlyLess = 0.95;  // of squares, that numbers of other sizes are worth
 
+/// Is an error the least one, but for what simplicity is worth? Of samples that leave none, and of
+/// those that no error can be computed of, every set is as good as any.
+bool is_as_good(double error, double least) { return !(error > kSameError * least); }
+
 }  // namespace
 
 /// Leaves out members one at a time; the smallest of the sets that predict best.
@@ -33,7 +37,7 @@ Elimination::Set Elimination::best_on_path() {
     hold_impossible(members);
     const double error = error_elsewhere(members);
     least = std::min(least, error);
-    if (error < kSameError * least) {
+    if (is_as_good(error, least)) {
       best = {members, is_held_, tolerance_, widest_, error};
     }
     const std::vector<std::size_t> weakest = weakest_of(members, wide);
@@ -63,6 +67,9 @@ void Elimination::learn_widths() {
       columns.push_back(member.columns[i]);
     }
   }
+  if (columns.empty()) {
+    return;  // where no number could matter, as of positions in mm, there are no widths
+  }
   const double variance = spread_ * spread_ * widenings()(columns).mean();
   widest_(columns) = diagnosis::learn_widths({gram_(columns, columns), moment_(columns), variance},
                                              widest_(columns), kind);
@@ -80,7 +87,7 @@ Elimination::Set Elimination::best_of_tolerances() {
   const auto is_less = [](const Set& a, const Set& b) { return a.error < b.error; };
   const double least = std::min_element(sets.begin(), sets.end(), is_less)->error;
   return *std::find_if(sets.begin(), sets.end(),
-                       [&](const Set& set) { return set.error < kSameError * least; });
+                       [&](const Set& set) { return is_as_good(set.error, least); });
 }
 
 /// By learnt widths, unless the usual ones predict clearly better, as where one of a few poses'

@@ -44,7 +44,9 @@ Elimination::Elimination(const Observations& observations, const Fit& given,
 
 Elimination::Elimination(const Observations& observations, const Fit& about, std::size_t given,
                          const std::vector<Hypothesis>& hypotheses, const Dictionary& dictionary)
-    : observations_(observations), target_(about.remainder.head(observations.train)) {
+    : observations_(observations),
+      target_(about.remainder.head(observations.train)),
+      columns_(observations.train, 0) {
   for (std::size_t i = 0; i < about.chosen.size(); ++i) {
     const Chosen& chosen = about.chosen[i];
     const auto count = static_cast<Eigen::Index>(chosen.values.size());
@@ -206,7 +208,7 @@ double Elimination::error_elsewhere(const std::vector<std::size_t>& members) con
     const Eigen::VectorXd moment = part.moment(columns);
     error += part.square - 2 * value.dot(moment) + value.dot(part.gram(columns, columns) * value);
   }
-  return error;
+  return std::max(error, 0.0);  // of samples without any, rounding leaves less than nothing
 }
 
 /// Members that leave a set together: each by itself, but gains all at once. With all gains larger

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "diagnosis/output/shown_time.hpp"
 #include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
 #include "report/gnuplot.hpp"
@@ -25,13 +26,14 @@ using Course = std::vector<CoursePoint>;
 Course course_of(const Observations& observations, const Eigen::VectorXd& updated, Channel channel,
                  Eigen::Index component) {
   const Scene& scene = observations.scenes.front();
+  const Eigen::VectorXd time = shown_time(scene);
   Course course;
   for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
     if (at.scene == 0 && at.channel == channel && at.component == component) {
       const double measured = scene.measured[channel](at.row, component);
       const double noise = observations.noise[i];
-      course.push_back({scene.time[at.row], measured, measured - noise * observations.residual[i],
+      course.push_back({time[at.row], measured, measured - noise * observations.residual[i],
                         measured - noise * updated[i]});
     }
   }
@@ -132,9 +134,9 @@ std::string course_picture(const Observations& observations, const Eigen::Vector
     script += panel.data;
   }
   script += fmt::format(
-      "set grid lc rgb '#dddddd'\nset xrange [{:.6g}:{:.6g}]\nset ytics nomirror\n"
+      "set grid lc rgb '#dddddd'\n{}set ytics nomirror\n"
       "set format x ''\nset xtics nomirror\nset multiplot\n",
-      scene.time[0], scene.time[scene.rows() - 1]);
+      range_of(shown_time(scene)));
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const int upper = height - kTop - kPanelHeight * static_cast<int>(i);
     script += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",

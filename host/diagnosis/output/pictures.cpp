@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/cues.hpp"
+#include "diagnosis/output/shown_time.hpp"
 #include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
 #include "report/gnuplot.hpp"
@@ -57,20 +58,23 @@ std::string time_picture(const Observations& observations, const Eigen::VectorXd
                          Channel channel) {
   const Scene& scene = observations.scenes.front();
   const Eigen::VectorXd lengths = length_by_row(observations, observations.residual, channel);
+  if (!lengths.array().isFinite().any()) {
+    return "";  // the columns hold no sample
+  }
   const Scale scale = scale_of(unit_of(observations, channel), largest_of(lengths));
+  const Eigen::VectorXd time = shown_time(scene);
   const Eigen::VectorXd first = scale.factor * lengths;
   const Eigen::VectorXd second = scale.factor * length_by_row(observations, after, channel);
   const std::string style = scene.is_static ? "points pt 7 ps 0.7" : "points pt 7 ps 0.15";
-  std::string script = block("before", scene.time, first) + block("after", scene.time, second);
+  std::string script = block("before", time, first) + block("after", time, second);
   script += fmt::format(
       "set grid lc rgb '#dddddd'\nset key outside above horizontal\nset yrange [0:*]\n"
-      "set xrange [{:.6g}:{:.6g}]\nset xlabel '{}'\nset ylabel 'residual, {}'\n"
+      "{}set xlabel '{}'\nset ylabel 'residual, {}'\n"
       "plot $before using 1:2 with {} lc rgb '{}' notitle, $after using 1:2 with {} lc rgb '{}' "
       "notitle, NaN with points pt 7 lc rgb '{}' title 'before', "
       "NaN with points pt 7 lc rgb '{}' title 'after'\n",
-      scene.time[0], scene.time[scene.rows() - 1],
-      scene.is_static ? "row of the load test" : "time, s", scale.unit, style, kBefore, style,
-      kAfter, kBefore, kAfter);
+      range_of(time), scene.is_static ? "row of the load test" : "time, s", scale.unit, style,
+      kBefore, style, kAfter, kBefore, kAfter);
   return report::plot_svg(script, 900, 330);
 }
 
