@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/frame_option.hpp"
+#include "cli/number_options.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
@@ -256,7 +257,7 @@ void add_configure(CLI::App* app, Action* action) {
   add_robot(command, &options->model)->required();
   command->add_option("--table", options->table, "made by flexcomp table");
   command->add_option("--period", options->period, "s, from one setpoint to the next")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--out", options->out, "file to write")->required();
   command->add_option("--c-model", options->c_model,
                       "header to write too: the robot as flexcomp_model_t, for a program in C");

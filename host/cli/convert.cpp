@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/number_options.hpp"
 #include "error.hpp"
 #include "files/one_line.hpp"
 #include "recording/clock_alignment.hpp"
@@ -246,7 +247,7 @@ void add_convert(CLI::App* app, Action* action) {
       ->allow_extra_args(false);
   CLI::Option* header =
       command->add_option("--header-line", options->layout.header_line, "line of the table's names")
-          ->check(CLI::PositiveNumber);
+          ->check(above_zero());
   command
       ->add_option("--names", options->layout.names,
                    "NAME,NAME,… of the first columns, where no line of the table has them")
@@ -260,7 +261,7 @@ void add_convert(CLI::App* app, Action* action) {
   command->add_option("--interface", options->interface, "name to write into a candump log");
   command->add_flag("--fd", options->fd, "write CAN FD frames");
   command->add_option("--start", options->start, "s since the epoch, of the first row of a log")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   command->add_flag("--json", options->json, "print the summary as JSON");
   command->callback([=] { *action = [=] { return run(*options); }; });
 }

@@ -11,6 +11,7 @@
 #include "build_info.hpp"
 #include "cli/command.hpp"
 #include "cli/help.hpp"
+#include "cli/number_options.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "linux/printable_line.hpp"
@@ -125,6 +126,7 @@ void add_commands(CLI::App* app, Action* action) {
   flexcomp::cli::add_plant(app, action);
   flexcomp::cli::add_convert(app, action);
   flexcomp::cli::add_diagnose(app, action);
+  flexcomp::cli::expect_finite_numbers(app);
 }
 
 int parse_and_run(int argc, char** argv) {

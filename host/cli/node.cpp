@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cli/node_bus.hpp"
+#include "cli/number_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
 #include "core/crc32.hpp"
@@ -127,7 +128,7 @@ void add_node(CLI::App* app, Action* action) {
   send->add_option("table", options->table, "made by flexcomp table")->required();
   add_bus(send, &options->address);
   send->add_option("--pause", options->pause, "s, between messages, which leaves room on the bus")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   send->callback([=] { *action = [=] { return send_table(*options); }; });
   add_node_views(node, action);
 }

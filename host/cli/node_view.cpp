@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/node_bus.hpp"
+#include "cli/number_options.hpp"
 #include "cli/robot_choice.hpp"
 #include "error.hpp"
 #include "linux/clock.hpp"
@@ -252,7 +253,7 @@ void add_node_views(CLI::App* node, Action* action) {
   live->add_option("--web", options->web,
                    "port on this machine for a page with moving plots; 0: one that is free");
   live->add_option("--seconds", options->seconds, "s, after which it ends; 0: at Ctrl-C")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   one->callback([=] { *action = [=] { return status(*options); }; });
   live->callback([=] { *action = [=] { return watch(*options); }; });
 }

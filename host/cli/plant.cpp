@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/number_options.hpp"
 #include "cli/plant_result.hpp"
 #include "cli/progress.hpp"
 #include "cli/table_file.hpp"
@@ -221,7 +222,7 @@ void add_plant(CLI::App* app, Action* action) {
   command
       ->add_option("--filter-cutoff", options->filter_cutoff,
                    "Hz, of the compensator, inside or on the bus")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   command->add_option("--out", options->out, "recording of the contour to write");
   command
       ->add_option(
@@ -239,7 +240,7 @@ void add_plant(CLI::App* app, Action* action) {
   command
       ->add_option("--compliance-scale", options->compliance_scale,
                    "all springs this many times as soft: a robot that is not as its model says")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--dynamic", options->dynamic,
                       "design file (flexcomp design-arc): links and motors with their inertia on "
                       "springs, the motors under a servo with feed-forward; otherwise at rest at "
@@ -248,9 +249,9 @@ void add_plant(CLI::App* app, Action* action) {
                     "with --dynamic: the joints under adaptive robust control with encoders on the "
                     "links; the table must be that of the robot with joint compliances of zero");
   command->add_option("--force-noise", options->plant.force_noise, "N, standard deviation")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   command->add_option("--moment-noise", options->plant.moment_noise, "N·m, standard deviation")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   command->add_option("--seed", options->plant.seed, "of the noise");
   command->add_flag("--json", options->json, "print the summary as JSON");
   command->callback([=] { *action = [=] { return run_until_stopped(*options); }; });

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "cli/number_options.hpp"
 #include "node/default_config.hpp"
 
 namespace flexcomp::cli {
@@ -25,7 +26,7 @@ void add_process(CLI::App* command, ProcessOptions* options) {
   command
       ->add_option("--depth-of-cut", options->process.depth_of_cut,
                    "m, nominal: how much deeper the tool is for twice the force")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   const std::map<std::string, simulation::MaterialSide> sides = {
       {"outside", simulation::MaterialSide::outside}, {"inside", simulation::MaterialSide::inside}};
   CLI::CheckedTransformer as_side(sides, CLI::ignore_case);
@@ -39,16 +40,15 @@ void add_process(CLI::App* command, ProcessOptions* options) {
 }
 
 void add_loop(CLI::App* command, CorrectionLoop* loop) {
-  command->add_option("--loop-period", loop->period, "s, of the controller")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--loop-period", loop->period, "s, of the controller")->check(above_zero());
   command
       ->add_option("--loop-filter-cutoff", loop->filter_cutoff,
                    "Hz, of the controller's filter on the wrench; 0: none")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   command
       ->add_option("--loop-delay", loop->delay,
                    "s, from the wrench to the robot standing corrected")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
 }
 
 std::string describe(const GainBasis& basis) {

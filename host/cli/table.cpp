@@ -6,6 +6,7 @@
 
 #include "cli/command.hpp"
 #include "cli/help.hpp"
+#include "cli/number_options.hpp"
 #include "cli/process_options.hpp"
 #include "cli/robot_choice.hpp"
 #include "cli/table_file.hpp"
@@ -161,14 +162,17 @@ void add_table(CLI::App* app, Action* action) {
   command
       ->add_option("--orientation-tolerance", build->orientation_tolerance,
                    "rad; if not given, the number of --tolerance")
+      ->check(above_zero())
       ->default_str("");
   command
       ->add_option("--force", build->force,
                    "N, largest force to certify for; if not given, 1.1 times the path's")
+      ->check(above_zero())
       ->default_str("");
   command
       ->add_option("--moment", build->moment,
                    "N·m, largest moment to certify for; if not given, 1.1 times the path's")
+      ->check(above_zero())
       ->default_str("");
   add_process(command, &build->process);
   add_loop(command, &build->process.loop);

@@ -326,6 +326,18 @@ class BadInput(PathCommand):
              "--compliance-scale"),
             (("simulate", "--model", KR270, "--out", "x"), "--recording"),
             (("simulate", "--model", KR270, "--path", path, "--recording", path, "--out", "x"), "either"),
+            (("plan", "circle", "--model", KR270, "--center", "1.6,0,1.2", "--force", "nan,0,0", "--out", "x"),
+             "--force: expected a finite number, not nan"),
+            (("plan", "line", "--model", KR270, "--from", "1,0,1", "--to", "1,1,inf", "--out", "x"),
+             "--to: expected a finite number, not inf"),
+            (("configure", "--model", KR270, "--period", "nan", "--out", "x"), "--period: expected a number above zero, not nan"),
+            (("table", "--model", KR270, "--path", path, "--out", "x", "--force", "-5"), "--force: expected a number above zero, not -5"),
+            (("table", "--model", KR270, "--path", path, "--out", "x", "--orientation-tolerance", "nan"),
+             "--orientation-tolerance: expected a number above zero, not nan"),
+            (("table", "--model", KR270, "--path", path, "--out", "x", "--loop-delay", "nan"),
+             "--loop-delay: expected a number of zero or above, not nan"),
+            (("check", "--model", KR270, "--depth-of-cut", "10mm"), "--depth-of-cut: expected a number above zero, not 10mm"),
+            (("plant", "--model", KR270, "--path", path, "--table", path, "--gain", "nan"), "--gain: expected a finite number, not nan"),
             (("report", "--model", KR270, "--recording", "nameless", "--out", "x"), "NAME=FILE"),
         ]
         for arguments, saying in cases:
@@ -382,7 +394,7 @@ class Manners(PathCommand):
         self.assertRegex(shown, r"--material TEXT:\{outside,inside\}=outside\s")
         for option in ("--model", "--path", "--out"):
             self.assertRegex(shown, rf"(?m)^  {option} TEXT REQUIRED ")
-        self.assertRegex(shown, r"--force FLOAT +N, .* if not given")
+        self.assertRegex(shown, r"--force FLOAT:POSITIVE\s+N, .* if not\s+given")
         self.assertRegex(self.run_well("help", "plant"), r"--gain FLOAT in \[0 - 1\]=1 ")
         for command in re.findall(r"^  ([a-z-]+) {2,}", self.run_well("--help").split("Subcommands:")[1], re.MULTILINE):
             shown = self.run_well("help", command)
