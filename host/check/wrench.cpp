@@ -8,6 +8,7 @@
 #include "check/loads.hpp"
 #include "check/regression.hpp"
 #include "simulation/machine.hpp"
+#include "simulation/quasi_static.hpp"
 
 namespace flexcomp::check {
 namespace {
@@ -199,11 +200,22 @@ Checks check_wrench(const model::Robot& robot, const recording::Recording& recor
   const simulation::Machine machine(robot);
   simulation::Wanted wanted;
   wanted.channel = {true, false, false};
-  const std::vector<Answer> answers =
-      ask_all(robot, scene, simulation::simulate(machine, scene, wanted));
   const auto said = [&](const char* name, const std::string& what, const char* fix) -> Checks {
     return {{Severity::error, "recording", name, scene.file + ": " + what, fix}};
   };
+  simulation::Simulation simulated;
+  try {
+    simulated = simulation::simulate(machine, scene, wanted);
+  } catch (const simulation::NoRest&) {
+    return said("units.wrench",
+                fmt::format("under forces up to {:.4g} N and moments up to {:.4g} N·m the robot "
+                            "does not come to rest",
+                            scene.wrench.leftCols<3>().rowwise().norm().maxCoeff(),
+                            scene.wrench.rightCols<3>().rowwise().norm().maxCoeff()),
+                "give forces in N and moments in N·m; if they are, the compliances are far too "
+                "large");
+  }
+  const std::vector<Answer> answers = ask_all(robot, scene, simulated);
   if (const Answer* tool =
           majority(answers, [](const Answer& a) { return a.tool_slope > kLeastSlope; })) {
     return said("wrench.frame",

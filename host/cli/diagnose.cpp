@@ -28,6 +28,7 @@
 #include "error.hpp"
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
+#include "simulation/quasi_static.hpp"
 
 namespace flexcomp::cli {
 namespace {
@@ -111,6 +112,17 @@ bool are_in_order(const check::Checks& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const check::Check& each) {
     return each.severity == check::Severity::note || each.about == "model";
   });
+}
+
+/// The checks of units that found something, by name.
+std::string wrong_units(const check::Checks& checks) {
+  std::string names;
+  for (const check::Check& each : checks) {
+    if (each.name.rfind("units.", 0) == 0) {
+      names += (names.empty() ? "" : ", ") + each.name;
+    }
+  }
+  return names;
 }
 
 std::vector<simulation::Scene> scenes_of(const std::vector<recording::Recording>& recordings,
@@ -234,25 +246,22 @@ diagnosis::Diagnosis diagnosed(const std::vector<diagnosis::Hypothesis>& hypothe
   return diagnosis::diagnose(observations, hypotheses, settings);
 }
 
-int run(const DiagnoseOptions& options) {
-  keep_freed_memory();
-  if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
-    throw InputError("--false-discovery: expected a number between 0 and 1");
+/// Where a unit is wrong, the springs seem so in what follows: the unit is the first suspect.
+[[noreturn]] void refuse_rest(const simulation::NoRest& error, const check::Checks& checks) {
+  const std::string units = wrong_units(checks);
+  if (units.empty()) {
+    throw error;
   }
-  diagnosis::Settings settings;
-  settings.false_discovery = options.false_discovery;
-  settings.law_seconds = options.law_seconds.value_or(settings.law_seconds);
-  if (!(settings.law_seconds >= 0 && std::isfinite(settings.law_seconds))) {
-    throw InputError("--law-seconds: expected a number of seconds, or 0");
-  }
-  const model::Robot robot = load_robot(options.model);
-  const std::vector<recording::Recording> recordings = read_recordings(options, robot.joints());
-  diagnosis::Origin origin;
-  std::vector<simulation::Scene> scenes = scenes_of(recordings, &origin.qualities);
-  origin.checks = check_input(robot, recordings);
-  origin.command = command_line(options);
-  origin.version = FLEXCOMP_BUILD_INFO;
-  origin.date = today();
+  throw InputError(
+      fmt::format("{}; mend the units first, as said above ({}): the springs may be as "
+                  "they should",
+                  error.what(), units));
+}
+
+/// Diagnoses recordings that were checked, and writes what was found.
+void diagnose(const DiagnoseOptions& options, diagnosis::Settings settings,
+              const model::Robot& robot, std::vector<simulation::Scene> scenes,
+              const diagnosis::Origin& origin) {
   simulation::Machine machine = effects::machine_of(robot, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes),
                                        options.holdouts.size());
@@ -276,6 +285,32 @@ int run(const DiagnoseOptions& options) {
   files::write_texts(
       {{folder / "diagnosis.json", json}, {folder / "report.html", html}, {updated, yaml}});
   summarize(robot, observations, result, options.out);
+}
+
+int run(const DiagnoseOptions& options) {
+  keep_freed_memory();
+  if (!(options.false_discovery > 0 && options.false_discovery < 1)) {
+    throw InputError("--false-discovery: expected a number between 0 and 1");
+  }
+  diagnosis::Settings settings;
+  settings.false_discovery = options.false_discovery;
+  settings.law_seconds = options.law_seconds.value_or(settings.law_seconds);
+  if (!(settings.law_seconds >= 0 && std::isfinite(settings.law_seconds))) {
+    throw InputError("--law-seconds: expected a number of seconds, or 0");
+  }
+  const model::Robot robot = load_robot(options.model);
+  const std::vector<recording::Recording> recordings = read_recordings(options, robot.joints());
+  diagnosis::Origin origin;
+  std::vector<simulation::Scene> scenes = scenes_of(recordings, &origin.qualities);
+  origin.checks = check_input(robot, recordings);
+  origin.command = command_line(options);
+  origin.version = FLEXCOMP_BUILD_INFO;
+  origin.date = today();
+  try {
+    diagnose(options, settings, robot, std::move(scenes), origin);
+  } catch (const simulation::NoRest& error) {
+    refuse_rest(error, origin.checks);
+  }
   return kDone;
 }
 

@@ -75,14 +75,19 @@ int run_recording(const SimulateOptions& options) {
 }
 
 /// Positions of a robot that rests at every row of a path.
-recording::Samples resting(const model::Chain& robot, const recording::Samples& q_cmd,
-                           const recording::Samples& wrench) {
+recording::Samples resting(const model::Chain& robot, const recording::Recording& path) {
+  const recording::Samples& q_cmd = *path.q_cmd;
+  const recording::Samples& wrench = *path.wrench;
   recording::Samples position(q_cmd.rows(), 3);
   Progress progress("simulating", static_cast<std::size_t>(q_cmd.rows()));
   for (Eigen::Index row = 0; row < q_cmd.rows(); ++row) {
-    const simulation::Equilibrium at =
-        simulation::settle(robot, q_cmd.row(row).transpose(), wrench.row(row).transpose());
-    position.row(row) = at.tcp.position.transpose();
+    try {
+      const simulation::Equilibrium at =
+          simulation::settle(robot, q_cmd.row(row).transpose(), wrench.row(row).transpose());
+      position.row(row) = at.tcp.position.transpose();
+    } catch (const simulation::NoRest& error) {
+      throw InputError(path.place(row) + ": " + error.what());
+    }
     progress.show(static_cast<std::size_t>(row));
   }
   return position;
@@ -104,10 +109,9 @@ int run_path(const SimulateOptions& options) {
   recording::Recording recording = recording::read_recording_of(robot.elastic, options.path);
   const recording::Samples& q_cmd = recording::require(
       recording, recording.q_cmd, fmt::format("q_cmd_1..q_cmd_{}", robot.joints()));
-  const recording::Samples& wrench = recording::require(recording, recording.wrench, "fx..mz");
+  recording::require(recording, recording.wrench, "fx..mz");
   const bool has_effects = !robot.effects.empty() || !effects::machine_of(robot).terms.empty();
-  recording.position =
-      has_effects ? driven(robot, recording) : resting(robot.elastic, q_cmd, wrench);
+  recording.position = has_effects ? driven(robot, recording) : resting(robot.elastic, recording);
   recording.q_meas = q_cmd;
   recording::write_recording(options.out, recording);
   fmt::print("{}: {} rows\n", options.out, recording.size());

@@ -1,5 +1,7 @@
 #include "simulation/machine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "simulation/history.hpp"
@@ -70,6 +72,14 @@ Equilibrium settle_balanced(const Machine& machine, const Row& q, const Wrench<d
     balancers = [&machine](const Row& q_link) { return balance(machine, q_link); };
   }
   return settle_from(machine.robot.elastic, q, wrench, kTolerance, springs, balancers);
+}
+
+std::string place_in(const Scene& scene, Eigen::Index row) {
+  const auto at = static_cast<std::size_t>(row);
+  return fmt::format("{}: row {}, under {:.4g} N and {:.4g} N·m: ", scene.file,
+                     (at < scene.recorded.size() ? scene.recorded[at] : row) + 1,
+                     scene.wrench.row(row).head<3>().norm(),
+                     scene.wrench.row(row).tail<3>().norm());
 }
 
 /// Where the robot rests, with its levers; `springs`: what they gave in a state nearby, and give in
@@ -247,7 +257,11 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
       if (has_near) {
         springs = wanted.near->springs[static_cast<std::size_t>(row)];
       }
-      rest(machine, scene, wanted.levers, row, &springs, &at);
+      try {
+        rest(machine, scene, wanted.levers, row, &springs, &at);
+      } catch (const NoRest& error) {
+        throw NoRest(place_in(scene, row) + error.what());
+      }
       at.springs.push_back(springs);
     }
   }

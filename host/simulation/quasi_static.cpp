@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "error.hpp"
-
 namespace flexcomp::simulation {
 namespace {
 
@@ -125,7 +123,7 @@ Equilibrium settle_from(const Chain& chain, const JointValues& q_motor,
       break;
     }
   }
-  throw InputError("the robot does not come to rest under this load: its springs are too soft");
+  throw NoRest("the robot does not come to rest under this load: its springs are too soft");
 }
 
 }  // namespace flexcomp::simulation

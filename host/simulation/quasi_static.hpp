@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "error.hpp"
 #include "model/chain_kinematics.hpp"
 
 namespace flexcomp::simulation {
@@ -25,12 +26,18 @@ struct Equilibrium {
   JointValues q_link;  ///< rad, motor angles plus wind-up
 };
 
+/// A load under which the robot does not come to rest.
+class NoRest : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// The flexible robot at rest with its motors at `q_motor` (rad), under a wrench on the tool at the
 /// TCP (base frame) and, with gravity in the model, its weights.
 ///
 /// All springs give as in the model, with every lever taken in the bent posture: the equilibrium
 /// itself, not its linearisation, found by repeated substitution until no spring gives by more than
-/// `tolerance` (rad, m) more. Throws InputError if the springs are so soft that there is no
+/// `tolerance` (rad, m) more. Throws NoRest if the springs are so soft that there is no
 /// equilibrium nearby.
 Equilibrium settle(const model::Chain& chain, const JointValues& q_motor,
                    const Wrench<double>& wrench, double tolerance = 1e-13);

@@ -92,6 +92,13 @@ class Check(Command):
         degrees = self.file("degrees.yaml", text + "tool: {xyz: [0, 0, 0.25], rpy: [0, 90, 0]}\n")
         self.assert_refused("check", "--model", degrees, saying="'tool.rpy': expected radians, found 90")
 
+    def test_a_force_in_another_unit_is_told_though_the_robot_could_not_bear_it(self):
+        kilo = self.changed(self.recorded(), "kilo.csv", **{name: lambda value: 1e5 * value for name in ("fx", "fy", "fz")})
+        self.assertEqual(["units.wrench"], self.wrong("--model", KR270, "--recording", kilo))
+        done = flexcomp("diagnose", "--model", KR270, "--recording", kilo, "--out", self.folder / "d")
+        self.assertEqual(2, done.returncode)
+        self.assertRegex(done.stderr, r"^flexcomp: .*kilo\.csv: row \d+, under .* N and .* N·m: .* units first, .*units\.wrench.*\n$")
+
     def test_a_tool_frame_whose_x_points_out_of_the_flange_is_noted(self):
         urdf = (KR270.parent / "kr270.urdf").read_text()
         before = re.search(r'<child link="tool0"/>.*?</joint>', urdf, re.DOTALL).group()
