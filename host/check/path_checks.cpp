@@ -10,6 +10,7 @@
 #include "check/arm.hpp"
 #include "check/motion.hpp"
 #include "check/times.hpp"
+#include "effects/beyond_tables.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace flexcomp::check {
@@ -173,15 +174,22 @@ Checks check_table(const model::Robot& robot, const std::string& file, const Tab
              file + ": the table is of another robot, tool or payload than the model",
              "make the table from this model: flexcomp table"}};
   }
+  Checks checks;
+  const std::string lacking = effects::warning_beyond_tables(robot);
+  if (!lacking.empty()) {
+    checks.push_back({Severity::warning, "table", "table.effects", lacking,
+                      "correct programs with flexcomp compensate, or leave these effects to what a "
+                      "correction in real time cannot know"});
+  }
   const auto largest = static_cast<double>(table.header().largest_gain);
   if (largest > 0 && largest <= 1.01 * GainLimit::kNone) {
-    return {
+    checks.push_back(
         {Severity::error, "table", "process.unstable",
          file + ": no gain is safe with the process that the table was made for",
          "make the table with the depth of your cut (flexcomp table --depth-of-cut) and its side "
-         "(--material), or for less force"}};
+         "(--material), or for less force"});
   }
-  return {};
+  return checks;
 }
 
 Checks check_coverage(const model::Robot& robot, const Table& table,

@@ -19,6 +19,7 @@
 #include "controller/kuka_axes.hpp"
 #include "controller/rsi_files.hpp"
 #include "controller/sensor_lines.hpp"
+#include "effects/beyond_tables.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "flexcomp/loop_gain.hpp"
@@ -189,7 +190,11 @@ int run(const ConfigureOptions& options) {
         options.table, options.period);
     return kDoesNotHold;
   }
+  const std::string lacking = effects::warning_beyond_tables(robot);
   files::write_texts(files_of(options, robot, largest_gain));
+  if (!lacking.empty()) {
+    fmt::print(stderr, "flexcomp: {}\n", lacking);
+  }
   const bool needs_bus =
       options.rsi_folder.empty() || !(options.rsi_force || !options.sensor.empty());
   fmt::print("{}: robot {:016x}; start with: flexcompd --config {}{}\n", options.out,

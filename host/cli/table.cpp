@@ -13,6 +13,7 @@
 #include "cli/table_signing.hpp"
 #include "cli/table_verify.hpp"
 #include "control/path_gain.hpp"
+#include "effects/beyond_tables.hpp"
 #include "error.hpp"
 #include "files/text_file.hpp"
 #include "flexcomp/table_builder.hpp"
@@ -117,7 +118,11 @@ int run_build(const BuildOptions& options) {
   }
   const std::string bytes(reinterpret_cast<const char*>(words.data()),
                           words.size() * sizeof(std::uint32_t));
+  const std::string lacking = effects::warning_beyond_tables(robot);
   files::write_text(options.out, bytes + trailer_for(bytes, options.signing));
+  if (!lacking.empty()) {
+    fmt::print(stderr, "flexcomp: {}\n", lacking);
+  }
   Table table;
   Table::open(words.data(), 4 * words.size(), &table);
   if (options.json) {

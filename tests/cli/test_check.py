@@ -99,6 +99,18 @@ class Check(Command):
         self.assertEqual(2, done.returncode)
         self.assertRegex(done.stderr, r"^flexcomp: .*kilo\.csv: row \d+, under .* N and .* N·m: .* units first, .*units\.wrench.*\n$")
 
+    def test_effects_that_a_table_lacks_are_told_where_it_is_made_and_checked(self):
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")
+        model = self.file("learnt.yaml", text + "effects:\n  - {effect: joint_offset, joint: 3, offset: 2e-3}\n"
+                          "  - {effect: torque_offset, joint: 2, torque: 30}\n")
+        table, config = self.folder / "t.fct", self.folder / "node.toml"
+        for words in (("table", "--path", self.path, "--tolerance", "1e-5", "--out", table),
+                      ("configure", "--table", table, "--out", config)):
+            done = flexcomp(words[0], "--model", model, *words[1:])
+            self.assertEqual(0, done.returncode, done.stderr)
+            self.assertRegex(done.stderr, r"^flexcomp: .*learnt\.yaml: effects: .*lacks joint_offset: .*\n$")
+        self.assertEqual(["table.effects"], self.wrong("--model", model, "--table", table))
+
     def test_a_tool_frame_whose_x_points_out_of_the_flange_is_noted(self):
         urdf = (KR270.parent / "kr270.urdf").read_text()
         before = re.search(r'<child link="tool0"/>.*?</joint>', urdf, re.DOTALL).group()

@@ -93,7 +93,8 @@ class MainJob(PathCommand):
 
     def compensated(self, model, path):
         corrected = self.folder / f"corrected-{model.parent.name}.csv"
-        summary = self.run_well("compensate", "--model", model, "--table", self.table(path, model),
+        # Effects are not in a table: it is that of the model without them.
+        summary = self.run_well("compensate", "--model", model, "--table", self.table(path),
                                 "--path", path, "--json", "--out", corrected)
         return corrected, json.loads(summary)
 
