@@ -10,6 +10,7 @@
 #include "check/arm.hpp"
 #include "control/path_gain.hpp"
 #include "controller/kuka_axes.hpp"
+#include "simulation/quasi_static.hpp"
 
 namespace flexcomp::check {
 namespace {
@@ -153,7 +154,57 @@ Checks check_axes(const std::string& file, const RsiOptions& rsi, const model::R
            "set rsi-sign and rsi-zero; flexcomp configure --rsi does"}};
 }
 
+/// m, by which weight and wrench move the TCP; infinite where the robot does not come to rest.
+double bend_at(const model::Robot& robot, const Eigen::RowVectorXd& q,
+               const Eigen::RowVectorXd& wrench) {
+  try {
+    const Pose<double> bent =
+        simulation::settle(robot.elastic, q.transpose(), wrench.transpose()).tcp;
+    return (bent.position - tcp_at(robot, q).position).norm();
+  } catch (const simulation::NoRest&) {
+    return INFINITY;
+  }
+}
+
 }  // namespace
+
+Checks check_deflection(const std::string& file, const Options& options, const model::Robot& robot,
+                        const recording::Recording& path) {
+  if (!path.q_cmd || !path.wrench || !path.q_cmd->allFinite() || !path.wrench->allFinite() ||
+      joint_count(robot) != 6) {
+    return {};
+  }
+  Eigen::Index worst = 0;
+  double most = 0;
+  for (Eigen::Index row = 0; row < path.size(); ++row) {
+    const double bend = bend_at(robot, path.q_cmd->row(row), path.wrench->row(row));
+    if (bend > most) {
+      most = bend;
+      worst = row;
+    }
+  }
+  const auto said = [&](Severity severity, const char* option, double limit, const char* then) {
+    return Check{
+        severity, "config", "config.deflection",
+        fmt::format("{}: {} is {:.4g} mm, but under its wrench the robot bends by {:.4g} mm "
+                    "at {}: {}",
+                    file, option, 1e3 * limit, 1e3 * most, path.place(worst), then),
+        "raise deflection-limit, deflection-warning and deflection-error above that, if the "
+        "model's springs are right; else take less force"};
+  };
+  const NodeConfig& node = options.settings.node;
+  const auto error = static_cast<double>(node.deflection_error);
+  const auto limit = static_cast<double>(node.compensator.deflection_limit);
+  if (most > error) {
+    return {said(Severity::error, "deflection-error", error,
+                 "the correction fades out and is latched (predicted deflection too large)")};
+  }
+  if (static_cast<double>(node.compensator.gain) * most > limit) {
+    return {
+        said(Severity::warning, "deflection-limit", limit, "no more than the limit is corrected")};
+  }
+  return {};
+}
 
 Checks check_config(const std::string& file, const Options& options, const model::Robot* robot,
                     const Table* table) {

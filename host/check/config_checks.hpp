@@ -4,6 +4,7 @@
 #include "flexcomp/table.hpp"
 #include "linux/options.hpp"
 #include "model/robot.hpp"
+#include "recording/recording.hpp"
 
 namespace flexcomp::check {
 
@@ -15,5 +16,10 @@ namespace flexcomp::check {
 /// said without.
 Checks check_config(const std::string& file, const Options& options, const model::Robot* robot,
                     const Table* table);
+
+/// config.deflection: limits of the deflection below what the robot bends by along a path under its
+/// wrench, so that the correction is cut off or does not become active.
+Checks check_deflection(const std::string& file, const Options& options, const model::Robot& robot,
+                        const recording::Recording& path);
 
 }  // namespace flexcomp::check

@@ -110,6 +110,9 @@ check::Checks check_all(const CheckOptions& options, const std::optional<model::
       check::add(check::check_process(*robot, path, options.process.process, options.process.loop),
                  &checks);
     }
+    if (is_usable && config) {
+      check::add(check::check_deflection(options.config, *config, *robot, path), &checks);
+    }
     if (is_usable && is_of_robot) {
       check::add(check::check_coverage(*robot, table->table, path), &checks);
     }

@@ -172,12 +172,20 @@ int run(const PlantOptions& options) {
   }));
 }
 
-/// A controller stops the robot in the midst of a cut: then there is no contour to write.
+std::string peer_of(const PlantOptions& options) {
+  return !options.rsi.empty() ? options.rsi : !options.bus.empty() ? options.bus : options.table;
+}
+
+/// A controller stops the robot in the midst of a cut, or nobody is there: then there is no contour
+/// to write.
 int run_until_stopped(const PlantOptions& options) {
   try {
     return run(options);
   } catch (const simulation::RsiStopped& stopped) {
     fmt::print(stderr, "flexcomp: {}: {}\n", options.path, stopped.what());
+    return kDoesNotHold;
+  } catch (const simulation::NobodyAnswers& silence) {
+    fmt::print(stderr, "flexcomp: {}: {}\n", peer_of(options), silence.what());
     return kDoesNotHold;
   }
 }

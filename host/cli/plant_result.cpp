@@ -69,10 +69,21 @@ void print_json(const PlantOptions& options, const GainLimit& limit,
   fmt::print("{}\n", json.dump(2));
 }
 
+std::string why_not_armed(const simulation::PlantRun& result) {
+  if (result.unanswered == result.ticks) {
+    return "nobody answers";
+  }
+  if (result.arm_reply != 0) {
+    return describe_reply(result.arm_reply);
+  }
+  const std::string inactive = "nothing was refused, but the correction did not become active";
+  return result.latched == 0 && result.node_latched == 0
+             ? inactive
+             : inactive + ": " + faults_of(result.latched, result.node_latched);
+}
+
 void print_refusal(const simulation::PlantRun& result) {
-  const std::string why = result.arm_reply != 0
-                              ? describe_reply(result.arm_reply)
-                              : "nothing was refused, but the correction did not become active";
+  const std::string why = why_not_armed(result);
   fmt::print("not armed: {}; largest safe gain {:.4g}\n", why, result.largest_gain);
 }
 

@@ -9,6 +9,7 @@ namespace flexcomp::simulation {
 namespace {
 
 constexpr std::int64_t kPatience = 1'000'000'000;  // ns, for an answer in lock-step
+constexpr int kMostSilent = 5;                     // answers in a row, in lock-step
 constexpr std::uint64_t kIdentityTicks = 50;       // from one announcement to the next
 constexpr double kReadyTime = 0.3;                 // s, of good inputs before arming
 constexpr double kArmingTime = 5;                  // s, to become active
@@ -176,7 +177,12 @@ void Plant::exchange() {
       break;
     }
   }
-  run_.unanswered += corrected_ == corrected_before ? 1U : 0U;
+  const bool is_answered = corrected_ != corrected_before;
+  run_.unanswered += is_answered ? 0U : 1U;
+  silent_ = is_answered ? 0 : silent_ + 1;
+  if (options_.lockstep && silent_ >= kMostSilent) {
+    throw NobodyAnswers();
+  }
   follower_.end_period();
 }
 
@@ -196,6 +202,9 @@ void Plant::take(const Message& message) {
       follower_.take(Angles(corrected->corrected.data()) - Angles(corrected->uncorrected.data()),
                      !options_.obeys && (state == State::off || state == State::latched));
     }
+  } else if (const auto* heartbeat = std::get_if<HeartbeatMessage>(&message)) {
+    run_.latched = heartbeat->latched_faults;
+    run_.node_latched = heartbeat->node_latched_faults;
   } else if (const auto* reply = std::get_if<CommandReplyMessage>(&message)) {
     if (reply->command == Command::arm) {
       replied_ = true;

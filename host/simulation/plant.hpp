@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <stdexcept>
 
 #include "client/correction_follower.hpp"
 #include "recording/recording.hpp"
@@ -46,9 +47,17 @@ struct PlantRun {
   std::uint64_t unanswered = 0;  ///< setpoints without an answer in their period
   std::uint32_t status = 0;      ///< all status bits seen on the contour
   std::uint16_t node_status = 0;
+  std::uint32_t latched = 0;  ///< faults that led to the last fade-out, as it last said
+  std::uint16_t node_latched = 0;
   std::uint8_t last_state = 0;
   double least_engagement = 1;
   double most_engagement = 1;
+};
+
+/// In lock-step nobody has answered for some seconds. `what()` is one line.
+class NobodyAnswers : public std::runtime_error {
+ public:
+  NobodyAnswers() : std::runtime_error("nobody answers") {}
 };
 
 /// The plant on the bus: stands at the beginning of the contour, has the compensator armed, enters
@@ -59,7 +68,7 @@ class Plant {
   Plant(std::unique_ptr<RobotInCut> robot, Contour contour, const PlantOptions& options,
         PlantBus* bus);
 
-  /// `progress` is told the share that is done, 0 to 1.
+  /// `progress` is told the share that is done, 0 to 1. Throws NobodyAnswers.
   PlantRun run(const std::function<void(double)>& progress);
 
  private:
@@ -82,6 +91,7 @@ class Plant {
   RobotInCut::State state_{};
   std::int64_t next_ = 0;  ///< ns, when the next setpoint is due
   std::uint64_t corrected_ = 0;
+  int silent_ = 0;  ///< setpoints in a row without an answer
   bool replied_ = false;
   bool on_contour_ = false;
   PlantRun run_;

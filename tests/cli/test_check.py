@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import re
 import unittest
 
@@ -98,6 +99,27 @@ class Check(Command):
         done = flexcomp("diagnose", "--model", KR270, "--recording", kilo, "--out", self.folder / "d")
         self.assertEqual(2, done.returncode)
         self.assertRegex(done.stderr, r"^flexcomp: .*kilo\.csv: row \d+, under .* N and .* N·m: .* units first, .*units\.wrench.*\n$")
+
+    def test_limits_of_the_deflection_below_what_the_path_needs_are_told(self):
+        table, config = self.table(), self.folder / "node.toml"
+        self.run_well("configure", "--model", KR270, "--table", table, "--out", config)
+        words = ("--model", KR270, "--path", self.path, "--table", table, "--config", config)
+        self.check(*words, exit_code=0)
+        with self.recorded().open() as file:
+            rows = list(csv.DictReader(file))
+        stiff = self.file("stiff.yaml", re.sub(r"compliance: [^,}\s]+", "compliance: 1e-12", KR270.read_text()).replace(
+            "urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}"))
+        self.run_well("simulate", "--model", stiff, "--path", self.path, "--out", self.folder / "s.csv")
+        with (self.folder / "s.csv").open() as file:
+            straight = list(csv.DictReader(file))
+        most = max(math.dist(*([float(row[axis]) for axis in "xyz"] for row in pair)) for pair in zip(rows, straight))
+        text = config.read_text()
+        for option, factor, severity in (("deflection-error", 0.9, "error"), ("deflection-limit", 0.9, "warning"),
+                                         ("deflection-error", 1.1, None)):
+            config.write_text(text + f"{option} = {factor * most:.6f}\n")
+            found = [each["severity"] for each in self.check(*words, exit_code=1 if severity else 0)
+                     if each["name"] == "config.deflection"]
+            self.assertEqual([severity] if severity else [], found, option)
 
     def test_effects_that_a_table_lacks_are_told_where_it_is_made_and_checked(self):
         text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")

@@ -7,6 +7,7 @@ import os
 import pathlib
 import re
 import shutil
+import socket
 import stat
 import struct
 import subprocess
@@ -495,6 +496,24 @@ class StableGain(Command):
         self.assertGreater(steady["least_engagement"], 0.9)
         self.assertLess(steady["most_engagement"], 2)
         self.assertFalse(steady["lost"])
+
+    def test_a_plant_to_which_nobody_answers_gives_up_in_lock_step_and_says_so(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as silent:
+            silent.bind(("127.0.0.1", 0))
+            address = f"udp://127.0.0.1:{silent.getsockname()[1]}"
+            done = flexcomp("plant", "--model", KR270, "--path", self.path, "--rsi", address, "--lockstep")
+        self.assertEqual(1, done.returncode, done.stdout + done.stderr)
+        self.assertEqual(f"flexcomp: {address}: nobody answers\n", done.stderr)
+
+    def test_a_plant_says_which_fault_keeps_the_correction_from_becoming_active(self):
+        self.build("--no-process")
+        stiffer = self.folder / "bends.yaml"  # its own weight bends it by more than the 6 mm of deflection-error
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")
+        stiffer.write_text(re.sub(r"gravity: .*", "gravity: [0, 0, -9.81]", text) + "payload: {mass: 2000}\n")
+        self.run_well("table", "--model", stiffer, "--path", self.path, "--no-process", "--out", self.table)
+        done = flexcomp("plant", "--model", stiffer, "--path", self.path, "--table", self.table, "--allow-unstable")
+        self.assertEqual(1, done.returncode, done.stdout + done.stderr)
+        self.assertIn("did not become active: predicted deflection too large;", done.stdout)
 
     def test_a_plant_warns_of_a_gain_that_is_stable_but_not_safe(self):
         self.build("--no-process")
