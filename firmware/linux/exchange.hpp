@@ -52,13 +52,19 @@ struct TableHasRun {
   std::uint32_t transfer = 0;
 };
 
+/// Faults that have made the correction fade out, and are latched until a reset.
+struct FaultsLatched {
+  std::uint32_t faults = 0;       ///< bits of the compensator
+  std::uint16_t node_faults = 0;  ///< bits of the node
+};
+
 struct ConfigResult {
   Result result = Result::ok;
 };
 
 using ToRealTime = std::variant<std::monostate, SnapshotRequest, NodeConfig, Verdict>;
-using FromRealTime =
-    std::variant<std::monostate, TableReceived, TableInUse, TableHasRun, ConfigResult, Snapshot>;
+using FromRealTime = std::variant<std::monostate, TableReceived, TableInUse, TableHasRun,
+                                  FaultsLatched, ConfigResult, Snapshot>;
 
 /// One direction between two threads: a queue, and a descriptor that wakes the receiver.
 template <typename Item>

@@ -325,9 +325,24 @@ void RealTimeLoop::tick(std::int64_t now) {
   note_answer();
   Message message;
   for (int i = 0; i < kMessagesATick && node_->next_message(&message); ++i) {
+    tell_latched(message);
     send(message);
   }
   hand_over_tables(monotonic_now());
+}
+
+/// Heartbeats say what is latched: handed over once, again each heartbeat until there is room.
+void RealTimeLoop::tell_latched(const Message& message) {
+  const auto* heartbeat = std::get_if<HeartbeatMessage>(&message);
+  if (heartbeat == nullptr) {
+    return;
+  }
+  const FaultsLatched now{heartbeat->latched_faults, heartbeat->node_latched_faults};
+  const bool is_told =
+      now.faults == latched_told_.faults && now.node_faults == latched_told_.node_faults;
+  if (!is_told && exchange_->from_real_time.send(now)) {
+    latched_told_ = now;
+  }
 }
 
 /// The last setpoint has been answered, if it was not before.

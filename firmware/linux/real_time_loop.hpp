@@ -52,6 +52,7 @@ class RealTimeLoop {
   void take_telegrams(std::int64_t now);
   void note_link_state();
   void note_answer();
+  void tell_latched(const Message& message);
   void on_setpoint(std::int64_t now);
   void on_timer(std::int64_t now);
   void on_period_end(std::int64_t now);
@@ -90,6 +91,7 @@ class RealTimeLoop {
   std::uint32_t in_use_ = 0;  ///< the transfer that the table in use came with; 0 at start
   TableTrial trial_;
   bool trial_told_ = false;
+  FaultsLatched latched_told_;  ///< what the other thread knows of
   std::int64_t verdict_due_ = 0;
   std::uint32_t lcm_dropped_ = 0;
   bool stopping_ = false;

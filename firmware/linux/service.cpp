@@ -144,6 +144,8 @@ void Service::on_real_time() {
       keep(*in_use);
     } else if (const auto* has_run = std::get_if<TableHasRun>(&item)) {
       confirm(*has_run);
+    } else if (const auto* latched = std::get_if<FaultsLatched>(&item)) {
+      tell(*latched);
     } else if (const auto* config = std::get_if<ConfigResult>(&item)) {
       reads_configuration_ = false;
       background_->say(std::string("new configuration: ") + describe(config->result));
@@ -151,6 +153,28 @@ void Service::on_real_time() {
       awaits_snapshot_ = false;
       report(*snapshot);
     }
+  }
+}
+
+/// In the words of `flexcomp node status`. A fault of the node comes to the core as one "reported
+/// by the caller", which says nothing beside it.
+void Service::tell(const FaultsLatched& latched) {
+  const std::uint32_t own =
+      latched.node_faults != 0 ? latched.faults & ~std::uint32_t{kExternalFault} : latched.faults;
+  std::string words;
+  const auto add = [&](const char* word) {
+    words += (words.empty() ? "" : ", ") + std::string(word);
+  };
+  for (std::uint32_t bit = 1; (bit & kFaultBits) != 0; bit <<= 1) {
+    if ((own & bit) != 0) {
+      add(describe(static_cast<StatusBit>(bit)));
+    }
+    if ((latched.node_faults & kNodeFaultBits & bit) != 0) {
+      add(describe(static_cast<NodeBit>(bit)));
+    }
+  }
+  if (!words.empty()) {
+    background_->say("latched: " + words);
   }
 }
 

@@ -43,6 +43,7 @@ class Service {
   void on_real_time();
   void read_configuration();
   void on_configuration();
+  void tell(const FaultsLatched& latched);
   void check(const TableReceived& received);
   Verdict judge(const TableReceived& received);
   void keep(const TableInUse& in_use);

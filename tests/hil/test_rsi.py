@@ -183,6 +183,7 @@ class Faults(RsiTest):
             other.settimeout(0.1)
             self.assertRaises(socket.timeout, other.recv, 2048)
         self.assert_gone()
+        self.controller.run_until(lambda: "latched: two senders of setpoints\n" in self.running.messages())
 
     def test_a_controller_that_is_started_again_begins_at_zero_and_must_arm_again(self):
         self.bring_up()
