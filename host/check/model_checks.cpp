@@ -114,19 +114,47 @@ Checks check_tool_axis(const model::Robot& robot) {
 
 Checks check_tool_size(const model::Robot& robot, const effects::MachineSize& size) {
   constexpr double kLongest = 0.5;  // of the reach
-  if (!robot.tool) {
-    return {};
+  Checks checks;
+  const auto warn_if_far = [&](const char* name, const char* of, const char* key, double length,
+                               const char* what, const char* fix) {
+    if (length >= kLongest * size.reach) {
+      checks.push_back(said_of_model(
+          Severity::warning, name, robot,
+          fmt::format("{}.{}: {} stands {:g} m off, which is as far as the arm reaches", of, key,
+                      what, length),
+          fix));
+    }
+  };
+  if (robot.tool) {
+    warn_if_far("tool.size", "tool", "xyz", Vector3<double>(robot.tool->xyz.data()).norm(),
+                "the TCP", "give xyz in metres, in the frame of tool_link");
+    warn_if_far("tool.size", "tool", "com", Vector3<double>(robot.tool->com.data()).norm(),
+                "the tool's centre of mass", "give com in metres, in the frame of tool_link");
   }
-  const double length = Vector3<double>(robot.tool->xyz.data()).norm();
-  if (length < kLongest * size.reach) {
-    return {};
+  warn_if_far("payload.size", "payload", "com", robot.elastic.payload_center.norm(),
+              "the payload's centre of mass", "give com in metres, in the tool frame");
+  return checks;
+}
+
+/// What hangs on the flange against the arm that carries it. The tool is part of the last link.
+Checks check_load(const model::Robot& robot, const effects::MachineSize& size) {
+  const double tool = robot.tool ? robot.tool->mass : 0;
+  const double arm = size.weight / effects::kGravity - tool;
+  const double most = has_masses(robot) ? arm : effects::kLargestPayload;
+  const std::string than = has_masses(robot)
+                               ? fmt::format("the arm's own {:.4g} kg", most)
+                               : fmt::format("the {:g} kg that the strongest arm carries", most);
+  Checks checks;
+  for (const auto& [key, mass] :
+       {std::pair{"payload", robot.elastic.payload_mass}, std::pair{"tool", tool}}) {
+    if (mass > most) {
+      checks.push_back(
+          said_of_model(Severity::warning, "payload.size", robot,
+                        fmt::format("{}.mass: {:g} kg is more than {}", key, mass, than),
+                        "give the mass in kg; masses of the links stand in the URDF"));
+    }
   }
-  return {said_of_model(
-      Severity::warning, "tool.size", robot,
-      fmt::format(
-          "tool.xyz: the TCP stands {:g} m off the flange, which is as far as the arm reaches",
-          length),
-      "give xyz in metres, in the frame of tool_link")};
+  return checks;
 }
 
 /// Effects that the robot lists, far from what machines have.
@@ -162,13 +190,7 @@ Checks check_model(const model::Robot& robot) {
   add(check_tool_axis(robot), &checks);
   add(check_tool_size(robot, size), &checks);
   add(check_effects(robot, size), &checks);
-  if (has_masses(robot) && 9.81 * robot.elastic.payload_mass > size.weight) {
-    checks.push_back(
-        said_of_model(Severity::warning, "payload.size", robot,
-                      fmt::format("payload.mass: {:g} kg is more than the arm's own {:g} kg",
-                                  robot.elastic.payload_mass, size.weight / 9.81),
-                      "give the payload's mass in kg; masses of the links stand in the URDF"));
-  }
+  add(check_load(robot, size), &checks);
   return checks;
 }
 

@@ -22,6 +22,12 @@ bool names(const Checks& checks, const std::string& beginning) {
 
 Checks check_recording(const model::Robot* robot, recording::Recording recording) {
   Checks checks;
+  if (robot != nullptr && recording.angles() == nullptr) {
+    return {{Severity::error, "recording", "column.missing",
+             recording.file + ": the recording has no joint angles, without which nothing can be "
+                              "compared with the model",
+             "record q_meas_1 to q_meas_n, or q_cmd_1 to q_cmd_n"}};
+  }
   if (robot != nullptr) {
     add(check_angles(*robot, &recording), &checks);
   }

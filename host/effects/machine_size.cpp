@@ -20,7 +20,6 @@ double column_of(const model::Chain& chain) {
 
 MachineSize size_of(const model::Robot& robot) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
-  constexpr double kLargestPayload = 2300;  // kg, of the strongest arm that is sold (data sheet)
   MachineSize size;
   double mass = 0;
   for (std::size_t i = 0; i < robot.elastic.joints.size(); ++i) {

@@ -66,11 +66,12 @@ constexpr double kSpringTurn = 0.1;  ///< rad, the most under the load that a sp
 /// Error of an arm's geometry against its drawing, several times of what calibration found on
 /// industrial arms (Nubiola and Bonev 2013; Ginani and Motta 2011): tenths of a millimetre and of a
 /// milliradian up to some, on reaches of 1 to 3 m.
-constexpr double kUsualShift = 2e-3;    ///< of the reach
-constexpr double kUsualTilt = 5e-3;     ///< rad
-constexpr double kShiftOfReach = 0.05;  ///< of the reach, the same
-constexpr double kMostTurn = 0.1;       ///< rad/(N·m), of springs that are made soft on purpose
-constexpr double kMostShift = 0.01;     ///< m/N, ten times as soft as rubber feet
-constexpr double kGravity = 9.81;       ///< m/s²
+constexpr double kUsualShift = 2e-3;      ///< of the reach
+constexpr double kUsualTilt = 5e-3;       ///< rad
+constexpr double kShiftOfReach = 0.05;    ///< of the reach, the same
+constexpr double kMostTurn = 0.1;         ///< rad/(N·m), of springs that are made soft on purpose
+constexpr double kMostShift = 0.01;       ///< m/N, ten times as soft as rubber feet
+constexpr double kGravity = 9.81;         ///< m/s²
+constexpr double kLargestPayload = 2300;  ///< kg, of the strongest arm that is sold (data sheet)
 
 }  // namespace flexcomp::effects

@@ -93,6 +93,17 @@ class Check(Command):
         degrees = self.file("degrees.yaml", text + "tool: {xyz: [0, 0, 0.25], rpy: [0, 90, 0]}\n")
         self.assert_refused("check", "--model", degrees, saying="'tool.rpy': expected radians, found 90")
 
+    def test_a_tool_in_grams_and_millimetres_is_told(self):
+        text = KR270.read_text().replace("urdf: kr270.urdf", f"urdf: {KR270.parent / 'kr270.urdf'}")
+        tool = "tool: {xyz: [0, 0, 0.25], mass: 12000, com: [0, 0, 100]}\n"
+        self.assertEqual(["tool.size", "payload.size"], self.wrong("--model", self.file("g.yaml", text + tool)))
+        tool = "tool: {xyz: [0, 0, 0.25], mass: 12, com: [0, 0, 0.1]}\n"
+        self.assertEqual([], self.check("--model", self.file("kg.yaml", text + tool), exit_code=0))
+
+    def test_a_recording_without_joint_angles_is_told(self):
+        recording = self.file("r.csv", "t,x,y,z\n0,1,2,3\n0.1,1,2,3\n")
+        self.assertEqual(["column.missing"], self.wrong("--model", KR270, "--recording", recording))
+
     def test_a_force_in_another_unit_is_told_though_the_robot_could_not_bear_it(self):
         kilo = self.changed(self.recorded(), "kilo.csv", **{name: lambda value: 1e5 * value for name in ("fx", "fy", "fz")})
         self.assertEqual(["units.wrench"], self.wrong("--model", KR270, "--recording", kilo))
