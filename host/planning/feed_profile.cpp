@@ -35,10 +35,7 @@ class Profile {
 
  private:
   double speed_between(std::size_t i, double way) const {
-    const programs::Motion& motion = program_.motions[points_[i].motion];
-    double speed = motion.kind == MotionKind::rapid ? limits_.rapid
-                   : motion.feed > 0                ? motion.feed
-                                                    : limits_.feed;
+    double speed = way / time_at_feed(i, way);
     for (Eigen::Index joint = 0; joint < 6; ++joint) {
       const auto row = static_cast<Eigen::Index>(i);
       const double turn = std::abs(q_(row, joint) - q_(row - 1, joint));
@@ -47,6 +44,22 @@ class Profile {
       }
     }
     return speed;
+  }
+
+  /// The slower governs of the TCP's feed and that of the orientation.
+  double time_at_feed(std::size_t i, double way) const {
+    const programs::Motion& motion = program_.motions[points_[i].motion];
+    if (motion.kind == MotionKind::rapid) {
+      return way / limits_.rapid;
+    }
+    const Pose<double>& from = points_[i - 1].pose;
+    const Pose<double>& to = points_[i].pose;
+    const double feed = motion.feed > 0 ? motion.feed : limits_.feed;
+    const double turn_feed = motion.turn_feed > 0 ? motion.turn_feed : limits_.turn;
+    constexpr double kStands = 1e-9;  // m
+    return std::max({(to.position - from.position).norm() / feed,
+                     programs::turn_between(from.rotation, to.rotation) / turn_feed,
+                     kStands / feed});
   }
 
   /// The speed round a bend. Within a motion its curvature tells; from one motion to the next the

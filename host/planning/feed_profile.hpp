@@ -8,7 +8,9 @@ namespace flexcomp::planning {
 
 /// How fast a program may be run.
 struct FeedLimits {
-  double feed = 0.05;         ///< m/s, where the program does not say
+  double feed = 0.05;  ///< m/s, where the program does not say
+  /// rad/s, of the orientation, where the program does not say: that of ABB's v5 to v7000
+  double turn = 500 * programs::kDegree;
   double rapid = 0.5;         ///< m/s, of rapids
   double acceleration = 2.0;  ///< m/s², along the way and across it
   double corner = 1e-4;  ///< m, by which a corner would be rounded at the speed it is passed at

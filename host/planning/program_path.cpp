@@ -14,12 +14,6 @@ using programs::MotionKind;
 constexpr double kStands = 1e-9;  // m
 constexpr std::size_t kMostPoints = 5000000;
 
-/// The rotation between two orientations, rad, to first order where it is small.
-double turn_between(const Matrix3<double>& from, const Matrix3<double>& to) {
-  const double chord = (to - from).norm() / std::sqrt(8.0);  // the sine of half the angle
-  return 2 * std::asin(std::min(chord, 1.0));
-}
-
 /// Steps of an arc so that its chords are off by `error` at most: r (1 − cos(step/2)).
 double arc_steps(const Pose<double>& start, const Motion& motion, double error) {
   if (motion.kind != MotionKind::circular) {
@@ -33,7 +27,7 @@ double arc_steps(const Pose<double>& start, const Motion& motion, double error) 
 std::size_t steps_of(const Pose<double>& start, const Motion& motion,
                      const PathSampling& sampling) {
   const double length = programs::length_of(start, motion);
-  const double turn = turn_between(start.rotation, motion.end.rotation);
+  const double turn = programs::turn_between(start.rotation, motion.end.rotation);
   const double steps = std::max({1.0, length / sampling.largest_step, turn / sampling.largest_turn,
                                  arc_steps(start, motion, sampling.chord_error)});
   constexpr auto kMost = static_cast<double>(kMostPoints);
@@ -75,7 +69,7 @@ void append(const Pose<double>& start, const Motion& motion, std::size_t index,
 
 double distance(const Pose<double>& from, const Pose<double>& to) {
   return std::max((to.position - from.position).norm(),
-                  kTurningLever * turn_between(from.rotation, to.rotation));
+                  kTurningLever * programs::turn_between(from.rotation, to.rotation));
 }
 
 std::vector<PathPoint> sample(const programs::Program& program, const PathSampling& sampling) {

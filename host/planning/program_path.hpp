@@ -20,7 +20,7 @@ struct PathPoint {
   std::size_t motion = 0;  ///< number of the motion that it belongs to
 };
 
-/// Turning by a radian counts as much as going this far (m): feeds of motions that only turn.
+/// Turning by a radian counts as much as going this far (m): rapids, accelerations, tolerances.
 constexpr double kTurningLever = 0.1;
 
 /// Points along a program: its first motion's end, and then every motion's points without its

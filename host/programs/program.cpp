@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "error.hpp"
@@ -68,6 +69,11 @@ double length_of(const Pose<double>& start, const Motion& motion) {
   return std::hypot((from.radius + to.radius) / 2 * motion.arc.angle, to.height - from.height);
 }
 
+double turn_between(const Matrix3<double>& from, const Matrix3<double>& to) {
+  const double chord = (to - from).norm() / std::sqrt(8.0);  // the sine of half the angle
+  return 2 * std::asin(std::min(chord, 1.0));
+}
+
 std::optional<Arc> arc_through(const Vector& start, const Vector& between, const Vector& end) {
   const Vector first = between - start;
   const Vector second = end - start;
@@ -105,11 +111,11 @@ Program unread(Format format, const std::string& file, std::string text) {
 
 void append(const Motion& motion, Program* program) {
   constexpr double kFarthest = 1e5;  // m
-  constexpr double kFastest = 1e4;   // m/s
+  constexpr double kFastest = 1e4;   // m/s, rad/s
   if (!(motion.end.position.cwiseAbs().maxCoeff() <= kFarthest)) {
     refuse(program->file, motion.line, "no machine reaches so far");
   }
-  if (!(motion.feed <= kFastest)) {
+  if (!(motion.feed <= kFastest && motion.turn_feed <= kFastest)) {
     refuse(program->file, motion.line, "no machine feeds so fast");
   }
   program->motions.push_back(motion);

@@ -37,6 +37,7 @@ struct Motion {
   Pose<double> end;
   Arc arc;
   double feed = 0;          ///< m/s; zero where the program does not say
+  double turn_feed = 0;     ///< rad/s, of the orientation at most; zero where it does not say
   bool is_cutting = false;  ///< spindle on, and no rapid
   std::size_t line = 0;     ///< of the file, from 1
   /// Bytes of the file's text that the motion's statement is: [begin, finish).
@@ -66,6 +67,9 @@ Pose<double> pose_at(const Pose<double>& start, const Motion& motion, double sha
 
 /// Length of the TCP's way along a motion, m.
 double length_of(const Pose<double>& start, const Motion& motion);
+
+/// The angle of the rotation between two orientations, rad.
+double turn_between(const Matrix3<double>& from, const Matrix3<double>& to);
 
 /// The arc from one point to another by a third between; nothing if they lie on a line, or are the
 /// same.

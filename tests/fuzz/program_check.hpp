@@ -17,6 +17,7 @@ inline void check_motions(const programs::Program& program) {
   for (const programs::Motion& motion : program.motions) {
     expect(motion.end.position.allFinite() && motion.end.rotation.allFinite(), "poses are finite");
     expect(motion.feed >= 0 && motion.feed < 1e12, "feeds are finite");
+    expect(motion.turn_feed >= 0 && motion.turn_feed < 1e12, "turns are finite");
     expect(motion.arc.center.allFinite() && motion.arc.angle >= 0, "arcs are finite");
     expect(motion.begin >= at && motion.finish >= motion.begin, "statements stand in order");
     at = motion.finish;

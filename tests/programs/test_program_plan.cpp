@@ -8,6 +8,7 @@
 #include "planning/motion_fit.hpp"
 #include "planning/program_plan.hpp"
 #include "programs/gcode_reader.hpp"
+#include "programs/rapid_reader.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::InputError;
@@ -115,6 +116,27 @@ void feeds_accelerations_and_joint_speeds_are_kept() {
     fastest = std::max(fastest, speed);
   }
   TEST_ASSERT_TRUE(fastest > 0.049);
+}
+
+/// From the program's first point to its last, s.
+double seconds_of(const Program& program) {
+  const PlannedProgram at =
+      plan_program(kr270(), program, plan_at({1.6, 0, 0.8}), [](std::size_t, std::size_t) {});
+  return at.recording.time[at.recording.size() - 1];
+}
+
+/// As in RAPID's v5, which has 500 degrees a second: 50 mm take 10 s, and the turn governs where it
+/// takes longer.
+void the_slower_of_feed_and_turn_governs() {
+  Program program = rapid_program(
+      "p.mod",
+      "MODULE p\nPROC main()\n"
+      "MoveJ [[0,0,10],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;\n"
+      "MoveL [[50,0,10],[0,0.9659258,0.2588190,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,"
+      "tool0;\nENDPROC\nENDMODULE\n");
+  TEST_ASSERT_DOUBLE_WITHIN(0.05, 10, seconds_of(program));
+  program.motions[1].turn_feed = 1.5 * kDegree;
+  TEST_ASSERT_DOUBLE_WITHIN(0.05, 20, seconds_of(program));
 }
 
 /// Straight ahead of the robot with the tool's x axis along the base's, joint 5 would stand near
@@ -245,6 +267,7 @@ int main() {
   RUN_TEST(arcs_are_sampled_within_the_chord_error);
   RUN_TEST(the_wrench_turns_with_the_feed_where_it_cuts);
   RUN_TEST(feeds_accelerations_and_joint_speeds_are_kept);
+  RUN_TEST(the_slower_of_feed_and_turn_governs);
   RUN_TEST(the_tools_turn_keeps_away_from_limits_and_singularities);
   RUN_TEST(without_a_frame_one_in_reach_is_found);
   RUN_TEST(what_is_out_of_reach_is_refused_with_its_line);
