@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,38 +10,13 @@
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
 #include "programs/gcode_arc.hpp"
+#include "programs/gcode_axes.hpp"
+#include "programs/gcode_line.hpp"
+#include "programs/gcode_modes.hpp"
 #include "programs/gcode_words.hpp"
 
 namespace flexcomp::programs {
 namespace {
-
-/// Values of a line's words by letter.
-class Line {
- public:
-  explicit Line(const std::vector<Word>& words) {
-    for (const Word& word : words) {
-      if (word.letter != 'G' && word.letter != 'M') {
-        is_twice_ = is_twice_ || has(word.letter);
-        has_[index(word.letter)] = true;
-        value_[index(word.letter)] = word.number;
-      }
-    }
-  }
-
-  bool has(char letter) const { return has_[index(letter)]; }
-  bool has_any(std::string_view letters) const {
-    return std::any_of(letters.begin(), letters.end(), [&](char c) { return has(c); });
-  }
-  double value(char letter) const { return value_[index(letter)]; }
-  bool holds_a_letter_twice() const { return is_twice_; }
-
- private:
-  static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
-
-  std::array<bool, 26> has_{};
-  std::array<double, 26> value_{};
-  bool is_twice_ = false;
-};
 
 class GcodeReader {
  public:
@@ -56,8 +30,14 @@ class GcodeReader {
       ++line_;
       begin_ = begin;
       finish_ = end;
-      read_line(text.substr(begin, end - begin));
-      begin = end + 1;
+      const std::string_view line = text.substr(begin, end - begin);
+      begin = std::min(end + 1, text.size());
+      if (begins_with('%', line) && has_begun_) {
+        end_at_percent(text.substr(begin));
+      } else {
+        read_line(line);
+        has_begun_ = has_begun_ || begins_with('%', line) || !words_.empty();
+      }
     }
     if (!has_spindle_) {  // a program that never says so cuts wherever it feeds
       for (Motion& motion : program_.motions) {
@@ -73,32 +53,49 @@ class GcodeReader {
     fail(fmt::format("'{}{:g}': {}", word.letter, word.number, why));
   }
 
+  void note(const std::string& text) { program_.notes.push_back({line_, text}); }
+
   void read_line(std::string_view text) {
     const std::string wrong = read_words(text, &words_);
     if (!wrong.empty()) {
       fail(wrong);
     }
-    const Line line(words_);
+    const GcodeLine line(words_);
     if (line.holds_a_letter_twice()) {
       fail("a letter stands twice in the line");
     }
     has_motion_word_ = false;
     goes_to_machine_place_ = false;
     takes_p_ = false;
+    has_dwell_ = false;
+    modes_.read(words_);
     for (const Word& word : words_) {
       read_word(word);
     }
-    if (line.has('F')) {
-      read_feed(line.value('F'));
+    if (line.has('F') && !(line.value('F') > 0)) {
+      fail(fmt::format("'F{:g}': a feed must be above zero", line.value('F')));
     }
     refuse_loose_words(line);
     const bool is_circle = (motion_ == 2 || motion_ == 3) && line.has_any("IJK");
-    if (line.has_any("XYZABC") || is_circle) {
-      if (goes_to_machine_place_) {
-        program_.notes.push_back({line_, "goes to a place of the machine: left as it is"});
-      } else {
-        move(line);
-      }
+    if (goes_to_machine_place_) {
+      note("goes to a place of the machine: left as it is");
+      axes_.lose_named(line, line_);
+    } else if (line.has_any("XYZABC") || is_circle) {
+      move(line);
+    }
+  }
+
+  /// Is this a line's first character, behind blanks?
+  static bool begins_with(char mark, std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    return first != std::string_view::npos && line[first] == mark;
+  }
+
+  /// A file may stand between two lines of a percent sign; what follows is none of the program.
+  void end_at_percent(std::string_view behind) {
+    is_over_ = true;
+    if (behind.find_first_not_of(" \t\r\n") != std::string_view::npos) {
+      note("the program ends at this '%'; what stands behind it is not read");
     }
   }
 
@@ -130,6 +127,10 @@ class GcodeReader {
         motion_ = word.code() / 10;
         break;
       case 40:
+        has_dwell_ = true;
+        takes_p_ = true;
+        note("the path does not wait here: a dwell has no time in it");
+        break;
       case 610:
       case 611:
       case 640:
@@ -144,12 +145,6 @@ class GcodeReader {
       case 190:
         normal_ = 0;
         break;
-      case 200:
-        unit_ = kInch;
-        break;
-      case 210:
-        unit_ = kMillimetre;
-        break;
       case 280:
       case 300:
       case 530:
@@ -157,24 +152,6 @@ class GcodeReader {
         break;
       case 800:
         motion_ = -1;
-        break;
-      case 900:
-        is_relative_ = false;
-        break;
-      case 910:
-        is_relative_ = true;
-        break;
-      case 901:
-        is_center_absolute_ = true;
-        break;
-      case 911:
-        is_center_absolute_ = false;
-        break;
-      case 930:
-        is_inverse_time_ = true;
-        break;
-      case 940:
-        is_inverse_time_ = false;
         break;
       case 410:
       case 420:
@@ -186,7 +163,8 @@ class GcodeReader {
 
   void read_other_g(const Word& word) {
     const int code = word.code();
-    constexpr std::array<int, 7> kWithoutMotion = {400, 430, 434, 490, 970, 980, 990};
+    constexpr std::array<int, 15> kWithoutMotion = {200, 210, 400, 430, 434, 490, 900, 901,
+                                                    910, 911, 930, 940, 970, 980, 990};
     if (std::find(kWithoutMotion.begin(), kWithoutMotion.end(), code) != kWithoutMotion.end()) {
       return;
     }
@@ -211,13 +189,15 @@ class GcodeReader {
         is_spinning_ = true;
         has_spindle_ = true;
         break;
+      case 60:
+        axes_.lose_tip(line_);
+        break;
       case 50:
         is_spinning_ = false;
         has_spindle_ = true;
         break;
       case 0:
       case 10:
-      case 60:
       case 70:
       case 80:
       case 90:
@@ -230,18 +210,14 @@ class GcodeReader {
     }
   }
 
-  void read_feed(double feed) {
-    if (!(feed > 0)) {
-      fail(fmt::format("'F{:g}': a feed must be above zero", feed));
-    }
-    feed_ = feed;
-  }
-
-  void refuse_loose_words(const Line& line) const {
+  void refuse_loose_words(const GcodeLine& line) const {
     const bool is_arc = motion_ == 2 || motion_ == 3;
     const bool moves = line.has_any("XYZABC");
     if (line.has('P') && !takes_p_ && !is_arc) {
       fail("'P': goes with G4, G64 and arcs alone");
+    }
+    if (moves && has_dwell_) {
+      fail("a dwell with an axis; expected G4 and P");
     }
     if (line.has('Q') && !takes_p_) {
       fail("'Q': unknown word");
@@ -257,56 +233,84 @@ class GcodeReader {
     }
   }
 
-  double length(double value) const { return unit_ * value; }
-
-  void move(const Line& line) {
-    const Vector3<double> start = at_;
-    for (int axis = 0; axis < 3; ++axis) {
-      set_axis(line, static_cast<char>('X' + axis), unit_, &at_[axis]);
-      set_axis(line, static_cast<char>('A' + axis), kDegree, &turn_[axis]);
+  void move(const GcodeLine& line) {
+    const GcodeAxes start = axes_;
+    axes_.go(line, modes_);
+    if (motion_ != 0) {
+      refuse_unknown_start(line, start);
     }
+    if (!axes_.are_known()) {
+      note(axes_.why_unknown() + "; left as it is");
+      return;
+    }
+    note_block_delete();
     Motion motion;
     motion.kind = motion_ == 0   ? MotionKind::rapid
                   : motion_ == 1 ? MotionKind::linear
                                  : MotionKind::circular;
-    motion.end = {orientation(), at_};
+    motion.end = {axes_.orientation(), axes_.place()};
+    motion.has_known_start = start.are_known();
     motion.line = line_;
     motion.begin = begin_;
     motion.finish = finish_;
     motion.is_cutting = is_spinning_ && motion.kind != MotionKind::rapid;
     if (motion.kind == MotionKind::circular) {
-      motion.arc = arc_of(line, start);
+      motion.arc = arc_of(line, start.place());
     }
     if (motion.kind != MotionKind::rapid) {
-      motion.feed = feed_of(motion, start, line);
+      set_feed(line, start, &motion);
+    }
+    if (!motion.has_known_start && !program_.motions.empty()) {
+      note(fmt::format("{}; the way here from line {} is planned as straight", start.why_unknown(),
+                       program_.motions.back().line));
     }
     append(motion, &program_);
   }
 
-  void set_axis(const Line& line, char letter, double unit, double* value) const {
-    if (line.has(letter)) {
-      *value = (is_relative_ ? *value : 0) + unit * line.value(letter);
+  void note_block_delete() {
+    const std::string_view line(program_.text.data() + begin_, finish_ - begin_);
+    if (!has_block_delete_ && begins_with('/', line)) {
+      has_block_delete_ = true;
+      note("lines with a '/' are planned as if they are run");
     }
   }
 
-  Matrix3<double> orientation() const {
-    using Eigen::AngleAxisd;
-    using Vector = Vector3<double>;
-    return (AngleAxisd(turn_[2], Vector::UnitZ()) * AngleAxisd(turn_[1], Vector::UnitY()) *
-            AngleAxisd(turn_[0], Vector::UnitX()) * AngleAxisd(M_PI, Vector::UnitX()))
-        .toRotationMatrix();
+  /// A cut is planned from a place that is known alone. The first motion's way is not planned.
+  void refuse_unknown_start(const GcodeLine& line, const GcodeAxes& start) const {
+    const bool is_first_point = program_.motions.empty() && motion_ == 1 && !modes_.is_relative &&
+                                line.has('X') && line.has('Y') && line.has('Z');
+    if (!start.are_known() && !(is_first_point && axes_.are_known())) {
+      fail(start.why_unknown() + "; a motion at a feed begins where G0 has told X, Y and Z");
+    }
   }
 
-  double feed_of(const Motion& motion, const Vector3<double>& start, const Line& line) const {
-    if (feed_ == 0 || (is_inverse_time_ && !line.has('F'))) {
+  /// In G93 a motion takes a share of a minute. In G94 the feed is of X, Y and Z where one of them
+  /// moves, else degrees a minute of A, B and C as if they were at right angles (NISTIR 6556,
+  /// 2.1.2.5).
+  void set_feed(const GcodeLine& line, const GcodeAxes& start, Motion* motion) const {
+    if (modes_.feed == 0 || (modes_.is_inverse_time && !line.has('F'))) {
       fail("the feed is missing: expected F");
     }
-    return is_inverse_time_ ? length_of({motion.end.rotation, start}, motion) * feed_ / 60
-                            : length(feed_) / 60;
+    constexpr double kStands = 1e-9;  // m
+    const double rate = modes_.feed / 60;
+    const Pose<double> from =
+        start.are_known() ? Pose<double>{start.orientation(), start.place()} : motion->end;
+    const double way = length_of(from, *motion);
+    const double turn = way > kStands ? 0 : turn_between(from.rotation, motion->end.rotation);
+    if (modes_.is_inverse_time) {
+      motion->feed = way > kStands ? way * rate : 0;
+      motion->turn_feed = turn * rate;
+    } else if (turn > 0) {
+      motion->turn_feed = turn * kDegree * rate / (axes_.turn() - start.turn()).norm();
+    } else {
+      motion->feed = length(rate);
+    }
   }
 
-  Arc arc_of(const Line& line, const Vector3<double>& start) const {
-    const ArcRequest request{start, at_, normal_, motion_ == 2};
+  double length(double value) const { return modes_.unit * value; }
+
+  Arc arc_of(const GcodeLine& line, const Vector3<double>& start) const {
+    const ArcRequest request{start, axes_.place(), normal_, motion_ == 2};
     Arc arc;
     const std::string wrong = line.has('R') ? arc_by_radius(request, length(line.value('R')), &arc)
                                             : arc_by_center(request, center_of(line, start), &arc);
@@ -317,7 +321,7 @@ class GcodeReader {
     return arc;
   }
 
-  Vector3<double> center_of(const Line& line, const Vector3<double>& start) const {
+  Vector3<double> center_of(const GcodeLine& line, const Vector3<double>& start) const {
     if (!line.has_any("IJK")) {
       fail("an arc without its middle; expected I, J, K or R");
     }
@@ -328,13 +332,13 @@ class GcodeReader {
         fail("the middle of an arc lies in its plane (G17: I, J; G18: I, K; G19: J, K)");
       }
       if (line.has(letter)) {
-        center[axis] = (is_center_absolute_ ? 0 : start[axis]) + length(line.value(letter));
+        center[axis] = (modes_.is_center_absolute ? 0 : start[axis]) + length(line.value(letter));
       }
     }
     return center;
   }
 
-  void add_turns(const Line& line, Arc* arc) const {
+  void add_turns(const GcodeLine& line, Arc* arc) const {
     if (!line.has('P')) {
       return;
     }
@@ -351,22 +355,20 @@ class GcodeReader {
   std::size_t begin_ = 0;
   std::size_t finish_ = 0;
   bool is_over_ = false;
+  bool has_begun_ = false;  // with a percent sign or a word
 
-  double unit_ = kMillimetre;
+  GcodeModes modes_;
+  GcodeAxes axes_;
   int normal_ = 2;  // axis across the plane of arcs
   int motion_ = -1;
   int offset_ = 0;
-  double feed_ = 0;
-  bool is_relative_ = false;
-  bool is_center_absolute_ = false;
-  bool is_inverse_time_ = false;
   bool is_spinning_ = false;
   bool has_spindle_ = false;
   bool has_motion_word_ = false;
   bool goes_to_machine_place_ = false;
   bool takes_p_ = false;
-  Vector3<double> at_ = Vector3<double>::Zero();
-  Vector3<double> turn_ = Vector3<double>::Zero();
+  bool has_block_delete_ = false;  // in a line that moves
+  bool has_dwell_ = false;
 };
 
 }  // namespace

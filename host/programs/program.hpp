@@ -39,7 +39,10 @@ struct Motion {
   double feed = 0;          ///< m/s; zero where the program does not say
   double turn_feed = 0;     ///< rad/s, of the orientation at most; zero where it does not say
   bool is_cutting = false;  ///< spindle on, and no rapid
-  std::size_t line = 0;     ///< of the file, from 1
+  /// Does the program tell the place that it comes from? Else it is planned as straight from the
+  /// end of the motion before it.
+  bool has_known_start = true;
+  std::size_t line = 0;  ///< of the file, from 1
   /// Bytes of the file's text that the motion's statement is: [begin, finish).
   std::size_t begin = 0;
   std::size_t finish = 0;

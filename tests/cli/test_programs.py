@@ -128,7 +128,9 @@ class Programs(Command):
 
     def test_unusable_programs_are_refused(self):
         out = self.folder / "o.csv"
-        for name, text, saying in (("p.nc", "G1 X1 F60\nG5 X2\n", "p.nc:2: 'G5': unknown word"),
+        for name, text, saying in (("p.nc", "G1 X1 Y1 Z1 F60\nG5 X2\n", "p.nc:2: 'G5': unknown word"),
+                                   ("p.nc", "G0 X0 Y0 Z10\nG53 G0 Z0\nG1 X10 F600\n",
+                                    "p.nc:3: Z is not known: line 2 goes to a place of the machine"),
                                    ("p.nc", "M3\n", "p.nc: a program without motions"),
                                    ("p.txt", "G0 X1\n", "no program's ending"),
                                    ("p.csv", "x,y,z,w\n1,2,3,4\n", "p.csv:1: column 'w' is unknown"),

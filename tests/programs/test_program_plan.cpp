@@ -125,6 +125,20 @@ double seconds_of(const Program& program) {
   return at.recording.time[at.recording.size() - 1];
 }
 
+double seconds_of(const std::string& text) {
+  return seconds_of(gcode_program("p.nc", "G0 X0 Y0 Z10 A0\n" + text));
+}
+
+/// NISTIR 6556: F2 in G93 is half a minute; in G94 it is of X, Y and Z where they move, else
+/// degrees a minute. To speed up and slow down takes a few hundredths of a second.
+void feeds_take_the_time_of_the_standard_while_the_tool_turns() {
+  TEST_ASSERT_DOUBLE_WITHIN(0.05, 30, seconds_of("G93 G1 X10 A30 F2\n"));
+  TEST_ASSERT_DOUBLE_WITHIN(0.05, 30, seconds_of("G93 G1 A10 F2\n"));
+  TEST_ASSERT_DOUBLE_WITHIN(0.06, 1, seconds_of("G94 G1 X10 A30 F600\n"));
+  TEST_ASSERT_DOUBLE_WITHIN(0.05, 3, seconds_of("G94 G1 A30 F600\n"));
+  TEST_ASSERT_DOUBLE_WITHIN(0.05, 60, seconds_of("G1 X10 F10\n"));
+}
+
 /// As in RAPID's v5, which has 500 degrees a second: 50 mm take 10 s, and the turn governs where it
 /// takes longer.
 void the_slower_of_feed_and_turn_governs() {
@@ -267,6 +281,7 @@ int main() {
   RUN_TEST(arcs_are_sampled_within_the_chord_error);
   RUN_TEST(the_wrench_turns_with_the_feed_where_it_cuts);
   RUN_TEST(feeds_accelerations_and_joint_speeds_are_kept);
+  RUN_TEST(feeds_take_the_time_of_the_standard_while_the_tool_turns);
   RUN_TEST(the_slower_of_feed_and_turn_governs);
   RUN_TEST(the_tools_turn_keeps_away_from_limits_and_singularities);
   RUN_TEST(without_a_frame_one_in_reach_is_found);
