@@ -7,7 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "programs/gcode_words.hpp"
+#include "programs/gcode_modes.hpp"
+#include "programs/gcode_statement.hpp"
 #include "programs/krl_point.hpp"
 #include "programs/rewriting.hpp"
 #include "programs/scanner.hpp"
@@ -15,25 +16,40 @@
 namespace flexcomp::programs {
 namespace {
 
-/// Words that the writer gives anew, of a line that moves.
-bool is_replaced(const Word& word) {
-  constexpr std::array<int, 10> kCodes = {0, 10, 20, 30, 900, 910, 901, 911, 930, 940};
-  if (word.letter == 'G') {
-    return std::find(kCodes.begin(), kCodes.end(), word.code()) != kCodes.end();
+constexpr std::string_view kAngleLetters = "ABC";
+
+/// A number without an exponent, to seven digits, and no zeros behind its last.
+std::string plain(double value) {
+  const int before = value > 0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
+  std::string text = fixed(value, std::clamp(6 - before, 0, 12));
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    text.erase(text.find_last_not_of('.') + 1);
   }
-  return std::string_view("XYZABCIJKRPF").find(word.letter) != std::string_view::npos;
+  return text;
 }
+
+/// A line in place of a motion, or of a part of it.
+struct GcodeStep {
+  MotionKind kind = MotionKind::linear;
+  Pose<double> end;
+  double share = 1;  ///< of the motion's way, or of its turn
+};
 
 class GcodeWriter {
  public:
   explicit GcodeWriter(const CorrectedProgram& program)
       : program_(program), source_(program.source) {
     const Matrix3<double> down = orientation_by_axis(Vector3<double>::UnitZ());
-    has_angles_ = std::any_of(
+    const bool is_tilted = std::any_of(
         source_.motions.begin(), source_.motions.end(),
         [&](const Motion& each) { return (each.end.rotation.col(2) - down.col(2)).norm() > 1e-9; });
+    modes_.assign(source_.motions.size(), {});
     if (source_.format == Format::gcode) {
-      read_units();
+      read_source();
+    }
+    for (std::size_t i = 0; i < angles_.size(); ++i) {
+      angles_[i] = is_tilted || told_.find(kAngleLetters[i]) != std::string::npos;
     }
   }
 
@@ -47,34 +63,33 @@ class GcodeWriter {
     std::replace(origin.begin(), origin.end(), ')', ']');
     std::string text = fmt::format("({})\nG21 G90 G94 G17\n", origin);
     for (std::size_t i = 0; i < source_.motions.size(); ++i) {
-      text += lines_of(i, "\n") + "\n";
+      text += new_lines(i);
     }
     return text + "M2\n";
   }
 
  private:
-  /// The unit that holds in each line that moves.
-  void read_units() {
-    units_.assign(source_.motions.size(), kMillimetre);
+  /// The modes that hold in each line that moves, and the letters of angles that the program has.
+  void read_source() {
     std::vector<Word> words;
     std::size_t motion = 0;
-    double unit = kMillimetre;
+    GcodeModes modes;
     std::size_t number = 0;
-    for (std::size_t begin = 0; begin < source_.text.size() && motion < units_.size();) {
+    for (std::size_t begin = 0; begin < source_.text.size() && motion < modes_.size();) {
       read_words(next_line(source_.text, &begin), &words);
       ++number;
+      modes.read(words);
       for (const Word& word : words) {
-        unit = word.letter == 'G' && word.code() == 200   ? kInch
-               : word.letter == 'G' && word.code() == 210 ? kMillimetre
-                                                          : unit;
+        const bool is_angle = kAngleLetters.find(word.letter) != std::string_view::npos;
+        told_ += is_angle && told_.find(word.letter) == std::string::npos
+                     ? std::string(1, word.letter)
+                     : std::string();
       }
       if (source_.motions[motion].line == number) {
-        units_[motion++] = unit;
+        modes_[motion++] = modes;
       }
     }
   }
-
-  double unit_of(std::size_t motion) const { return units_.empty() ? kMillimetre : units_[motion]; }
 
   /// The tool's axis as the pose has it, its turn about that as near as can be to the source's.
   static std::array<double, 3> angles_of(const Pose<double>& pose, const Motion& source) {
@@ -87,81 +102,154 @@ class GcodeWriter {
   }
 
   std::string axes(const Pose<double>& pose, std::size_t motion) const {
-    const double unit = unit_of(motion);
+    const double unit = modes_[motion].unit;
     const int decimals = unit == kInch ? 6 : 4;
     const Vector3<double> place = pose.position / unit;
     std::string text = fmt::format("X{} Y{} Z{}", fixed(place.x(), decimals),
                                    fixed(place.y(), decimals), fixed(place.z(), decimals));
-    if (has_angles_) {
-      const std::array<double, 3> angles = angles_of(pose, source_.motions[motion]);
-      text += fmt::format(" A{} B{} C{}", fixed(angles[2], 6), fixed(angles[1], 6),
-                          fixed(angles[0], 6));
+    const std::array<double, 3> angles = angles_of(pose, source_.motions[motion]);
+    for (std::size_t i = 0; i < angles_.size(); ++i) {
+      if (angles_[i]) {
+        text += fmt::format(" {}{}", kAngleLetters[i], fixed(angles[2 - i], 6));
+      }
     }
     return text;
   }
 
-  /// The motion's lines, without the last one's end.
-  std::string lines_of(std::size_t motion, std::string_view end) {
-    const Motion& own = source_.motions[motion];
-    std::string text;
+  std::vector<GcodeStep> steps_of(std::size_t motion) const {
+    const bool is_turn = turns_more(motion);
+    std::vector<GcodeStep> steps;
+    double whole = 0;
     visit_in_place(program_, motion, [&](const Pose<double>& start, const Motion& each, bool) {
-      const int steps = chords_of(start, each);
-      for (int step = 1; step <= steps; ++step) {
-        text += text.empty() ? "" : std::string(end);
-        text += each.kind == MotionKind::rapid ? "G0 " : "G1 ";
-        text += axes(pose_at(start, each, static_cast<double>(step) / steps), motion);
-        const bool is_new_feed =
-            own.feed > 0 && (own.feed != feed_ || unit_of(motion) != feed_unit_);
-        if (is_new_feed && each.kind != MotionKind::rapid) {
-          feed_ = own.feed;
-          feed_unit_ = unit_of(motion);
-          text += fmt::format(" F{}", fixed(60 * feed_ / feed_unit_, 3));
-        }
+      const int chords = chords_of(start, each);
+      Pose<double> from = start;
+      for (int chord = 1; chord <= chords; ++chord) {
+        const Pose<double> to = pose_at(start, each, static_cast<double>(chord) / chords);
+        const double part = is_turn ? turn_between(from.rotation, to.rotation)
+                                    : (to.position - from.position).norm();
+        steps.push_back({each.kind, to, part});
+        whole += part;
+        from = to;
       }
     });
-    return text;
+    for (GcodeStep& step : steps) {
+      constexpr double kLeast = 1e-6;  // each takes some time
+      step.share =
+          whole > 0 ? std::max(step.share / whole, kLeast) : 1 / static_cast<double>(steps.size());
+    }
+    return steps;
   }
 
-  std::string line_in_place(std::size_t motion) {
+  /// Does the source's motion turn the tool by more radians than it moves it by metres? What
+  /// corrects it is about a millimetre and a milliradian.
+  bool turns_more(std::size_t motion) const {
     const Motion& own = source_.motions[motion];
-    std::string line = source_.text.substr(own.begin, own.finish - own.begin);
+    const Pose<double>& start = source_.motions[motion == 0 ? 0 : motion - 1].end;
+    return turn_between(start.rotation, own.end.rotation) > length_of(start, own);
+  }
+
+  /// Does the source's motion turn the tool about its tip? Corrected, it moves the tip a little,
+  /// and a feed in G94 would be of that little way: G93 gives it its time.
+  bool turns_alone(std::size_t motion) const {
+    constexpr double kStands = 1e-9;  // m
+    const Motion& own = source_.motions[motion];
+    return motion > 0 && own.kind != MotionKind::rapid && own.turn_feed > 0 &&
+           length_of(source_.motions[motion - 1].end, own) <= kStands;
+  }
+
+  /// Of a motion that turns the tool alone, s.
+  double seconds_of(std::size_t motion) const {
+    const Motion& own = source_.motions[motion];
+    const Pose<double>& start = source_.motions[motion - 1].end;
+    return turn_between(start.rotation, own.end.rotation) / own.turn_feed;
+  }
+
+  static std::string word_of(const GcodeStep& step) {
+    return step.kind == MotionKind::rapid ? "G0 " : "G1 ";
+  }
+
+  /// A motion of a program in another format.
+  std::string new_lines(std::size_t motion) {
+    const Motion& own = source_.motions[motion];
+    const bool only_turns = turns_alone(motion);
+    std::string text = only_turns ? "G93\n" : "";
+    for (const GcodeStep& step : steps_of(motion)) {
+      text += word_of(step) + axes(step.end, motion);
+      if (only_turns) {
+        text += " F" + plain(60 / (seconds_of(motion) * step.share));
+      } else if (own.feed > 0 && own.feed != feed_ && step.kind != MotionKind::rapid) {
+        feed_ = own.feed;
+        text += fmt::format(" F{}", fixed(60 * feed_ / kMillimetre, 3));
+      }
+      text += "\n";
+    }
+    feed_ = only_turns ? 0 : feed_;
+    return text + (only_turns ? "G94\n" : "");
+  }
+
+  std::string line_in_place(std::size_t motion) const {
+    const Motion& own = source_.motions[motion];
+    const GcodeModes& modes = modes_[motion];
+    const bool is_fed = own.kind != MotionKind::rapid;
+    const bool is_turn_by_the_minute = turns_alone(motion) && !modes.is_inverse_time;
+    const bool has_own_feed = is_fed && (modes.is_inverse_time || is_turn_by_the_minute);
+    const std::vector<GcodeStep> steps = steps_of(motion);
+    const std::string_view line =
+        std::string_view(source_.text).substr(own.begin, own.finish - own.begin);
+    const GcodeStatement statement =
+        gcode_statement(line, {own.kind == MotionKind::circular, has_own_feed}, steps.size() > 1);
+    const std::string_view end = line_end(source_);
+    const std::string mark = statement.is_skippable ? "/" : "";
+    const double seconds = is_turn_by_the_minute ? seconds_of(motion)
+                           : has_own_feed        ? 60 / modes.feed
+                                                 : 0;
+    std::string text = statement.prefix;
+    text += text.empty() || text == "/" || text == "%" ? "" : " ";
+    text += has_own_feed ? "G90 G93 " : "G90 ";  // what stands between may switch to G91
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      text += (i == 0 ? "" : std::string(end) + mark) + word_of(steps[i]);
+      text += axes(steps[i].end, motion);
+      text += has_own_feed ? " F" + plain(60 / (seconds * steps[i].share)) : "";
+      text += i == 0 && !statement.rest.empty() ? " " + statement.rest : "";
+    }
+    text += statement.stops;
+    if (is_turn_by_the_minute) {
+      text += fmt::format("{}{}G94 F{}", end, mark, plain(modes.feed));
+    }
+    if (modes.is_relative && has_axes_behind(motion)) {
+      text += fmt::format("{}G91", end);
+    }
+    const bool has_return = own.finish > own.begin && source_.text[own.finish - 1] == '\r';
+    return text + (has_return ? "\r" : "");
+  }
+
+  /// Do lines that stay as they are have axes, before the next motion? They are meant in the
+  /// source's own mode.
+  bool has_axes_behind(std::size_t motion) const {
+    const std::size_t finish = motion + 1 < source_.motions.size()
+                                   ? source_.motions[motion + 1].begin
+                                   : source_.text.size();
+    const std::string_view behind =
+        std::string_view(source_.text)
+            .substr(source_.motions[motion].finish, finish - source_.motions[motion].finish);
     std::vector<Word> words;
-    read_words(line, &words);
-    for (auto word = words.rbegin(); word != words.rend(); ++word) {
-      if (is_replaced(*word)) {
-        line.erase(word->begin, word->finish - word->begin);
-        while (word->begin < line.size() && word->begin > 0 && line[word->begin] == ' ' &&
-               line[word->begin - 1] == ' ') {
-          line.erase(word->begin, 1);
-        }
+    for (std::size_t begin = 0; begin < behind.size();) {
+      read_words(next_line(behind, &begin), &words);
+      if (std::any_of(words.begin(), words.end(), [](const Word& word) {
+            return std::string_view("XYZABC").find(word.letter) != std::string_view::npos;
+          })) {
+        return true;
       }
     }
-    line.erase(line.find_last_not_of(" \t\r") + 1);
-    const std::string first = line.substr(0, number_end(line));
-    const std::string rest = line.substr(first.size());
-    // G90 in every line: what stands between may switch to G91.
-    std::string moves = lines_of(motion, line_end(source_));
-    const std::size_t end_of_first = std::min(moves.find_first_of("\r\n"), moves.size());
-    moves.insert(end_of_first, rest.empty() || rest.front() == ' ' ? rest : " " + rest);
-    const bool has_return = own.finish > own.begin && source_.text[own.finish - 1] == '\r';
-    return first + (first.empty() ? "" : " ") + "G90 " + moves + (has_return ? "\r" : "");
-  }
-
-  /// Where the line's number ends, if it begins with one.
-  static std::size_t number_end(const std::string& line) {
-    std::vector<Word> words;
-    read_words(line, &words);
-    const bool has_number =
-        !words.empty() && words.front().letter == 'N' && words.front().begin <= 1;
-    return has_number ? words.front().finish : 0;
+    return false;
   }
 
   const CorrectedProgram& program_;
   const Program& source_;
-  std::vector<double> units_;
-  bool has_angles_ = false;
+  std::vector<GcodeModes> modes_;  ///< by motion
+  std::string told_;               ///< letters of angles that the source has
+  std::array<bool, 3> angles_{};   ///< of A, B and C: is it written?
   double feed_ = 0;
-  double feed_unit_ = 0;
 };
 
 }  // namespace

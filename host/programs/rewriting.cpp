@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "files/one_line.hpp"
+#include "programs/gcode_statement.hpp"
 #include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
@@ -22,6 +23,16 @@ std::string_view trimmed_line(std::string_view line) {
 Vector3<double> direction_at(const Pose<double>& start, const Motion& motion, double from,
                              double to) {
   return pose_at(start, motion, to).position - pose_at(start, motion, from).position;
+}
+
+/// Spindle, coolant, comments and the like in a moving line of G-code.
+std::string said_beside(const Program& source, const Motion& motion) {
+  if (source.format != Format::gcode) {
+    return {};
+  }
+  const std::string_view line =
+      std::string_view(source.text).substr(motion.begin, motion.finish - motion.begin);
+  return gcode_statement(line, {motion.kind == MotionKind::circular, true}, false).rest;
 }
 
 }  // namespace
@@ -77,6 +88,10 @@ std::string comments_before(const Program& source, std::size_t motion, const std
     if (!line.empty()) {
       comments += mark + files::one_line(line, kLongest) + "\n";
     }
+  }
+  const std::string beside = motion < count ? said_beside(source, source.motions[motion]) : "";
+  if (!beside.empty()) {
+    comments += mark + files::one_line(beside, kLongest) + "\n";
   }
   return comments;
 }

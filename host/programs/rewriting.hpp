@@ -28,7 +28,7 @@ std::string_view line_end(const Program& source);
 
 /// Lines of the source that stand before a motion and after the one before it, or behind all where
 /// there is no such motion, as comments: each without blanks around, behind `mark`. Empty lines are
-/// left out.
+/// left out. What a moving line of G-code says beside its motion follows them.
 std::string comments_before(const Program& source, std::size_t motion, const std::string& mark);
 
 /// Does the way go on after a motion without a corner (10°) and without a rapid, so that there need

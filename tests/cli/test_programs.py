@@ -89,6 +89,29 @@ class Programs(Command):
         self.assertEqual(1, sum("(PLUNGE)" in line for line in lines))
         self.assertEqual(1, sum("; to the wall" in line for line in lines))
 
+    def test_no_format_has_a_place_that_the_g_code_does_not_tell(self):
+        """Two tools, as CAM writes them: of each the first rapid is before the tool's length and Z."""
+        job = "G0 X{0}. Y0.\nG43 Z40. H{1}\nG0 Z5.\nG1 Z-1. F300.\nX{2}.\nG0 Z40.\n"
+        program = self.file("two.nc", "G90 G94 G17 G21\nG28 G91 Z0.\nG90\nT1 M6\nS8000 M3\n" + job.format(0, 1, 20) +
+                            "M5\nG28 G91 Z0.\nG90\nT2 M6\nS9000 M3\n" + job.format(80, 2, 90) + "M30\n")
+        path, corrected = self.correct(program, "--frame", "1.6,0,0.8", *RADIAL_FREE)
+        texts = {}
+        for ending in ("nc", "src", "mod", "csv"):
+            out = self.folder / f"out.{ending}"
+            self.run_well("export", "--model", KR270, "--program", program, "--path", path, "--corrected", corrected,
+                          "--out", out)
+            texts[ending] = out.read_text()
+        lines = texts["nc"].splitlines()
+        for kept in ("G28 G91 Z0.", "G0 X0. Y0.", "G0 X80. Y0."):
+            self.assertIn(kept, lines)
+        self.assertIn("G90 G0 X80.0000 Y0.0000 Z40.0000 G43 H2", lines)
+        heights = [float(row.split(",")[2]) for row in texts["csv"].splitlines()[1:]]
+        self.assertAlmostEqual(0.04, heights[0], places=9)
+        for ending, first in (("src", r"PTP {X 0.0000,Y 0.0000,Z 40.0000"), ("mod", "MoveJ [[0.0000,0.0000,40.0000]")):
+            lines = [line.strip() for line in texts[ending].splitlines()]
+            move = next(line for line in lines if line.startswith(first[:4]))
+            self.assertTrue(move.startswith(first), move)
+
     def test_a_name_with_parentheses_does_not_end_a_comment_of_g_code(self):
         program = self.file("pocket (2).csv", "x,y,z\n0,0,0\n0.04,0,0\n0.04,0.02,0\n")
         path, corrected = self.correct(program, "--frame", "1.6,0.1,0.9", *RADIAL_FREE)
