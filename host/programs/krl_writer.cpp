@@ -152,9 +152,19 @@ std::string new_program(const CorrectedProgram& program, const std::string& name
       "$BASE={}\n$APO.CDIS={} ; mm, approximation distance of C_DIS points\n",
       name, origin_of(program), krl_pose(program.frame), kNearness);
   double feed = 0;
+  double turn_feed = 0;
   for (std::size_t i = 0; i < source.motions.size(); ++i) {
     text += comments_before(source, i, "; ");
     const Motion& own = source.motions[i];
+    if (i > 0 && !own.has_known_start) {
+      text += fmt::format("HALT ; {}\n", kUnknownWay);
+    }
+    if (own.kind != MotionKind::rapid && own.turn_feed != turn_feed) {
+      turn_feed = own.turn_feed;
+      text +=
+          fmt::format("$VEL.ORI1={}\n", turn_feed > 0 ? fmt::format("{:.6g}", turn_feed / kDegree)
+                                                      : std::string("$VEL_MA.ORI1"));
+    }
     if (own.feed > 0 && own.feed != feed) {
       feed = own.feed;
       text += fmt::format("$VEL.CP={:.6g}\n", feed);

@@ -156,6 +156,18 @@ class Rewriter {
   RapidData data_;
 };
 
+/// Speeddata: by name where the source does not say.
+std::string speed_of(const Motion& motion) {
+  if (motion.kind == MotionKind::rapid) {
+    return "v500";
+  }
+  if (!(motion.feed > 0) && !(motion.turn_feed > 0)) {
+    return "v50";
+  }
+  return fmt::format("[{:.6g},{:.6g},5000,1000]", motion.feed > 0 ? motion.feed / kMillimetre : 50,
+                     motion.turn_feed > 0 ? motion.turn_feed / kDegree : 500);
+}
+
 std::string new_module(const CorrectedProgram& program, const std::string& name) {
   const Program& source = program.source;
   std::string text = fmt::format(
@@ -166,10 +178,10 @@ std::string new_module(const CorrectedProgram& program, const std::string& name)
       name, origin_of(program), rapid_pose(program.frame));
   for (std::size_t i = 0; i < source.motions.size(); ++i) {
     text += comments_before(source, i, "  ! ");
-    const double feed = source.motions[i].feed;
-    const std::string speed = feed > 0 ? fmt::format("[{:.6g},500,5000,1000]", feed / kMillimetre)
-                              : source.motions[i].kind == MotionKind::rapid ? "v500"
-                                                                            : "v50";
+    if (i > 0 && !source.motions[i].has_known_start) {
+      text += fmt::format("  Stop; ! {}\n", kUnknownWay);
+    }
+    const std::string speed = speed_of(source.motions[i]);
     const bool goes_on_after = goes_on(program, i);
     visit_in_place(program, i, [&](const Pose<double>& start, const Motion& each, bool is_last) {
       text += fmt::format("  {} {},{},{},tool0\\WObj:={}_work;\n", word_for(each.kind),

@@ -23,6 +23,11 @@ std::string rewritten(const Program& source,
 /// nothing is corrected. The first line of a program that is not in its source's format.
 std::string origin_of(const CorrectedProgram& program);
 
+/// Why a program that is written anew stops before a motion from a place that the source does not
+/// tell.
+constexpr const char* kUnknownWay =
+    "the source does not tell the way to the next point: come to it by a motion of your own";
+
 /// How the source's lines end.
 std::string_view line_end(const Program& source);
 

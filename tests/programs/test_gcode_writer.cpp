@@ -109,6 +109,34 @@ void other_formats_say_in_comments_what_a_moving_line_says_beside() {
                    std::string::npos);
 }
 
+/// Straight from one point to the next would be through the work.
+void other_formats_stop_where_the_way_is_not_told() {
+  const CorrectedProgram program =
+      corrected("G0 X0 Y0 Z5\nG1 Z-1 F60\nG28 G91 Z0\nG90\nG0 X80 Y0\nZ40\n");
+  const std::string krl = text_of(program, Format::krl, "p");
+  const std::string halt =
+      "\n; G0 X80 Y0\nHALT ; the source does not tell the way to the next point: come to it by a "
+      "motion of your own\nPTP {X 80.1000,Y 0.0000,Z 40.0000";
+  TEST_ASSERT_TRUE(krl.find(halt) != std::string::npos);
+  TEST_ASSERT_EQUAL(krl.find("HALT"), krl.rfind("HALT"));
+  const std::string rapid = text_of(program, Format::rapid, "p");
+  TEST_ASSERT_TRUE(
+      rapid.find("\n  Stop; ! the source does not tell the way to the next point: come "
+                 "to it by a motion of your own\n  MoveJ [[80.1000,0.0000,40.0000]") !=
+      std::string::npos);
+}
+
+/// 30° in half a minute are a degree a second; the motion behind it has the machine's own limit.
+void other_formats_turn_as_slowly() {
+  const CorrectedProgram program = corrected("G0 X0 Y0 Z5 A0\nG93 G1 A30 F2\nG94 X10 F600\n");
+  const std::string krl = text_of(program, Format::krl, "p");
+  TEST_ASSERT_TRUE(krl.find("\n$VEL.ORI1=1\nLIN ") != std::string::npos);
+  TEST_ASSERT_TRUE(krl.find("\n$VEL.ORI1=$VEL_MA.ORI1\n$VEL.CP=0.01\nLIN ") != std::string::npos);
+  const std::string rapid = text_of(program, Format::rapid, "p");
+  TEST_ASSERT_TRUE(rapid.find(",[50,1,5000,1000],") != std::string::npos);
+  TEST_ASSERT_TRUE(rapid.find(",[10,500,5000,1000],") != std::string::npos);
+}
+
 }  // namespace
 
 int main() {
@@ -121,5 +149,7 @@ int main() {
   RUN_TEST(inverse_times_are_shared_by_the_lines_of_a_motion);
   RUN_TEST(a_corrected_turn_keeps_its_time);
   RUN_TEST(other_formats_say_in_comments_what_a_moving_line_says_beside);
+  RUN_TEST(other_formats_stop_where_the_way_is_not_told);
+  RUN_TEST(other_formats_turn_as_slowly);
   return UNITY_END();
 }
