@@ -14,8 +14,12 @@ namespace flexcomp::programs {
 /// frame's x, then y, then z; where all are zero it points against z.
 ///
 /// Tool lengths and one work offset (G54 to G59.3) are the robot's tool and the work frame. G28,
-/// G30 and G53, which go to places of the machine, are noted and left out. Throws InputError with
-/// file, line and word for every other word: one that is left out would be another program.
+/// G30 and G53, which go to places of the machine, are noted and left out. X, Y and Z are not known
+/// until they are told, and so are the axes that those three name, and X, Y and Z behind M6, until
+/// they are told again: a G0 while one is unknown is no motion of the program, and is noted.
+///
+/// Throws InputError with file, line and word for every other word, since one that is left out
+/// would be another program, and for a motion at a feed from an unknown place.
 Program read_gcode(const std::filesystem::path& file);
 
 /// The same of a text.
