@@ -2,32 +2,27 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
-#include "programs/krl_point.hpp"
+#include "programs/krl_data.hpp"
+#include "programs/krl_settings.hpp"
+#include "programs/krl_words.hpp"
 #include "programs/nesting.hpp"
 #include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
 namespace {
 
-const std::set<std::string> kKrlOpening = {"IF", "FOR", "WHILE", "REPEAT", "LOOP", "SWITCH"};
-const std::set<std::string> kKrlClosing = {"ENDIF", "ENDFOR",  "ENDWHILE",
-                                           "UNTIL", "ENDLOOP", "ENDSWITCH"};
-const std::set<std::string> kKrlUnreadable = {"SPL",      "SPLINE",    "PTP_SPLINE", "SPL_REL",
-                                              "CIRC_REL", "SCIRC_REL", "PTP_REL",    "SPTP_REL"};
-const std::set<std::string> kKrlWithoutMotion = {
-    "END",    "DEFDAT", "ENDDAT", "EXT",    "EXTFCT", "INI",       "INTERRUPT", "GLOBAL",
-    "INT",    "SIGNAL", "ENUM",   "STRUC",  "WAIT",   "HALT",      "PULSE",     "TRIGGER",
-    "REAL",   "BOOL",   "CHAR",   "ELSE",   "CASE",   "DEFAULT",   "CONTINUE",  "RETURN",
-    "ENDFCT", "EXIT",   "GOTO",   "IMPORT", "ANOUT",  "ANIN",      "DIGIN",     "CCLOSE",
-    "COPEN",  "CWRITE", "CREAD",  "SREAD",  "SWRITE", "ENDSPLINE", "DECL",      "BRAKE"};
-const std::set<std::string> kKrlPointTypes = {"E6POS", "POS", "FRAME", "E6AXIS", "AXIS"};
+constexpr const char* kTurning =
+    "a relative motion that turns, or in the tool's frame, is not read";
+constexpr const char* kExternal = "an external axis (E1 to E6) that moves is not planned";
+constexpr const char* kUnclear =
+    "in a branch or a loop: how the motions behind it are made cannot "
+    "be told";
 
 class KrlReader {
  public:
@@ -36,7 +31,7 @@ class KrlReader {
   void read_data(std::string_view text) {
     for (std::size_t begin = 0; begin < text.size();) {
       Scanner scanner(krl_code(next_line(text, &begin)));
-      read_declaration(scanner.name(), &scanner);
+      data_.read_declaration(scanner.name(), &scanner);
     }
   }
 
@@ -62,144 +57,107 @@ class KrlReader {
     const std::string word = scanner->name();
     if (word == "DEF" || word == "DEFFCT") {
       nesting_.begin_routine();
+    } else if (nesting_.is_over()) {
+      pass_what_is_not_run(word);
     } else if (kKrlOpening.count(word) > 0) {
-      nesting_.open();
+      open_block(word, scanner);
     } else if (kKrlClosing.count(word) > 0) {
       nesting_.close();
+    } else if (kKrlLeaving.count(word) > 0) {
+      leave(word);
     } else if (kKrlUnreadable.count(word) > 0) {
       fail(fmt::format("'{}': this motion is not read", word));
-    } else if (word == "LIN" || word == "SLIN" || word == "LIN_REL" || word == "SLIN_REL") {
-      read_linear(word, scanner);
-    } else if (word == "PTP" || word == "SPTP") {
-      read_rapid(scanner);
-    } else if (word == "CIRC" || word == "SCIRC") {
-      read_circular(scanner);
-    } else if (word == "BAS") {
-      read_call_of_bas(scanner);
-    } else if (!read_declaration(word, scanner) && kKrlWithoutMotion.count(word) == 0) {
-      read_assignment(word, scanner);
+    } else if (kKrlMotions.count(word) > 0) {
+      refuse_hidden();
+      read_motion(word, scanner);
+    } else if (KrlSettings::is_setting(word, *scanner)) {
+      read_setting(word, scanner);
+    } else if (word != "BAS" && kKrlWithoutMotion.count(word) == 0) {
+      read_other(word, scanner);
+    } else if (word == "DECL" || word == "GLOBAL") {
+      data_.read_declaration(word, scanner);
     }
   }
 
-  /// DECL E6POS P1={…}; true for a declaration.
-  bool read_declaration(std::string word, Scanner* scanner) {
-    const bool is_declared = word == "DECL" || word == "GLOBAL";
-    while (word == "DECL" || word == "GLOBAL" || word == "CONST") {
-      word = scanner->name();
+  void pass_what_is_not_run(const std::string& word) {
+    const bool is_motion = kKrlMotions.count(word) > 0 || kKrlUnreadable.count(word) > 0;
+    if (is_motion && line_over_ != 0) {
+      note(fmt::format("what stands behind line {} is not run; it is left as it is", line_over_));
+      line_over_ = 0;
     }
-    if (kKrlPointTypes.count(word) == 0) {
-      return is_declared;
-    }
-    do {
-      const std::string name = scanner->name();
-      if (scanner->take('=')) {
-        const std::optional<KrlPoint> point = read_krl_point(scanner);
-        if (point) {
-          points_[name] = *point;
-        }
+  }
+
+  /// A block begins with its line; a statement in the same line would be missed.
+  void open_block(const std::string& word, Scanner* scanner) {
+    while (word == "IF" && !scanner->at_end()) {
+      const std::string each = scanner->name();
+      if (each == "THEN" && !scanner->at_end()) {
+        fail("a statement in the line of its IF is not read");
       }
-    } while (scanner->take(','));
-    return true;
+      scanner->go_to(scanner->place() + (each.empty() ? 1 : 0));
+    }
+    nesting_.open();
   }
 
-  void read_assignment(const std::string& word, Scanner* scanner) {
+  void leave(const std::string& word) {
+    const std::string why =
+        fmt::format("'{}': whether the motions here are run cannot be told", word);
+    if (word == "GOTO" && nesting_.moves_here()) {
+      fail(why);
+    }
+    const bool is_end = word == "RETURN" || word == "END" || word == "ENDFCT";
+    if (is_end && !nesting_.is_inside()) {
+      nesting_.end_run();
+      line_over_ = line_;
+    } else if (word != "EXIT" || !nesting_.is_inside()) {  // inside, EXIT leaves a loop alone
+      nesting_.doubt(line_, why);
+    }
+  }
+
+  void read_setting(const std::string& word, Scanner* scanner) {
+    if (nesting_.is_inside()) {
+      nesting_.doubt(line_, fmt::format("'{}' {}", word, kUnclear));
+    } else if (nesting_.moves_elsewhere()) {
+      fail(fmt::format("'{}' in a second routine: when it is called cannot be told", word));
+    } else if (word == "BAS") {
+      settings_.call_bas(line_, scanner);
+    } else {
+      scanner->take('=');
+      settings_.assign(word, line_, scanner);
+    }
+  }
+
+  void read_other(const std::string& word, Scanner* scanner) {
+    if (data_.read_declaration(word, scanner)) {
+      forget_in_branch(word);
+      return;
+    }
     const bool is_element = scanner->peek() == '[';
     if (!is_element && scanner->take('=')) {
-      assign(word, scanner);
+      data_.assign(word, scanner);
+      forget_in_branch(word);
+    } else if (!is_element && scanner->take(':') && scanner->at_end()) {
+      return;  // a label
     } else if (!is_element || word.empty()) {
       note(fmt::format("'{}' is unknown; if it moves the robot, its way is missing",
                        files::one_line(word.empty() ? scanner->rest() : word, 30)));
     }
   }
 
-  void assign(const std::string& name, Scanner* scanner) {
-    if (name == "$VEL.CP") {
-      set_feed(scanner->number());
-    } else if (name == "$VEL") {
-      const std::size_t at = scanner->rest().find("CP");
-      if (at != std::string_view::npos) {
-        scanner->go_to(scanner->place() + at + 2);
-        set_feed(scanner->number());
-      }
-    } else if (name == "$BASE") {
-      set_frame(scanner);
-    } else if (name == "$TOOL") {
-      note("'$TOOL': the robot's own tool is used; the two must be the same");
-    } else if (const std::optional<KrlPoint> point = read_krl_point(scanner)) {
-      points_[name] = *point;
-    } else {
-      points_.erase(name.substr(0, name.find('.')));  // computed: nobody knows it now
-    }
-  }
-
-  void set_feed(const std::optional<double>& feed) { feed_ = known_feed(feed).value_or(feed_); }
-
-  /// A feed, m/s, where it is one.
-  std::optional<double> known_feed(const std::optional<double>& feed) {
-    if (feed && *feed > 0) {
-      return feed;
-    }
-    note("the feed is not a number above zero here; that before it is used");
-    return std::nullopt;
-  }
-
-  void set_frame(Scanner* scanner) {
-    std::optional<KrlPoint> point = read_krl_point(scanner);
-    std::string name;
-    if (!point) {
-      name = scanner->name();
-      if (name == "$NULLFRAME") {
-        point = KrlPoint{{0, 0, 0, 0, 0, 0}, false};
-      } else if (points_.count(name) > 0 && scanner->at_end()) {
-        point = points_.at(name);
-      }
-    }
-    if (!point || !point->is_whole()) {
-      note(
-          fmt::format("'$BASE': {} is not in the file; without --frame the work is put where the "
-                      "robot reaches it",
-                      files::one_line(name.empty() ? "its value" : name, 30)));
-      return;
-    }
-    const Pose<double> frame = point->pose();
-    if (program_.frame && !program_.motions.empty() &&
-        (program_.frame->position != frame.position ||
-         program_.frame->rotation != frame.rotation)) {
-      fail("a second $BASE; one work frame is planned at a time");
-    }
-    program_.frame = frame;
-  }
-
-  void read_call_of_bas(Scanner* scanner) {
-    scanner->take('(');
-    scanner->take('#');
-    const std::string what = scanner->name();
-    if ((what == "VEL_CP" || what == "CP_PARAMS") && scanner->take(',')) {
-      set_feed(scanner->number());
+  void forget_in_branch(const std::string& word) {
+    if (nesting_.is_inside()) {
+      data_.forget(word);
     }
   }
 
   /// The point that a motion goes to; nothing where no file tells it. `name` is as it is written.
   std::optional<KrlPoint> read_target(Scanner* scanner, std::string* name) {
-    std::optional<KrlPoint> point;
-    if (scanner->peek() == '{') {
-      point = read_krl_point(scanner);
-      if (!point) {
-        fail("expected a point such as {X 1, Y 2, Z 3, A 0, B 0, C 0}");
-      }
-    } else {
-      *name = scanner->name();
-      for (const std::string& each : {*name, "X" + *name}) {  // inline forms leave out the X
-        if (!point && points_.count(each) > 0) {
-          point = points_.at(each);
-        }
-      }
-      if (scanner->peek() == ':' || scanner->peek() == '[') {
-        fail(fmt::format("'{}': a point that is computed cannot be told",
-                         files::one_line(*name, 30)));
-      }
+    const KrlReadPoint read = data_.read_point(scanner);
+    if (!read.why.empty()) {
+      fail(read.why);
     }
-    return point;
+    *name = read.name;
+    return read.point;
   }
 
   KrlPoint whole(KrlPoint point) const {
@@ -214,6 +172,9 @@ class KrlReader {
     if (const char* why = nesting_.why_no_motion()) {
       fail(why);
     }
+    if (nesting_.doubt()) {
+      refuse(program_.file, nesting_.doubt()->line, nesting_.doubt()->why);
+    }
   }
 
   /// A place that is not Cartesian, or not known: nothing is planned, and what is not said of the
@@ -224,17 +185,28 @@ class KrlReader {
     is_lost_ = true;
   }
 
+  void read_motion(const std::string& word, Scanner* scanner) {
+    if (word == "PTP" || word == "SPTP") {
+      read_rapid(scanner);
+    } else if (word == "CIRC" || word == "SCIRC") {
+      read_circular(scanner);
+    } else {
+      read_linear(word, scanner);
+    }
+  }
+
   void read_rapid(Scanner* scanner) {
-    refuse_hidden();
     std::string name;
     const std::optional<KrlPoint> point = read_target(scanner, &name);
     if (!point) {
       leave_out(fmt::format("'{}': no file tells this point; the motion is left as it is",
                             files::one_line(name, 30)));
     } else if (point->has_axes) {
+      meet_external(*point);
       leave_out("a point in joint angles; the motion is left as it is");
     } else {
-      add(MotionKind::rapid, whole(*point), {});
+      const KrlPoint target = whole(*point);
+      add(MotionKind::rapid, target, {}, read_tail(false, scanner));
     }
   }
 
@@ -248,43 +220,55 @@ class KrlReader {
   }
 
   void read_linear(const std::string& word, Scanner* scanner) {
-    refuse_hidden();
+    const bool is_relative = word == "LIN_REL" || word == "SLIN_REL";
     KrlPoint point = read_known_target(scanner);
-    if (word == "LIN_REL" || word == "SLIN_REL") {
-      point = moved_by(point, scanner);
+    if (is_relative) {
+      point = moved_by(point);
     }
-    read_own_feed(scanner);
-    add(is_lost_ ? MotionKind::rapid : MotionKind::linear, whole(point), {});
-    own_feed_.reset();
+    const KrlState state = read_tail(is_relative, scanner);
+    add(is_lost_ ? MotionKind::rapid : MotionKind::linear, whole(point), {}, state);
   }
 
-  KrlPoint moved_by(KrlPoint point, Scanner* scanner) const {
-    if (point.frame[3] || point.frame[4] || point.frame[5] ||
-        scanner->rest().find("#TOOL") != std::string_view::npos) {
-      fail("a relative motion that turns, or in the tool's frame, is not read");
+  KrlPoint moved_by(KrlPoint point) const {
+    if (point.frame[3] || point.frame[4] || point.frame[5]) {
+      fail(kTurning);
     }
     for (std::size_t i = 0; i < 3; ++i) {
       if (point.frame[i] && at_.frame[i]) {
         *point.frame[i] += *at_.frame[i];
       }
     }
+    for (std::optional<double>& each : point.external) {
+      if (each && *each != 0) {
+        fail(kExternal);
+      }
+      each.reset();
+    }
     return point;
   }
 
-  /// SLIN … WITH $VEL.CP=0.1: of this motion alone.
-  void read_own_feed(Scanner* scanner) {
-    const std::size_t at = scanner->rest().find("$VEL.CP");
-    if (at == std::string_view::npos) {
-      return;
+  /// What stands behind the points: how they are passed, and what the motion sets for itself.
+  KrlState read_tail(bool is_relative, Scanner* scanner) {
+    KrlState state = settings_.state();
+    while (!scanner->at_end()) {
+      const std::size_t begin = scanner->place();
+      const bool is_frame = is_relative && scanner->take('#');
+      const std::string word = scanner->name();
+      if (is_frame && word == "TOOL") {
+        fail(kTurning);
+      }
+      if (word == "WITH") {
+        state = settings_.with(line_, scanner);
+      } else if (is_frame ? word != "BASE" : kKrlPassing.count(word) == 0) {
+        scanner->go_to(begin);
+        fail(
+            fmt::format("'{}' behind the point is not read", files::one_line(scanner->rest(), 30)));
+      }
     }
-    scanner->go_to(scanner->place() + at + 7);
-    if (scanner->take('=')) {
-      own_feed_ = known_feed(scanner->number());
-    }
+    return state;
   }
 
   void read_circular(Scanner* scanner) {
-    refuse_hidden();
     if (is_lost_ || program_.motions.empty()) {
       fail("a circle from a point that no file tells");
     }
@@ -303,7 +287,7 @@ class KrlReader {
       }
       angle = given * kDegree;
     }
-    read_own_feed(scanner);
+    const KrlState state = read_tail(false, scanner);
     const Vector3<double> from = program_.motions.back().end.position;
     KrlPoint on_the_way = between;
     on_the_way.fill_from(end);
@@ -312,11 +296,33 @@ class KrlReader {
     if (!arc) {
       fail("start, point between and end of the circle lie on a line");
     }
-    add(MotionKind::circular, end, *arc, angle);
-    own_feed_.reset();
+    add(MotionKind::circular, end, *arc, state, angle);
   }
 
-  void add(MotionKind kind, const KrlPoint& point, const Arc& arc, double angle = 0) {
+  /// An external axis turns or carries the work or the robot: one that moves is not planned.
+  void meet_external(const KrlPoint& point) {
+    for (std::size_t i = 0; i < external_.size(); ++i) {
+      const std::optional<double>& to = point.external[i];
+      const double from = external_[i].value_or(program_.motions.empty() ? to.value_or(0) : 0);
+      if (to && *to != from) {
+        fail(kExternal);
+      }
+      external_[i] = to ? to : external_[i];
+    }
+  }
+
+  void meet_posture(const KrlPoint& point) {
+    if (point.has_posture && !has_told_of_posture_) {
+      note("the posture that S and T give is not used: plan chooses one by itself");
+      has_told_of_posture_ = true;
+    }
+  }
+
+  void add(MotionKind kind, const KrlPoint& point, const Arc& arc, const KrlState& state,
+           double angle = 0) {
+    meet_external(point);
+    meet_posture(point);
+    settings_.meet(state, line_);
     Motion motion;
     motion.kind = kind;
     motion.end = point.pose();
@@ -324,7 +330,7 @@ class KrlReader {
     if (angle != 0) {
       go_round(angle, &motion);
     }
-    motion.feed = kind == MotionKind::rapid ? 0 : own_feed_.value_or(feed_);
+    motion.feed = kind == MotionKind::rapid ? 0 : state.override * state.feed;
     motion.is_cutting = kind != MotionKind::rapid;
     motion.line = line_;
     motion.begin = begin_;
@@ -351,11 +357,13 @@ class KrlReader {
   }
 
   Program& program_;
-  std::map<std::string, KrlPoint> points_;
+  KrlData data_;
+  KrlSettings settings_{&program_, &data_};
   KrlPoint at_;
-  double feed_ = 0;
-  std::optional<double> own_feed_;
+  std::array<std::optional<double>, 6> external_{};
+  bool has_told_of_posture_ = false;
   bool is_lost_ = true;
+  std::size_t line_over_ = 0;  ///< behind which nothing is run; zero where it is told already
   Nesting nesting_;
   std::size_t line_ = 0;
   std::size_t begin_ = 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "files/one_line.hpp"
-#include "programs/krl_point.hpp"
+#include "programs/krl_data.hpp"
 #include "programs/rewriting.hpp"
 #include "programs/scanner.hpp"
 
@@ -25,12 +25,13 @@ std::string krl_pose(const Pose<double>& pose, const std::string& others = {}) {
                      fixed(angles[1], 6), fixed(angles[2], 6), others.empty() ? "" : ",", others);
 }
 
-/// The motion's target, for an arc the point halfway before it.
-std::string krl_target(const Pose<double>& start, const Motion& motion,
+/// The motion's target in a frame that `shift` leads to, for an arc the point halfway before it.
+std::string krl_target(const Pose<double>& shift, const Pose<double>& start, const Motion& motion,
                        const std::string& others = {}) {
-  const std::string end = krl_pose(motion.end, others);
+  const std::string end = krl_pose(shift * motion.end, others);
   return motion.kind == MotionKind::circular
-             ? fmt::format("{{{}}},{}", krl_place(pose_at(start, motion, 0.5).position), end)
+             ? fmt::format("{{{}}},{}", krl_place((shift * pose_at(start, motion, 0.5)).position),
+                           end)
              : end;
 }
 
@@ -66,15 +67,18 @@ std::string other_components(std::string_view aggregate) {
   return others;
 }
 
-/// Passes over a point, and hands it out as it stands.
+/// Passes over a point, and hands it out as it stands; of a product (P1:P2) its last operand.
 std::string_view pass_target(std::string_view statement, Scanner* scanner) {
-  scanner->peek();
-  const std::size_t begin = scanner->place();
-  if (scanner->peek() == '{') {
-    scanner->go_to(std::min(statement.find('}', begin), statement.size() - 1) + 1);
-  } else {
-    scanner->name();
-  }
+  std::size_t begin = 0;
+  do {
+    const bool is_aggregate = scanner->peek() == '{';
+    begin = scanner->place();
+    if (is_aggregate) {
+      scanner->go_to(std::min(statement.find('}', begin), statement.size() - 1) + 1);
+    } else {
+      krl_indexed_name(scanner->name(), scanner);
+    }
+  } while (scanner->take(':'));
   return statement.substr(begin, scanner->place() - begin);
 }
 
@@ -120,21 +124,44 @@ bool is_frame_of_source(const CorrectedProgram& program) {
          (own->rotation - program.frame.rotation).norm() < kSame;
 }
 
+/// From the frame that the motions are in to the one that their points are written in: a base that
+/// the program loads stays, and the points are moved in it.
+Pose<double> shift_of(const CorrectedProgram& program) {
+  const std::optional<Pose<double>>& own = program.source.frame;
+  if (!program.source.loads_frame || !own || is_frame_of_source(program)) {
+    return {};
+  }
+  const Matrix3<double> back = own->rotation.transpose();
+  return Pose<double>{back, -(back * own->position)} * program.frame;
+}
+
+/// What stands before the first motion. A base that the program loads and no file tells cannot be
+/// written: loading it again would undo that, and one that was guessed would be driven to.
+std::string before_first(const CorrectedProgram& program, const std::string& indent) {
+  const Program& source = program.source;
+  const std::string frame = krl_pose(program.frame);
+  if (source.loads_frame) {
+    return source.frame ? ""
+                        : fmt::format("{}; the points below are corrected for a base at {}{}",
+                                      indent, frame, line_end(source));
+  }
+  return is_frame_of_source(program) ? ""
+                                     : fmt::format("{}$BASE={} ; work frame of the points below{}",
+                                                   indent, frame, line_end(source));
+}
+
 std::string statement_in_place(const CorrectedProgram& program, std::size_t motion) {
   const Program& source = program.source;
   const Motion& own = source.motions[motion];
   const std::string_view end = line_end(source);
   const KrlStatement parts =
       taken_apart(std::string_view(source.text).substr(own.begin, own.finish - own.begin));
-  std::string text;
-  if (motion == 0 && !is_frame_of_source(program)) {
-    text += fmt::format("{}$BASE={} ; work frame of the points below{}", parts.indent,
-                        krl_pose(program.frame), end);
-  }
+  const Pose<double> shift = shift_of(program);
+  std::string text = motion == 0 ? before_first(program, parts.indent) : "";
   visit_in_place(program, motion, [&](const Pose<double>& start, const Motion& each, bool is_last) {
     const std::string tail = is_last ? parts.tail : tail_of_added(parts.tail, each.kind);
     text += fmt::format("{}{} {}{}{}{}", parts.indent, word_for(parts.word, each.kind),
-                        krl_target(start, each, is_last ? parts.others : ""),
+                        krl_target(shift, start, each, is_last ? parts.others : ""),
                         tail.empty() ? "" : " ", tail, is_last ? "" : end);
   });
   return text;
@@ -172,7 +199,7 @@ std::string new_program(const CorrectedProgram& program, const std::string& name
     const bool goes_on_after = goes_on(program, i);
     visit_in_place(program, i, [&](const Pose<double>& start, const Motion& each, bool is_last) {
       const bool stops = is_last && !goes_on_after;
-      text += fmt::format("{} {}{}{}\n", word_for("LIN", each.kind), krl_target(start, each),
+      text += fmt::format("{} {}{}{}\n", word_for("LIN", each.kind), krl_target({}, start, each),
                           stops ? "" : " ", stops ? "" : passing(each.kind));
     });
   }

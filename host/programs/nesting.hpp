@@ -1,18 +1,50 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string>
+
 namespace flexcomp::programs {
 
 constexpr const char* kInBranch =
     "a motion in a branch or a loop: whether it is run cannot be told";
 
+/// Something that leaves it open whether, or how, the motions behind it are run.
+struct Doubt {
+  std::size_t line = 0;
+  std::string why;
+};
+
 /// Where the statement that is read stands: in which routine of a KRL or RAPID program, and in how
 /// many branches and loops of it. Motions are read in one routine, outside of these.
 class Nesting {
  public:
-  void begin_routine() { ++routine_; }
+  void begin_routine() {
+    ++routine_;
+    depth_ = 0;
+    is_over_ = false;
+    doubt_.reset();
+  }
   void open() { ++depth_; }
-  void close() { --depth_; }
-  void close_all() { depth_ = 0; }
+  void close() { depth_ -= depth_ > 0 ? 1 : 0; }
+  bool is_inside() const { return depth_ > 0; }
+
+  /// What stands behind in the routine is not run: RETURN outside of branches, END.
+  void end_run() { is_over_ = true; }
+  bool is_over() const { return is_over_; }
+
+  /// Of the motions behind in the routine; the first doubt is kept.
+  void doubt(std::size_t line, const std::string& why) {
+    if (!doubt_) {
+      doubt_ = Doubt{line, why};
+    }
+  }
+  const std::optional<Doubt>& doubt() const { return doubt_; }
+
+  /// Has the routine that is read moved the robot?
+  bool moves_here() const { return moving_routine_ != 0 && moving_routine_ == routine_; }
+  /// Has another one?
+  bool moves_elsewhere() const { return moving_routine_ != 0 && moving_routine_ != routine_; }
 
   /// Why a motion that stands here cannot be read; null where it can. The first that can be makes
   /// its routine the one that moves.
@@ -20,7 +52,7 @@ class Nesting {
     if (depth_ > 0) {
       return kInBranch;
     }
-    if (moving_routine_ != 0 && moving_routine_ != routine_) {
+    if (moves_elsewhere()) {
       return "a motion in a second routine: when it is called cannot be told";
     }
     moving_routine_ = routine_;
@@ -31,6 +63,8 @@ class Nesting {
   int depth_ = 0;
   int routine_ = 0;
   int moving_routine_ = 0;
+  bool is_over_ = false;
+  std::optional<Doubt> doubt_;
 };
 
 }  // namespace flexcomp::programs

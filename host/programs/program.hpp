@@ -62,6 +62,9 @@ struct Program {
   /// Does it say where the tool points but not how it is turned about its own axis?
   bool has_free_spin = false;
   std::optional<Pose<double>> frame;  ///< the work frame in the robot base frame, if it says
+  /// Does it load its work frame by a name or a number, or again behind its first motion? One that
+  /// is written before that motion would then not last.
+  bool loads_frame = false;
   std::vector<Note> notes;
 };
 

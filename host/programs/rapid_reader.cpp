@@ -79,7 +79,6 @@ class RapidReader {
     }
     if (kRapidRoutines.count(word) > 0) {
       nesting_.begin_routine();
-      nesting_.close_all();
     } else if (word == "IF") {
       read_condition(scanner);
     } else if (kRapidOpening.count(word) > 0) {

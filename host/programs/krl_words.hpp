@@ -1,0 +1,24 @@
+#pragma once
+
+#include <set>
+#include <string>
+
+/// First words of KRL's statements, in capitals.
+namespace flexcomp::programs {
+
+inline const std::set<std::string> kKrlOpening = {"IF", "FOR", "WHILE", "REPEAT", "LOOP", "SWITCH"};
+inline const std::set<std::string> kKrlClosing = {"ENDIF", "ENDFOR",  "ENDWHILE",
+                                                  "UNTIL", "ENDLOOP", "ENDSWITCH"};
+inline const std::set<std::string> kKrlUnreadable = {
+    "SPL", "SPLINE", "PTP_SPLINE", "SPL_REL", "CIRC_REL", "SCIRC_REL", "PTP_REL", "SPTP_REL"};
+inline const std::set<std::string> kKrlMotions = {"LIN", "SLIN", "LIN_REL", "SLIN_REL",
+                                                  "PTP", "SPTP", "CIRC",    "SCIRC"};
+inline const std::set<std::string> kKrlLeaving = {"RETURN", "EXIT", "GOTO", "END", "ENDFCT"};
+inline const std::set<std::string> kKrlWithoutMotion = {
+    "DEFDAT", "ENDDAT", "EXT",     "EXTFCT",   "INI",    "INTERRUPT", "GLOBAL", "INT",   "SIGNAL",
+    "ENUM",   "STRUC",  "WAIT",    "HALT",     "PULSE",  "TRIGGER",   "REAL",   "BOOL",  "CHAR",
+    "ELSE",   "CASE",   "DEFAULT", "CONTINUE", "IMPORT", "ANOUT",     "ANIN",   "DIGIN", "CCLOSE",
+    "COPEN",  "CWRITE", "CREAD",   "SREAD",    "SWRITE", "ENDSPLINE", "DECL",   "BRAKE"};
+inline const std::set<std::string> kKrlPassing = {"C_DIS", "C_VEL", "C_ORI", "C_PTP", "C_SPL"};
+
+}  // namespace flexcomp::programs
