@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/command.hpp"
 #include "cli/frame_option.hpp"
@@ -43,12 +44,31 @@ std::string module_name(const std::filesystem::path& file) {
   return name.substr(0, kLongest);
 }
 
+std::optional<programs::CarriedTool> carried_tool(const model::Robot& robot) {
+  if (!robot.tool) {
+    return std::nullopt;
+  }
+  return programs::CarriedTool{robot.tool->mounting(), robot.tool->mass,
+                               Vector3<double>(robot.tool->com.data())};
+}
+
 std::string correction_line(const ExportOptions& options,
                             const programs::CorrectedProgram& program) {
   return program.largest_correction > 0
              ? fmt::format("largest correction {:.3g} mm\n", 1e3 * program.largest_correction)
              : fmt::format("nothing is corrected: {} has the angles of {}\n", options.corrected,
                            options.path);
+}
+
+/// What a KRL program's own approximation does to points that it did not have.
+std::string passing_line(const programs::CorrectedProgram& program, programs::Format format,
+                         std::size_t added) {
+  const bool is_its_own =
+      format == programs::Format::krl && program.source.format == programs::Format::krl;
+  return is_its_own && added > 0
+             ? "the points added are passed as near as the program's own $APO.CDIS or LDAT says: a "
+               "large one rounds them by more than --tolerance\n"
+             : "";
 }
 
 int run(const ExportOptions& options) {
@@ -58,10 +78,11 @@ int run(const ExportOptions& options) {
   const programs::Format format = programs::format_of(options.out);
   const model::Robot robot = load_robot(options.model);
   const RobotModel<double, 6> elastic = model::six_axis_model(robot);
-  const programs::CorrectedProgram corrected = planning::correct_program(
+  programs::CorrectedProgram corrected = planning::correct_program(
       elastic, programs::read_program(options.program),
       recording::read_recording_of(robot.elastic, options.path),
       recording::read_recording_of(robot.elastic, options.corrected), options.tolerance);
+  corrected.tool = carried_tool(robot);
   files::write_text(options.out, programs::text_of(corrected, format, module_name(options.out)));
   std::size_t points = 0;
   for (const auto& motions : corrected.in_place) {
@@ -76,9 +97,10 @@ int run(const ExportOptions& options) {
                                          {"frame", frame}};
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}: {} motions, {} points added where the correction bends\n{}work frame {:.6g}\n",
-               options.out, own, points - own, correction_line(options, corrected),
-               fmt::join(frame, ","));
+    fmt::print(
+        "{}: {} motions, {} points added where the correction bends\n{}{}work frame {:.6g}\n",
+        options.out, own, points - own, correction_line(options, corrected),
+        passing_line(corrected, format, points - own), fmt::join(frame, ","));
   }
   return kDone;
 }

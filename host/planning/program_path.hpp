@@ -20,8 +20,7 @@ struct PathPoint {
   std::size_t motion = 0;  ///< number of the motion that it belongs to
 };
 
-/// Turning by a radian counts as much as going this far (m): rapids, accelerations, tolerances.
-constexpr double kTurningLever = 0.1;
+using programs::kTurningLever;
 
 /// Points along a program: its first motion's end, and then every motion's points without its
 /// start. Ends of motions are points, to the last bit; motions that go nowhere have none. A

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "programs/program.hpp"
 
 namespace flexcomp::programs {
+
+/// The tool of the robot's model, in the frame of its last link.
+struct CarriedTool {
+  Pose<double> tcp;
+  double mass = 0;                                   ///< kg; zero where nobody knows
+  Vector3<double> center = Vector3<double>::Zero();  ///< of mass, m
+};
 
 /// A program with what takes the place of each of its motions.
 struct CorrectedProgram {
@@ -12,7 +20,8 @@ struct CorrectedProgram {
   Pose<double> frame;  ///< the work frame in the robot base frame
   /// A motion or more for each of the source's, one after the other; ends in the work frame.
   std::vector<std::vector<Motion>> in_place;
-  double largest_correction = 0;  ///< m, at the TCP; zero where the program is only written anew
+  double largest_correction = 0;    ///< m, at the TCP; zero where the program is only written anew
+  std::optional<CarriedTool> tool;  ///< nothing where the model's TCP is its last link's
 };
 
 /// The program in a format: in the source's own with all that does not move left as it is, in

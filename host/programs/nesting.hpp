@@ -28,6 +28,7 @@ class Nesting {
   void open() { ++depth_; }
   void close() { depth_ -= depth_ > 0 ? 1 : 0; }
   bool is_inside() const { return depth_ > 0; }
+  int depth() const { return depth_; }
 
   /// What stands behind in the routine is not run: RETURN outside of branches, END.
   void end_run() { is_over_ = true; }
@@ -40,6 +41,12 @@ class Nesting {
     }
   }
   const std::optional<Doubt>& doubt() const { return doubt_; }
+
+  /// A call that is followed has come to its end: what stands behind it is run as before it.
+  void come_back(int depth, const std::optional<Doubt>& doubt) {
+    depth_ = depth;
+    doubt_ = doubt;
+  }
 
   /// Has the routine that is read moved the robot?
   bool moves_here() const { return moving_routine_ != 0 && moving_routine_ == routine_; }

@@ -74,6 +74,11 @@ double turn_between(const Matrix3<double>& from, const Matrix3<double>& to) {
   return 2 * std::asin(std::min(chord, 1.0));
 }
 
+double way_of(const Pose<double>& start, const Motion& motion) {
+  return std::max(length_of(start, motion),
+                  kTurningLever * turn_between(start.rotation, motion.end.rotation));
+}
+
 std::optional<Arc> arc_through(const Vector& start, const Vector& between, const Vector& end) {
   const Vector first = between - start;
   const Vector second = end - start;

@@ -77,6 +77,12 @@ double length_of(const Pose<double>& start, const Motion& motion);
 /// The angle of the rotation between two orientations, rad.
 double turn_between(const Matrix3<double>& from, const Matrix3<double>& to);
 
+/// Turning by a radian counts as much as going this far (m): rapids, accelerations, tolerances.
+constexpr double kTurningLever = 0.1;
+
+/// How far a motion goes, m: its length, or what its turning counts if that is more.
+double way_of(const Pose<double>& start, const Motion& motion);
+
 /// The arc from one point to another by a third between; nothing if they lie on a line, or are the
 /// same.
 std::optional<Arc> arc_through(const Vector3<double>& start, const Vector3<double>& between,

@@ -20,6 +20,10 @@ class RapidStatements {
  public:
   explicit RapidStatements(std::string_view text) : text_(text) {}
 
+  /// From a byte of the text on, which stands in this line.
+  RapidStatements(std::string_view text, std::size_t begin, std::size_t line)
+      : text_(text), at_(begin), line_(line) {}
+
   /// The next statement; false at the end.
   bool next(RapidStatement* statement);
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,19 @@
 #include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
+
+/// Where a motion goes to, as a robtarget says it.
+struct RapidTarget {
+  Pose<double> pose;                 ///< m
+  std::array<double, 6> external{};  ///< external axes; 9E9 is none
+  bool has_configuration = false;    ///< another than [0,0,0,0]
+};
+
+/// A work object, and why motions in it cannot be planned; empty where they can.
+struct RapidWorkObject {
+  Pose<double> frame;  ///< user frame times object frame
+  std::string why;
+};
 
 /// The numbers of a RAPID aggregate such as [[1,2,3],[1,0,0,0]], brackets, truth values and texts
 /// left out; nothing if anything else stands in it.
@@ -18,22 +33,52 @@ std::optional<std::vector<double>> read_rapid_numbers(Scanner* scanner);
 /// stand; those of a target without any if there are none.
 std::string rapid_configuration(std::string_view target);
 
-/// Declarations of a module, by name in capitals.
+/// Declarations of a module, by name in capitals; of arrays by name and number, as PT{2}.
 struct RapidData {
-  std::map<std::string, Pose<double>> targets;        ///< robtargets, m
+  std::map<std::string, RapidTarget> targets;
   std::map<std::string, std::string> configurations;  ///< of targets by name, as they are written
+  std::map<std::string, double> numbers;              ///< that nothing changes
   std::map<std::string, double> speeds;               ///< m/s of the TCP
-  std::map<std::string, Pose<double>> frames;  ///< work objects: user frame times object frame
+  std::map<std::string, RapidWorkObject> work_objects;
+  std::map<std::string, bool> tools;  ///< does the robot hold it?
+
+  /// Reads all declarations of a module, which may stand below the routine that uses them. Numbers,
+  /// speeds, work objects and tools that a statement changes are not known then, nor is anything
+  /// that two routines declare differently.
+  void read_all(std::string_view text);
 
   /// CONST robtarget p10:=[…]; false if the statement declares nothing. `word` is its first word.
   bool read_declaration(std::string word, Scanner* scanner);
 
+  /// Forgets a target that is changed, or one of an array's.
+  void forget_target(const std::string& name);
+
+  /// The name of a target with its number in an array: PT{2}; nothing if that is computed.
+  std::optional<std::string> target_name(Scanner* scanner) const;
+
   /// A target in brackets, by its name, or by Offs or RelTool of one; nothing where it cannot be
   /// told. `depth` counts the Offs and RelTool that it stands in.
-  std::optional<Pose<double>> target(Scanner* scanner, int depth = 0) const;
+  std::optional<RapidTarget> target(Scanner* scanner, int depth = 0) const;
+
+  /// A number, a constant, or a sum, product or quotient of such; nothing where it cannot be told.
+  std::optional<double> number(Scanner* scanner, int depth = 0) const;
 
   /// A feed by name (v100, vmax), in brackets, or declared; nothing where it cannot be told.
   std::optional<double> speed(Scanner* scanner) const;
+
+ private:
+  void declare(const std::string& type, const std::string& name, Scanner* scanner);
+  void declare_targets(const std::string& name, Scanner* scanner);
+  void declare_work_object(const std::string& name, const std::vector<double>& values,
+                           std::string_view text);
+  void note_changes(const std::string& statement);
+  std::optional<double> factor(Scanner* scanner, int depth) const;
+  std::optional<double> product(Scanner* scanner, int depth) const;
+  std::optional<RapidTarget> moved(Scanner* scanner, bool is_by_tool, int depth) const;
+  bool turn(Scanner* scanner, Matrix3<double>* rotation) const;
+
+  std::map<std::string, std::string> declared_;  ///< what stands behind a name
+  std::set<std::string> changed_;                ///< names that a statement sets, or two declare
 };
 
 }  // namespace flexcomp::programs

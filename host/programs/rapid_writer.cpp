@@ -80,12 +80,7 @@ class Rewriter {
       const Matrix3<double> back = own->rotation.transpose();
       shift_ = Pose<double>{back, -(back * own->position)} * program.frame;
     }
-    RapidStatements statements(program.source.text);
-    RapidStatement statement;
-    while (statements.next(&statement)) {
-      Scanner scanner(statement.text);
-      data_.read_declaration(scanner.name(), &scanner);
-    }
+    data_.read_all(program.source.text);
   }
 
   std::string statement(std::size_t motion) const {
@@ -96,15 +91,22 @@ class Rewriter {
         .next(&source);
     const RapidMove move = taken_apart(source.text);
     const std::string indent = indent_before(own.begin);
+    const std::size_t parts = program_.in_place[motion].size();
+    double way = 0;
+    visit_in_place(program_, motion, [&](const Pose<double>& start, const Motion& each, bool) {
+      way += way_of(start, each);
+    });
     std::string text;
-    visit_in_place(program_, motion,
-                   [&](const Pose<double>& start, const Motion& each, bool is_last) {
-                     text += fmt::format("{} {}{}{}{};{}", word_for(each.kind),
-                                         targets(shift_, start, each, move.configuration),
-                                         move.speed, is_last ? move.zone : ",z0", move.tail,
-                                         is_last ? "" : line_end(program_.source));
-                     text += is_last ? "" : indent;
-                   });
+    visit_in_place(
+        program_, motion, [&](const Pose<double>& start, const Motion& each, bool is_last) {
+          const double share = way > 0 ? way_of(start, each) / way : 1 / static_cast<double>(parts);
+          const std::string speed = parts > 1 ? with_time_of(move.speed, share) : move.speed;
+          text += fmt::format("{} {}{}{}{};{}", word_for(each.kind),
+                              targets(shift_, start, each, move.configuration), speed,
+                              is_last ? move.zone : ",z0", move.tail,
+                              is_last ? "" : line_end(program_.source));
+          text += is_last ? "" : indent;
+        });
     return text;
   }
 
@@ -131,16 +133,31 @@ class Rewriter {
     return move;
   }
 
+  /// A part of a motion takes its share of the time (\\T) that the whole one is given.
+  std::string with_time_of(const std::string& speed, double share) const {
+    for (std::size_t at = speed.find('\\'); at != std::string::npos;
+         at = speed.find('\\', at + 1)) {
+      Scanner scanner(std::string_view(speed).substr(at + 1));
+      if (scanner.name() != "T" || !scanner.take(':') || !scanner.take('=')) {
+        continue;
+      }
+      if (const std::optional<double> time = data_.number(&scanner)) {
+        return fmt::format("{}T:={:.6g}{}", speed.substr(0, at + 1), share * *time, scanner.rest());
+      }
+    }
+    return speed;
+  }
+
   std::string configuration_of(std::string_view target_text) const {
     Scanner scanner(target_text);
     if (scanner.peek() == '[') {
       return rapid_configuration(target_text);
     }
-    std::string name = scanner.name();
+    std::optional<std::string> name = data_.target_name(&scanner);
     while ((name == "OFFS" || name == "RELTOOL") && scanner.take('(')) {
-      name = scanner.name();
+      name = data_.target_name(&scanner);
     }
-    const auto found = data_.configurations.find(name);
+    const auto found = data_.configurations.find(name.value_or(""));
     return found == data_.configurations.end() ? kNoConfiguration : found->second;
   }
 
@@ -168,14 +185,33 @@ std::string speed_of(const Motion& motion) {
                      motion.turn_feed > 0 ? motion.turn_feed / kDegree : 500);
 }
 
+/// The tool's name is declared nowhere: with tool0, which every controller has and which is the
+/// bare flange, the robot would drive its flange to the cut.
+std::string tool_to_declare(const CorrectedProgram& program, const std::string& name) {
+  std::string text = fmt::format(
+      "! The points are of the TCP of the robot's model. Declare {}_tool with that TCP and its "
+      "load.\n",
+      name);
+  if (const std::optional<CarriedTool>& tool = program.tool) {
+    const Vector3<double> center = tool->center / kMillimetre;
+    const std::string load =
+        tool->mass > 0 ? fmt::format("{:.6g},[{},{},{}]", tool->mass, fixed(center.x(), 4),
+                                     fixed(center.y(), 4), fixed(center.z(), 4))
+                       : "<mass in kg>,[<its center in mm>]";
+    text += fmt::format(
+        "! As the model has it, if its last link is the robot's tool0:\n"
+        "! PERS tooldata {}_tool:=[TRUE,[{}],[{},[1,0,0,0],0,0,0]];\n",
+        name, rapid_pose(tool->tcp), load);
+  }
+  return text;
+}
+
 std::string new_module(const CorrectedProgram& program, const std::string& name) {
   const Program& source = program.source;
   std::string text = fmt::format(
-      "MODULE {0}\n! {1}\n"
-      "! The points are of the TCP of the robot's model: tool0 stands for a tooldata with that "
-      "TCP.\n"
+      "MODULE {0}\n! {1}\n{3}"
       "PERS wobjdata {0}_work:=[FALSE,TRUE,\"\",[{2}],[[0,0,0],[1,0,0,0]]];\nPROC {0}_run()\n",
-      name, origin_of(program), rapid_pose(program.frame));
+      name, origin_of(program), rapid_pose(program.frame), tool_to_declare(program, name));
   for (std::size_t i = 0; i < source.motions.size(); ++i) {
     text += comments_before(source, i, "  ! ");
     if (i > 0 && !source.motions[i].has_known_start) {
@@ -184,7 +220,7 @@ std::string new_module(const CorrectedProgram& program, const std::string& name)
     const std::string speed = speed_of(source.motions[i]);
     const bool goes_on_after = goes_on(program, i);
     visit_in_place(program, i, [&](const Pose<double>& start, const Motion& each, bool is_last) {
-      text += fmt::format("  {} {},{},{},tool0\\WObj:={}_work;\n", word_for(each.kind),
+      text += fmt::format("  {0} {1},{2},{3},{4}_tool\\WObj:={4}_work;\n", word_for(each.kind),
                           targets({}, start, each, kNoConfiguration), speed,
                           !is_last || goes_on_after ? "z0" : "fine", name);
     });

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "files/one_line.hpp"
 #include "programs/gcode_statement.hpp"
@@ -58,10 +60,15 @@ std::string origin_of(const CorrectedProgram& program) {
 
 std::string rewritten(const Program& source,
                       const std::function<std::string(std::size_t)>& statement) {
+  std::vector<std::size_t> as_written(source.motions.size());  // a routine may call one above it
+  std::iota(as_written.begin(), as_written.end(), std::size_t{0});
+  std::sort(as_written.begin(), as_written.end(), [&](std::size_t a, std::size_t b) {
+    return source.motions[a].begin < source.motions[b].begin;
+  });
   std::string text;
   text.reserve(source.text.size() * 2);
   std::size_t copied = 0;
-  for (std::size_t i = 0; i < source.motions.size(); ++i) {
+  for (const std::size_t i : as_written) {
     const Motion& motion = source.motions[i];
     text.append(source.text, copied, motion.begin - copied);
     text += statement(i);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "byte_source.hpp"
 #include "complaint.hpp"
@@ -11,15 +13,21 @@ namespace flexcomp::fuzz {
 
 using ProgramReader = std::function<programs::Program(const std::string& text)>;
 
-/// Everything of a program that was read is a number, and lies where its statement can stand.
+/// Everything of a program that was read is a number, and lies where its statement can stand: a
+/// routine may call one that stands above it, but no two statements share their text.
 inline void check_motions(const programs::Program& program) {
-  std::size_t at = 0;
   for (const programs::Motion& motion : program.motions) {
     expect(motion.end.position.allFinite() && motion.end.rotation.allFinite(), "poses are finite");
     expect(motion.feed >= 0 && motion.feed < 1e12, "feeds are finite");
     expect(motion.turn_feed >= 0 && motion.turn_feed < 1e12, "turns are finite");
     expect(motion.arc.center.allFinite() && motion.arc.angle >= 0, "arcs are finite");
-    expect(motion.begin >= at && motion.finish >= motion.begin, "statements stand in order");
+  }
+  std::vector<programs::Motion> as_written = program.motions;
+  std::sort(as_written.begin(), as_written.end(),
+            [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  std::size_t at = 0;
+  for (const programs::Motion& motion : as_written) {
+    expect(motion.begin >= at && motion.finish >= motion.begin, "statements stand apart");
     at = motion.finish;
   }
   expect(at <= program.text.size(), "statements stand in the text");
