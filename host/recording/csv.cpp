@@ -17,10 +17,6 @@
 namespace flexcomp::recording {
 namespace {
 
-/// In any unit, times since an epoch in ns among them. What is larger was never measured, and its
-/// square has no number.
-constexpr double kLargest = 1e30;
-
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> cells;
   for (std::size_t begin = 0;;) {
@@ -84,11 +80,11 @@ NumberTable read_csv(const std::filesystem::path& path) {
                                      lines.number(), files::one_line(table.columns[i]),
                                      files::one_line(cell)));
       }
-      if (std::abs(row[i]) > kLargest) {
+      if (std::abs(row[i]) > kLargestCell) {
         throw InputError(fmt::format(
             "{}:{}: column '{}': '{}' is larger than any measurement; expected at most {:g}",
             table.file, lines.number(), files::one_line(table.columns[i]), files::one_line(cell),
-            kLargest));
+            kLargestCell));
       }
     }
     table.rows.push_back(std::move(row));

@@ -20,12 +20,17 @@ struct NumberTable {
   std::vector<std::size_t> lines;
 };
 
+/// The largest number of a cell, in any unit, times since an epoch in ns among them. What is larger
+/// was never measured, and its square has no number.
+constexpr double kLargestCell = 1e30;
+
 /// Reads a CSV file of numbers: the columns' names in line 1, the same number of cells in every
 /// line, decimal points, empty cells allowed. A byte-order mark, CRLF line ends and blank lines are
 /// skipped.
 ///
 /// Throws InputError with file, line and column for a wrong number of cells, a cell that is no
-/// finite number, a column that is unnamed or named twice, a line of more than 64 KiB, or no rows.
+/// finite number or a larger one than `kLargestCell`, a column that is unnamed or named twice, a
+/// line of more than 64 KiB, or no rows.
 NumberTable read_csv(const std::filesystem::path& path);
 
 /// Appends a number in the shortest form that reads back to the same bits; nothing for NaN.

@@ -11,6 +11,7 @@
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
 #include "model/chain.hpp"
+#include "recording/csv.hpp"
 
 namespace flexcomp::recording {
 namespace {
@@ -157,8 +158,9 @@ void check_readable(const Recording& recording) {
                                 samples->cols(), group.names.front(), recording.size(),
                                 group.names.size()));
     }
-    if (samples && samples->array().isInf().any()) {
-      fail_to_write(fmt::format("has an infinite sample from {} on", group.names.front()));
+    if (samples && (samples->array().abs() > kLargestCell).any()) {
+      fail_to_write(
+          fmt::format("has a sample beyond {:g} from {} on", kLargestCell, group.names.front()));
     }
   }
 }

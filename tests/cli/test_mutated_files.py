@@ -173,8 +173,7 @@ class MutatedFiles(Command):
         yaml = self.given / "robot.yaml"
         yaml.write_text(yaml.read_text().replace("gravity: [0, 0, 0]", "gravity: [0, 0, -9.81]")
                         + "base_compliance: [1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9]\n"
-                        "payload: {mass: 120, com: [0, 0, 0.15]}\n"
-                        "effects:\n  - {effect: joint_offset, joint: 3, offset: 2e-3}\n")
+                        "payload: {mass: 120, com: [0, 0, 0.15]}\n")
         self.path = self.given / "path.csv"
         self.run_well("plan", "circle", "--model", yaml, "--center", "1.6,0,1.2", "--plane", "xz", "--points", "16",
                       "--out", self.path)
@@ -184,6 +183,7 @@ class MutatedFiles(Command):
         self.run_well("table", "--model", yaml, "--path", self.path, "--tolerance", "1e-5", "--out", self.table)
         self.toml = self.given / "node.toml"
         self.run_well("configure", "--model", yaml, "--out", self.toml)
+        yaml.write_text(yaml.read_text() + "effects:\n  - {effect: joint_offset, joint: 3, offset: 2e-3}\n")
         self.toml.write_text(self.toml.read_text() + 'filter-cutoff = 20\ncorrection-limit = [0.01, 0.01, 0.01, 0.01, 0.01, 0.01]\n'
                              'trigger = "setpoint"\ngain = 0.8\nready-ticks = 10\npriority = 0\nwithout-identity = true\n')
 
