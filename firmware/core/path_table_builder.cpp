@@ -22,7 +22,7 @@ constexpr double kInsideMargin = 1.01;
 constexpr double kShortestSegment = 1e-6;
 
 /// Segments before a corner that can be made anew with shorter ones.
-constexpr std::uint32_t kRemembered = 64;
+constexpr std::uint32_t kRemembered = 32;
 
 /// Moves (rad) that a lookup does not tell from none.
 constexpr double kResolution = 1e-6;
