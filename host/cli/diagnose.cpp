@@ -114,6 +114,16 @@ bool are_in_order(const check::Checks& checks) {
   });
 }
 
+/// With angles in degrees the arm stands elsewhere in every row: nothing that follows would be
+/// true.
+void refuse_degrees(const check::Checks& checks) {
+  for (const check::Check& each : checks) {
+    if (each.severity == check::Severity::error && each.name == "units.angle") {
+      throw InputError("no diagnosis of joint angles in degrees: mend that first (units.angle)");
+    }
+  }
+}
+
 /// The checks of units that found something, by name.
 std::string wrong_units(const check::Checks& checks) {
   std::string names;
@@ -303,6 +313,7 @@ int run(const DiagnoseOptions& options) {
   diagnosis::Origin origin;
   std::vector<simulation::Scene> scenes = scenes_of(recordings, &origin.qualities);
   origin.checks = check_input(robot, recordings);
+  refuse_degrees(origin.checks);
   origin.command = command_line(options);
   origin.version = FLEXCOMP_BUILD_INFO;
   origin.date = today();

@@ -195,7 +195,7 @@ typedef struct flexcomp_table_requirements {
 /// FLEXCOMP_OK, or BAD_ARGUMENT (also for a misaligned buffer or requirements out of their range),
 /// BAD_MODEL, BAD_PATH, BUFFER_TOO_SMALL, TOLERANCE_NOT_MET; then the buffer holds no table, and
 /// `size` is untouched. Cost: some thousand evaluations of the model a node (not for the tick);
-/// memory: the buffer, 244 to 544 bytes a node, and 12 KiB of stack.
+/// memory: the buffer, 244 to 544 bytes a node, and 13 KiB of stack.
 flexcomp_result_t flexcomp_table_build_path(const flexcomp_model_t* model, const float* points,
                                             size_t count,
                                             const flexcomp_table_requirements_t* requirements,

@@ -636,6 +636,15 @@ class Diagnose(unittest.TestCase):
         page = (self.out / "report.html").read_text()
         self.assertLess(page.index("units.position"), page.index("Verdict"))
 
+    def test_angles_in_degrees_are_refused(self):
+        recording = measured(self.folder, ROBOT, seed=9, poses=30)
+        replace_columns(recording, [f"q_cmd_{k}" for k in JOINTS], lambda *angles: [math.degrees(q) for q in angles])
+        done = run("diagnose", "--model", ROBOT, "--recording", recording, "--out", self.out)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("units.angle", done.stdout)
+        self.assertIn("joint angles in degrees", done.stderr)
+        self.assertFalse(self.out.exists())
+
     def test_the_page_tells_each_axis_by_its_own_noise_and_how_it_came_to_be(self):
         found = self.diagnosis(measured(self.folder, ROBOT, seed=7, poses=30))
         self.assertEqual(found["checks"], [])
