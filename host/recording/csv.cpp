@@ -29,6 +29,16 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
+/// Tables of others have semicolons or tabs. Without a word here, each row would be no number.
+void refuse_other_separators(const std::string& file, std::string_view line) {
+  if (line.find(',') == std::string_view::npos &&
+      line.find_first_of(";\t") != std::string_view::npos) {
+    throw InputError(fmt::format(
+        "{}:1: {} separate the columns, not commas; flexcomp convert makes a recording of it", file,
+        line.find(';') == std::string_view::npos ? "tabs" : "semicolons"));
+  }
+}
+
 std::vector<std::string> read_header(const std::string& file, Lines* lines) {
   std::string_view line;
   if (!lines->next(&line)) {
@@ -38,6 +48,7 @@ std::vector<std::string> read_header(const std::string& file, Lines* lines) {
     throw InputError(fmt::format("{}:1: the line is blank; expected the columns' names", file));
   }
   refuse_long_line(file, lines->number(), line);
+  refuse_other_separators(file, line);
   std::vector<std::string> columns;
   std::set<std::string_view> names;
   for (const std::string_view name : split(line)) {

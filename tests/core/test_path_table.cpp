@@ -258,7 +258,8 @@ template <typename Scalar>
 void come_back_beside_itself(Scalar tolerance, int lost) {
   for (const double piece : {0.002, 0.0005, 0.00002}) {
     for (const double second : {50.0, 25.0, 48.0, -20.0}) {
-      check_run(cusp<Scalar>(50, second, piece), tolerance, lost, static_cast<int>(piece / 2e-5));
+      check_run(cusp<Scalar>(50, second, piece), tolerance, lost,
+                std::max(1, cases(static_cast<int>(piece / 2e-5))));
     }
   }
 }
@@ -281,7 +282,7 @@ void a_place_that_was_located_is_looked_up_there() {
   for (const double tolerance : {1e-6, 1e-5, 1e-4}) {
     const Built<double> built(kr270<double>(), turns, requirements(tolerance));
     TEST_ASSERT_EQUAL(Result::ok, built.result);
-    for (double place = 0; place < 3 * kPieces; place += 0.371) {
+    for (double place = 0; place < 3 * kPieces; place += 37.1 / cases(100)) {
       TableCursor cursor;
       const JointVector<double, 6> q = on_program(turns, place);
       locate<double, 6>(built.table, q, &cursor);

@@ -158,6 +158,15 @@ void cells_that_are_no_finite_number_are_refused() {
   }
 }
 
+void other_separators_are_named() {
+  expect_refusal(
+      ":1: semicolons separate the columns, not commas; flexcomp convert makes a recording of it",
+      "t;x;y;z\n0;1;2;3\n");
+  expect_refusal(
+      ":1: tabs separate the columns, not commas; flexcomp convert makes a recording of it",
+      "t\tx\ty\tz\n0\t1\t2\t3\n");
+}
+
 void a_decimal_comma_is_a_wrong_column_count() {
   expect_refusal(":2: expected 2 cells as in the header, found 3", "t,temp_c\n0,20,5\n");
 }
@@ -315,6 +324,7 @@ int main() {
   RUN_TEST(numbers_mean_what_the_c_library_says);
   RUN_TEST(messages_point_to_the_line_of_a_row);
   RUN_TEST(cells_that_are_no_finite_number_are_refused);
+  RUN_TEST(other_separators_are_named);
   RUN_TEST(a_decimal_comma_is_a_wrong_column_count);
   RUN_TEST(rows_with_too_few_cells_are_refused);
   RUN_TEST(unknown_columns_are_refused);

@@ -151,7 +151,8 @@ bool prepare_tool_pull(const Observations& observations, Hypothesis* hypothesis)
   Vector3<double> travel = box.sizes();
   std::sort(travel.begin(), travel.end());
   const Bounds place{-3 * reach, 3 * reach, 0.02 * reach};
-  hypothesis->set_bounds({{-1e5, 1e5, 1}, {-1e5, 1e5, 1}, place, place, place});
+  const Bounds stiffness{0, 1e5, 1};  // N/m: nothing that hangs pulls less where it is stretched
+  hypothesis->set_bounds({{-1e5, 1e5, 1}, stiffness, place, place, place});
   return travel[1] > kLeastTravel * reach;
 }
 
