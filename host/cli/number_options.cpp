@@ -1,5 +1,7 @@
 #include "cli/number_options.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -20,12 +22,10 @@ CLI::Validator expecting(const char* what, const char* shown, IsInRange is_in_ra
 
 /// By what the help shows for its value: a number, or several with names of their own.
 bool takes_numbers(const CLI::Option& option) {
-  for (const char* name : {"FLOAT", "X,Y,Z", "T,R,A"}) {
-    if (option.get_type_name().rfind(name, 0) == 0) {
-      return true;
-    }
-  }
-  return false;
+  constexpr std::array<const char*, 3> kShown = {"FLOAT", "X,Y,Z", "T,R,A"};
+  return std::any_of(kShown.begin(), kShown.end(), [&option](const char* name) {
+    return option.get_type_name().rfind(name, 0) == 0;
+  });
 }
 
 }  // namespace

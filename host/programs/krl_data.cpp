@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -19,12 +20,8 @@ bool is_array_of_frames(const std::string& name) {
 }
 
 bool moves_external_axis(const KrlPoint& point) {
-  for (const std::optional<double>& each : point.external) {
-    if (each && *each != 0) {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(point.external.begin(), point.external.end(),
+                     [](const std::optional<double>& each) { return each && *each != 0; });
 }
 
 }  // namespace
