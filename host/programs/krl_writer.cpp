@@ -70,6 +70,7 @@ std::string other_components(std::string_view aggregate) {
 /// Passes over a point, and hands it out as it stands; of a product (P1:P2) its last operand.
 std::string_view pass_target(std::string_view statement, Scanner* scanner) {
   std::size_t begin = 0;
+  std::size_t end = 0;  // before the blanks that looking for a colon passes over
   do {
     const bool is_aggregate = scanner->peek() == '{';
     begin = scanner->place();
@@ -78,8 +79,9 @@ std::string_view pass_target(std::string_view statement, Scanner* scanner) {
     } else {
       krl_indexed_name(scanner->name(), scanner);
     }
+    end = scanner->place();
   } while (scanner->take(':'));
-  return statement.substr(begin, scanner->place() - begin);
+  return statement.substr(begin, end - begin);
 }
 
 KrlStatement taken_apart(std::string_view statement) {

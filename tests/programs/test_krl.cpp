@@ -341,6 +341,26 @@ void what_is_computed_of_a_target_is_written_once() {
                              "0.000000} C_DIS\nEND\n") != std::string::npos);
 }
 
+/// A program of one line, behind a point at zero, as it is written when nothing is corrected.
+std::string line_written(const std::string& line, const std::string& dat = {}) {
+  CorrectedProgram program;
+  program.source =
+      krl_program("p.src", "DEF p()\nPTP {X 0,Y 0,Z 0,A 0,B 90,C 0}\n" + line + "\nEND\n", dat);
+  for (const Motion& motion : program.source.motions) {
+    program.in_place.push_back({motion});
+  }
+  const std::string text = text_of(program, Format::krl, "p");
+  const std::size_t begin = text.rfind("\nLIN ") + 1;
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+constexpr const char* kAtOne = "X 1.0000,Y 0.0000,Z 0.0000,A 0.000000,B 90.000000,C 0.000000";
+
+void external_axes_before_a_blank_are_written_in_one_pair_of_braces() {
+  TEST_ASSERT_EQUAL_STRING(("LIN {" + std::string(kAtOne) + ",E1 0,E2 0} C_DIS").c_str(),
+                           line_written("LIN {X 1,E1 0,E2 0} C_DIS").c_str());
+}
+
 void what_is_written_is_read_back() {
   const Program source = krl_program("part.src", kInlineForms, kData);
   const CorrectedProgram program = corrected(source);
@@ -381,6 +401,7 @@ int main() {
   RUN_TEST(a_base_by_number_that_no_file_tells_stays_the_programs);
   RUN_TEST(points_of_a_moved_job_are_moved_in_a_base_by_number);
   RUN_TEST(what_is_computed_of_a_target_is_written_once);
+  RUN_TEST(external_axes_before_a_blank_are_written_in_one_pair_of_braces);
   RUN_TEST(what_is_written_is_read_back);
   return UNITY_END();
 }
