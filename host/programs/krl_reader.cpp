@@ -55,7 +55,7 @@ class KrlReader {
 
   void read_statement(Scanner* scanner) {
     const std::string word = scanner->name();
-    if (word == "DEF" || word == "DEFFCT") {
+    if (begins_routine(word, *scanner)) {
       nesting_.begin_routine();
     } else if (nesting_.is_over()) {
       pass_what_is_not_run(word);
@@ -77,6 +77,12 @@ class KrlReader {
     } else if (word == "DECL" || word == "GLOBAL") {
       data_.read_declaration(word, scanner);
     }
+  }
+
+  /// DEF or DEFFCT, in other files known too where GLOBAL stands before it.
+  static bool begins_routine(const std::string& word, Scanner behind) {
+    const std::string kind = word == "GLOBAL" ? behind.name() : word;
+    return kind == "DEF" || kind == "DEFFCT";
   }
 
   void pass_what_is_not_run(const std::string& word) {
@@ -328,7 +334,7 @@ class KrlReader {
     motion.end = point.pose();
     motion.arc = arc;
     if (angle != 0) {
-      go_round(angle, &motion);
+      go_round(program_.motions.back().end, angle, &motion);
     }
     motion.feed = kind == MotionKind::rapid ? 0 : state.override * state.feed;
     motion.is_cutting = kind != MotionKind::rapid;
@@ -343,17 +349,6 @@ class KrlReader {
       }
     }
     is_lost_ = false;
-  }
-
-  /// CA: so far round from the start, whatever the end says; backwards where it is below zero.
-  void go_round(double angle, Motion* motion) const {
-    if (angle < 0) {
-      motion->arc.normal = -motion->arc.normal;
-    }
-    motion->arc.angle = std::abs(angle);
-    Motion further = *motion;
-    further.arc.angle = 2 * motion->arc.angle;
-    motion->end.position = pose_at(program_.motions.back().end, further, 0.5).position;
   }
 
   Program& program_;

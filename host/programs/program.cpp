@@ -101,6 +101,16 @@ std::optional<Arc> arc_through(const Vector& start, const Vector& between, const
   return arc;
 }
 
+void go_round(const Pose<double>& start, double angle, Motion* motion) {
+  if (angle < 0) {
+    motion->arc.normal = -motion->arc.normal;
+  }
+  motion->arc.angle = std::abs(angle);
+  Motion further = *motion;
+  further.arc.angle = 2 * motion->arc.angle;
+  motion->end.position = pose_at(start, further, 0.5).position;
+}
+
 Matrix3<double> orientation_by_axis(const Vector& axis) {
   const Matrix3<double> down = Eigen::AngleAxisd(M_PI, Vector::UnitX()).toRotationMatrix();
   return Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), axis).toRotationMatrix() * down;

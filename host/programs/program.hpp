@@ -88,6 +88,10 @@ double way_of(const Pose<double>& start, const Motion& motion);
 std::optional<Arc> arc_through(const Vector3<double>& start, const Vector3<double>& between,
                                const Vector3<double>& end);
 
+/// Turns a circular motion's end and arc to an angle (rad) round from its start; backwards where it
+/// is below zero.
+void go_round(const Pose<double>& start, double angle, Motion* motion);
+
 /// Where the smallest rotation turns a tool that points down (against z) to where `axis` (unit,
 /// from the tip towards the spindle, as CAM systems give it) asks for. The TCP's x axis is the work
 /// frame's where the axis is z.

@@ -104,6 +104,8 @@ void what_cannot_be_told_is_refused_with_its_line() {
       {"CIRC {X 20}\n", "p.src:3: expected a comma and the circle's end"},
       {"LIN XP1:OFFSET\n", "p.src:3: 'XP1': a point that is computed"},
       {"END\nDEF q()\nLIN {X 1}\n", "p.src:5: a motion in a second routine"},
+      {"q()\nEND\nGLOBAL DEF q()\nLIN {X 1}\n", "p.src:6: a motion in a second routine"},
+      {"END\nglobal deffct INT q()\nLIN {X 1}\n", "p.src:5: a motion in a second routine"},
       {"$BASE={X 2,Y 0,Z 0,A 0,B 0,C 0}\nLIN {X 1}\n", "p.src:3: a second $BASE"}};
   for (const auto& [text, expected] : refusals) {
     const std::string told = refusal(start + text);
