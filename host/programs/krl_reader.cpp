@@ -174,7 +174,12 @@ class KrlReader {
     return point;
   }
 
+  /// The first routine is run alone. Another is run where it is called, maybe in a loop or never,
+  /// with what is set until there.
   void refuse_hidden() {
+    if (!nesting_.is_in_first_routine()) {
+      fail(kInSecondRoutine);
+    }
     if (const char* why = nesting_.why_no_motion()) {
       fail(why);
     }

@@ -9,6 +9,9 @@ namespace flexcomp::programs {
 constexpr const char* kInBranch =
     "a motion in a branch or a loop: whether it is run cannot be told";
 
+constexpr const char* kInSecondRoutine =
+    "a motion in a second routine: when it is called cannot be told";
+
 /// Something that leaves it open whether, or how, the motions behind it are run.
 struct Doubt {
   std::size_t line = 0;
@@ -48,6 +51,9 @@ class Nesting {
     doubt_ = doubt;
   }
 
+  /// Of the file; what stands before every routine counts to it.
+  bool is_in_first_routine() const { return routine_ <= 1; }
+
   /// Has the routine that is read moved the robot?
   bool moves_here() const { return moving_routine_ != 0 && moving_routine_ == routine_; }
   /// Has another one?
@@ -60,7 +66,7 @@ class Nesting {
       return kInBranch;
     }
     if (moves_elsewhere()) {
-      return "a motion in a second routine: when it is called cannot be told";
+      return kInSecondRoutine;
     }
     moving_routine_ = routine_;
     return nullptr;

@@ -117,6 +117,21 @@ void what_cannot_be_told_is_refused_with_its_line() {
       refusal("DEF p()\nLIN {X 1}\n").c_str());
 }
 
+/// What stands behind a call would else hold for the motions of what is called.
+void motions_of_a_routine_that_is_called_are_refused_though_the_first_has_none() {
+  const std::string called = "END\nDEF q()\nPTP {X 1,Y 0,Z 0,A 0,B 0,C 0}\nEND\n";
+  for (const char* first : {"q()\n$VEL.CP=2\n", "FOR I=1 TO 3\nq()\n", "PTP HOME\n;\n", ";\n;\n"}) {
+    const std::string told = refusal(std::string("DEF p()\n") + first + called);
+    TEST_ASSERT_EQUAL_STRING(
+        "p.src:6: a motion in a second routine: when it is called cannot be told", told.c_str());
+  }
+  TEST_ASSERT_EQUAL(1, krl_program("p.src",
+                                   "DEF p()\nINIT()\nPTP {X 1,Y 0,Z 0,A 0,B 0,C 0}\nEND\n"
+                                   "DEF INIT()\n$OUT[3]=TRUE\nEND\n",
+                                   "")
+                           .motions.size());
+}
+
 /// All of these were passed over in silence once.
 void what_changes_the_way_and_is_not_read_is_refused_with_its_line() {
   const std::string start =
@@ -390,6 +405,7 @@ int main() {
   RUN_TEST(angles_are_those_of_the_orientation);
   RUN_TEST(ca_goes_round_as_far_as_it_says);
   RUN_TEST(what_cannot_be_told_is_refused_with_its_line);
+  RUN_TEST(motions_of_a_routine_that_is_called_are_refused_though_the_first_has_none);
   RUN_TEST(unknown_words_are_noted_with_their_line);
   RUN_TEST(a_million_lines_are_read_in_seconds);
   RUN_TEST(a_program_of_its_own_keeps_all_that_does_not_move);
