@@ -153,6 +153,7 @@ KrlReadPoint KrlData::read_point(Scanner* scanner) const {
     }
     KrlPoint product = krl_point_at(read.point->pose() * by.point->pose());
     product.has_posture = by.point->has_posture;
+    product.external = by.point->external;
     read.point = product;
   }
   return read;

@@ -312,13 +312,14 @@ class KrlReader {
 
   /// An external axis turns or carries the work or the robot: one that moves is not planned.
   void meet_external(const KrlPoint& point) {
-    for (std::size_t i = 0; i < external_.size(); ++i) {
+    std::array<std::optional<double>, 6>& external = program_.external;
+    for (std::size_t i = 0; i < external.size(); ++i) {
       const std::optional<double>& to = point.external[i];
-      const double from = external_[i].value_or(program_.motions.empty() ? to.value_or(0) : 0);
+      const double from = external[i].value_or(program_.motions.empty() ? to.value_or(0) : 0);
       if (to && *to != from) {
         fail(kExternal);
       }
-      external_[i] = to ? to : external_[i];
+      external[i] = to ? to : external[i];
     }
   }
 
@@ -360,7 +361,6 @@ class KrlReader {
   KrlData data_;
   KrlSettings settings_{&program_, &data_};
   KrlPoint at_;
-  std::array<std::optional<double>, 6> external_{};
   bool has_told_of_posture_ = false;
   bool is_lost_ = true;
   std::size_t line_over_ = 0;  ///< behind which nothing is run; zero where it is told already

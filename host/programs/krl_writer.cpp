@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "files/one_line.hpp"
 #include "programs/krl_data.hpp"
+#include "programs/krl_words.hpp"
 #include "programs/rewriting.hpp"
 #include "programs/scanner.hpp"
 
@@ -43,12 +45,25 @@ struct KrlStatement {
   std::string tail;    ///< behind the target
 };
 
-/// The components of an aggregate that are none of X to C, as they stand.
-std::string other_components(std::string_view aggregate) {
+/// Where the external axes stand, as components.
+std::string external_components(const Program& source) {
+  std::string components;
+  for (std::size_t i = 0; i < source.external.size(); ++i) {
+    if (source.external[i]) {
+      components +=
+          fmt::format("{}E{} {:.10g}", components.empty() ? "" : ",", i + 1, *source.external[i]);
+    }
+  }
+  return components;
+}
+
+/// The components of a target that are none of X to C: of an aggregate as they stand, of a name the
+/// external axes.
+std::string other_components(const Program& source, std::string_view aggregate) {
   std::string others;
   const std::size_t open = aggregate.find('{');
   if (open == std::string_view::npos) {
-    return others;
+    return external_components(source);
   }
   std::string_view inside = aggregate.substr(open + 1, aggregate.size() - open - 2);
   const std::size_t type = inside.find(':');
@@ -84,22 +99,51 @@ std::string_view pass_target(std::string_view statement, Scanner* scanner) {
   return statement.substr(begin, end - begin);
 }
 
-KrlStatement taken_apart(std::string_view statement) {
+/// Does the target say how far to go? It is written as a place, to which neither what else it tells
+/// nor the frame that it counts in belongs.
+bool is_relative(const std::string& word) {
+  constexpr std::string_view kEnding = "_REL";
+  return word.size() > kEnding.size() &&
+         word.compare(word.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+}
+
+/// What stands behind a relative target, without #BASE.
+std::string without_frame(std::string tail) {
+  Scanner scanner(tail);
+  while (!scanner.at_end()) {
+    const std::size_t begin = scanner.place();
+    if (scanner.take('#')) {
+      scanner.name();
+      scanner.peek();
+      return tail.erase(begin, scanner.place() - begin);
+    }
+    if (kKrlPassing.count(scanner.name()) == 0) {
+      break;
+    }
+  }
+  return tail;
+}
+
+KrlStatement taken_apart(const Program& source, std::string_view statement) {
   KrlStatement parts;
   Scanner scanner(statement);
   scanner.peek();
   parts.indent = statement.substr(0, scanner.place());
   parts.word = scanner.name();
-  parts.others = other_components(pass_target(statement, &scanner));
+  parts.others = other_components(source, pass_target(statement, &scanner));
   while (scanner.take(',')) {  // the end of a circle, and its angle
     if (scanner.peek() != '{' && Scanner(scanner.rest()).name() == "CA") {
       scanner.name();
       scanner.number();
     } else {
-      parts.others = other_components(pass_target(statement, &scanner));
+      parts.others = other_components(source, pass_target(statement, &scanner));
     }
   }
   parts.tail = files::one_line(scanner.rest(), 1000);
+  if (is_relative(parts.word)) {
+    parts.others.clear();
+    parts.tail = without_frame(std::move(parts.tail));
+  }
   parts.tail.erase(parts.tail.find_last_not_of(' ') + 1);
   return parts;
 }
@@ -157,7 +201,7 @@ std::string statement_in_place(const CorrectedProgram& program, std::size_t moti
   const Motion& own = source.motions[motion];
   const std::string_view end = line_end(source);
   const KrlStatement parts =
-      taken_apart(std::string_view(source.text).substr(own.begin, own.finish - own.begin));
+      taken_apart(source, std::string_view(source.text).substr(own.begin, own.finish - own.begin));
   const Pose<double> shift = shift_of(program);
   std::string text = motion == 0 ? before_first(program, parts.indent) : "";
   visit_in_place(program, motion, [&](const Pose<double>& start, const Motion& each, bool is_last) {

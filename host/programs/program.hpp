@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -65,6 +66,8 @@ struct Program {
   /// Does it load its work frame by a name or a number, or again behind its first motion? One that
   /// is written before that motion would then not last.
   bool loads_frame = false;
+  /// External axes E1 to E6 as KRL tells them, mm or degrees. None of them moves.
+  std::array<std::optional<double>, 6> external{};
   std::vector<Note> notes;
 };
 

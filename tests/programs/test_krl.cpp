@@ -313,9 +313,10 @@ void a_program_of_its_own_keeps_all_that_does_not_move() {
     expected.replace(at, from.size(), to);
   };
   const std::string angles = "A 0.000000,B 90.000000,C 0.000000";
-  replace("PTP XP1 C_PTP", "PTP {X 100.0000,Y 0.0000,Z 20.1000," + angles + "} C_PTP");
+  const std::string axes = ",E1 0,E2 0";
+  replace("PTP XP1 C_PTP", "PTP {X 100.0000,Y 0.0000,Z 20.1000," + angles + axes + "} C_PTP");
   replace("LIN XP2 C_DIS ;", "LIN {X 100.0000,Y 0.0000,Z 10.1000," + angles +
-                                 "} C_DIS\nLIN {X 100.0000,Y 0.0000,Z 0.1000," + angles +
+                                 "} C_DIS\nLIN {X 100.0000,Y 0.0000,Z 0.1000," + angles + axes +
                                  "} C_DIS ;");
   const std::size_t circle = expected.find("CIRC");
   const std::size_t wrote = text.find("CIRC");
@@ -378,6 +379,35 @@ void external_axes_before_a_blank_are_written_in_one_pair_of_braces() {
                            line_written("LIN {X 1,E1 0,E2 0} C_DIS").c_str());
 }
 
+/// The axis stands at 500 mm: written without it, the first point would be gone to from elsewhere.
+void external_axes_of_named_points_are_written() {
+  CorrectedProgram program;
+  program.source =
+      krl_program("p.src", "DEF p()\nPTP XP1\nLIN XP2 C_DIS\nLIN_REL {X 1,E1 0} C_DIS\nEND\n",
+                  "E6POS XP1={X 0,Y 0,Z 0,A 0,B 90,C 0,S 2,T 10,E1 500.5,E3 -90}\n"
+                  "E6POS XP2={X 5,Y 0,Z 0,A 0,B 90,C 0,S 2,T 10,E1 500.5,E3 -90}\n");
+  for (const Motion& motion : program.source.motions) {
+    program.in_place.push_back({motion});
+  }
+  const std::string rest = ".0000,Y 0.0000,Z 0.0000,A 0.000000,B 90.000000,C 0.000000";
+  const std::string text = text_of(program, Format::krl, "p");
+  TEST_ASSERT_EQUAL_STRING(("PTP {X 0" + rest + ",E1 500.5,E3 -90}\nLIN {X 5" + rest +
+                            ",E1 500.5,E3 -90} C_DIS\nLIN {X 6" + rest + "} C_DIS\nEND\n")
+                               .c_str(),
+                           text.substr(text.find("PTP")).c_str());
+}
+
+void the_frame_of_a_relative_motion_is_not_written_behind_a_place() {
+  const std::string at_one = "LIN {" + std::string(kAtOne) + "}";
+  const std::string lines[][2] = {{"LIN_REL {X 1} C_DIS #BASE", " C_DIS"},
+                                  {"LIN_REL {X 1} # base C_DIS", " C_DIS"},
+                                  {"LIN_REL {X 1} #BASE", ""},
+                                  {"LIN_REL {X 1} C_DIS", " C_DIS"}};
+  for (const auto& [line, tail] : lines) {
+    TEST_ASSERT_EQUAL_STRING((at_one + tail).c_str(), line_written(line).c_str());
+  }
+}
+
 void what_is_written_is_read_back() {
   const Program source = krl_program("part.src", kInlineForms, kData);
   const CorrectedProgram program = corrected(source);
@@ -420,6 +450,8 @@ int main() {
   RUN_TEST(points_of_a_moved_job_are_moved_in_a_base_by_number);
   RUN_TEST(what_is_computed_of_a_target_is_written_once);
   RUN_TEST(external_axes_before_a_blank_are_written_in_one_pair_of_braces);
+  RUN_TEST(external_axes_of_named_points_are_written);
+  RUN_TEST(the_frame_of_a_relative_motion_is_not_written_behind_a_place);
   RUN_TEST(what_is_written_is_read_back);
   return UNITY_END();
 }
