@@ -11,8 +11,8 @@
 namespace flexcomp::programs {
 namespace {
 
-const std::set<std::string> kKrlTypes = {"E6POS", "POS",  "FRAME", "E6AXIS",
-                                         "AXIS",  "FDAT", "LDAT",  "PDAT"};
+const std::set<std::string> kKrlTypes = {"E6POS", "POS",  "FRAME", "E6AXIS", "AXIS",
+                                         "FDAT",  "LDAT", "PDAT",  "REAL",   "INT"};
 constexpr const char* kExpectedPoint = "expected a point such as {X 1, Y 2, Z 3, A 0, B 0, C 0}";
 
 bool is_array_of_frames(const std::string& name) {
@@ -73,8 +73,12 @@ bool KrlData::read_declaration(std::string word, Scanner* scanner) {
 void KrlData::assign(const std::string& name, Scanner* scanner) {
   forget(name);
   if (scanner->peek() != '{') {
+    const std::optional<double> number = scanner->number();
+    const bool is_alone = scanner->at_end() || scanner->peek() == ',';
+    numbers_[name] = is_alone ? number : std::nullopt;
     return;
   }
+  numbers_[name].reset();
   const std::optional<std::vector<KrlComponent>> aggregate = read_krl_aggregate(scanner);
   if (!aggregate || !(scanner->at_end() || scanner->peek() == ',')) {
     return;
@@ -91,6 +95,10 @@ void KrlData::forget(const std::string& name) {
   const std::string whole = name.substr(0, name.find('.'));
   points_.erase(whole);
   others_.erase(whole);
+  const auto number = numbers_.find(whole);
+  if (number != numbers_.end()) {
+    number->second.reset();
+  }
   if (is_array_of_frames(whole)) {  // of an index that is computed
     for (auto each = points_.lower_bound(whole + "[");
          each != points_.end() && each->first.compare(0, whole.size(), whole) == 0;) {
@@ -155,6 +163,27 @@ KrlReadPoint KrlData::read_point(Scanner* scanner) const {
     product.has_posture = by.point->has_posture;
     product.external = by.point->external;
     read.point = product;
+  }
+  return read;
+}
+
+KrlReadNumber KrlData::read_number(Scanner* scanner) const {
+  KrlReadNumber read;
+  read.number = scanner->number();
+  if (read.number) {
+    return read;
+  }
+  read.name = scanner->name();
+  const auto found = numbers_.find(read.name);
+  if (found != numbers_.end()) {
+    read.number = found->second;
+  }
+  if (read.name.empty()) {
+    read.why = fmt::format("expected a number or a name, found '{}'",
+                           files::one_line(scanner->rest(), 30));
+  } else if (found != numbers_.end() && !read.number) {
+    read.why = fmt::format("'{}': a number that is computed cannot be told",
+                           files::one_line(read.name, 30));
   }
   return read;
 }

@@ -34,6 +34,13 @@ struct KrlReadPoint {
   std::string why;                ///< why it cannot be read; empty where it only is not told
 };
 
+/// A number as it is written, and what it is.
+struct KrlReadNumber {
+  std::string name;              ///< empty for a number that is none by name
+  std::optional<double> number;  ///< nothing where no file tells it
+  std::string why;               ///< why it cannot be told; empty where no file tells it
+};
+
 /// What a program and its data list declare, by name in capitals.
 class KrlData {
  public:
@@ -49,6 +56,9 @@ class KrlData {
   /// A point in braces or by name, or a product (P1:P2) of whole ones. The letter X before a name
   /// may be left out, as inline forms do.
   KrlReadPoint read_point(Scanner* scanner) const;
+
+  /// A number, or a variable by its name, of which no more than this is read.
+  KrlReadNumber read_number(Scanner* scanner) const;
 
   /// Base or tool by its number: what BASE_DATA[2] is told to be, and $NULLFRAME for 0.
   KrlFrame numbered(const std::string& array, double number) const;
@@ -70,6 +80,8 @@ class KrlData {
 
   std::map<std::string, KrlPoint> points_;
   std::map<std::string, std::vector<KrlComponent>> others_;  ///< FDAT, LDAT
+  /// Variables that a value is given; nothing where it is computed, or is none.
+  std::map<std::string, std::optional<double>> numbers_;
 };
 
 /// A name with its index where it is an element of BASE_DATA or TOOL_DATA; the name alone where

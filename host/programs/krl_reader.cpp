@@ -55,7 +55,7 @@ class KrlReader {
 
   void read_statement(Scanner* scanner) {
     const std::string word = scanner->name();
-    if (begins_routine(word, *scanner)) {
+    if (begins_krl_routine(word, *scanner)) {
       nesting_.begin_routine();
     } else if (nesting_.is_over()) {
       pass_what_is_not_run(word);
@@ -79,12 +79,6 @@ class KrlReader {
     }
   }
 
-  /// DEF or DEFFCT, in other files known too where GLOBAL stands before it.
-  static bool begins_routine(const std::string& word, Scanner behind) {
-    const std::string kind = word == "GLOBAL" ? behind.name() : word;
-    return kind == "DEF" || kind == "DEFFCT";
-  }
-
   void pass_what_is_not_run(const std::string& word) {
     const bool is_motion = kKrlMotions.count(word) > 0 || kKrlUnreadable.count(word) > 0;
     if (is_motion && line_over_ != 0) {
@@ -101,6 +95,9 @@ class KrlReader {
         fail("a statement in the line of its IF is not read");
       }
       scanner->go_to(scanner->place() + (each.empty() ? 1 : 0));
+    }
+    if (word == "FOR") {
+      data_.forget(scanner->name());
     }
     nesting_.open();
   }
@@ -343,6 +340,7 @@ class KrlReader {
       go_round(program_.motions.back().end, angle, &motion);
     }
     motion.feed = kind == MotionKind::rapid ? 0 : state.override * state.feed;
+    motion.turn_feed = kind == MotionKind::rapid ? 0 : state.override * state.turn_feed();
     motion.is_cutting = kind != MotionKind::rapid;
     motion.line = line_;
     motion.begin = begin_;

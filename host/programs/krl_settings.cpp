@@ -49,6 +49,11 @@ std::string named(const KrlFrame& frame) {
 
 }  // namespace
 
+double KrlState::turn_feed() const {
+  const auto [slower, faster] = std::minmax(turning[0], turning[1]);
+  return slower > 0 ? slower : faster;
+}
+
 bool KrlSettings::is_setting(const std::string& word, Scanner scanner) {
   if (word == "BAS") {
     scanner.take('(');
@@ -63,11 +68,11 @@ bool KrlSettings::assign(const std::string& name, std::size_t line, Scanner* sca
     return false;
   }
   if (name == "$VEL.CP") {
-    read_feed(line, scanner, &state_);
-    if (!scanner->at_end()) {
-      fail(line,
-           fmt::format("expected a number alone, found '{}' behind it", shown(scanner->rest())));
-    }
+    set_feed(read_speed(line, scanner).number, line, &state_);
+    refuse_behind_speed(line, scanner);
+  } else if (name == "$VEL.ORI1" || name == "$VEL.ORI2") {
+    set_turning(name == "$VEL.ORI1" ? 0 : 1, read_speed(line, scanner), line);
+    refuse_behind_speed(line, scanner);
   } else if (name == "$VEL") {
     read_speeds(line, scanner);
   } else if (name == "$BASE") {
@@ -84,7 +89,7 @@ bool KrlSettings::assign(const std::string& name, std::size_t line, Scanner* sca
     why_no_path_ = data_.why_no_path(scanner);
   } else if (name.find('.') == std::string::npos) {
     set_mode(name, line, scanner);
-  } else if (whole_name(name) != "$VEL") {  // the speeds of turning are no way
+  } else {
     fail(line, fmt::format("'{}': a component alone is not read; give the whole", shown(name)));
   }
   return true;
@@ -98,20 +103,55 @@ void KrlSettings::set_feed(const std::optional<double>& feed, std::size_t line, 
   }
 }
 
-/// What is no number at all, as a name, is passed over; the feed is then not known.
-void KrlSettings::read_feed(std::size_t line, Scanner* scanner, KrlState* state) {
-  const std::optional<double> feed = scanner->number();
-  set_feed(feed, line, state);
-  if (!feed) {
-    scanner->go_to(scanner->place() + scanner->rest().size());
+/// $VEL_MA has the most that the machine can, as is planned where nothing is said.
+void KrlSettings::set_turning(std::size_t which, const KrlReadNumber& speed, std::size_t line) {
+  if (speed.name.compare(0, 8, "$VEL_MA.") == 0) {
+    state_.turning[which] = 0;
+  } else if (speed.number && *speed.number > 0) {
+    state_.turning[which] = *speed.number * kDegree;
+  } else {
+    note(line, "the speed of turning is not a number above zero here; that before it is used");
+  }
+}
+
+KrlReadNumber KrlSettings::read_speed(std::size_t line, Scanner* scanner) const {
+  KrlReadNumber speed = data_.read_number(scanner);
+  if (!speed.why.empty()) {
+    fail(line, speed.why);
+  }
+  return speed;
+}
+
+void KrlSettings::refuse_behind_speed(std::size_t line, Scanner* scanner) const {
+  if (!scanner->at_end()) {
+    fail(line,
+         fmt::format("expected a number alone, found '{}' behind it", shown(scanner->rest())));
   }
 }
 
 void KrlSettings::read_speeds(std::size_t line, Scanner* scanner) {
+  if (scanner->peek() != '{') {
+    set_feed(std::nullopt, line, &state_);
+    read_speed(line, scanner);
+    refuse_behind_speed(line, scanner);
+    return;
+  }
   const auto aggregate = read_krl_aggregate(scanner);
-  const KrlComponent* const feed = aggregate ? component_of(*aggregate, "CP") : nullptr;
-  if (!aggregate || feed != nullptr) {
-    set_feed(feed != nullptr ? feed->number : std::nullopt, line, &state_);
+  if (!aggregate) {
+    fail(line, "expected speeds such as {CP 0.1,ORI1 200,ORI2 200}");
+  }
+  const auto speed_of = [&](const KrlComponent& component) {
+    KrlReadNumber speed;
+    speed.number = component.number;
+    Scanner name(component.word);
+    return component.number ? speed : read_speed(line, &name);
+  };
+  for (const KrlComponent& each : *aggregate) {
+    if (each.name == "CP") {
+      set_feed(speed_of(each).number, line, &state_);
+    } else if (each.name == "ORI1" || each.name == "ORI2") {
+      set_turning(each.name == "ORI1" ? 0 : 1, speed_of(each), line);
+    }
   }
 }
 
@@ -193,9 +233,8 @@ void KrlSettings::call_bas(std::size_t line, Scanner* scanner) {
     KrlFrame frame = data_.read_frame_name(what + "_DATA", scanner);
     what == "BASE" ? set_base(std::move(frame), line) : set_tool(std::move(frame), line);
   } else if (what == "VEL_CP" || what == "CP_PARAMS") {
-    const std::optional<double> feed = has_value ? scanner->number() : std::nullopt;
-    set_feed(feed, line, &state_);
-    if (feed && !scanner->take(')')) {
+    set_feed(has_value ? read_speed(line, scanner).number : std::nullopt, line, &state_);
+    if (has_value && !scanner->take(')')) {
       fail(line,
            fmt::format("expected a number alone, found '{}' behind it", shown(scanner->rest())));
     }
@@ -248,8 +287,8 @@ void KrlSettings::set_of_motion(const std::string& name, std::size_t line, Scann
   }
   Scanner arguments(inside.value_or(std::string_view{}));
   Scanner* const value = inside ? &arguments : scanner;
-  if (name == "$VEL.CP" || (name == "$VEL" && function == "SVEL_CP" && inside)) {
-    set_feed(value->number(), line, state);
+  if ((name == "$VEL.CP" && !inside) || (name == "$VEL" && function == "SVEL_CP" && inside)) {
+    set_feed(read_speed(line, value).number, line, state);
     if (inside && !value->at_end() && value->peek() != ',') {
       fail(line, fmt::format("'{}': expected a number alone", name));
     }

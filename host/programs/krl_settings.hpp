@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -10,11 +11,16 @@ namespace flexcomp::programs {
 
 /// What a motion is made with.
 struct KrlState {
-  double feed = 0;      ///< m/s; zero where the program does not say
-  double override = 1;  ///< $OV_PRO as a share
+  double feed = 0;                  ///< m/s; zero where the program does not say
+  std::array<double, 2> turning{};  ///< $VEL.ORI1 and ORI2, rad/s; zero where it does not say
+  double override = 1;              ///< $OV_PRO as a share
   KrlFrame base;
   KrlFrame tool;
   bool is_on_tool = false;
+
+  /// The orientation turns so fast at most, rad/s; zero where the program does not say. Which of
+  /// the two speeds holds for a turn is told by how it goes: the slower one is right for each.
+  double turn_feed() const;
 };
 
 /// Follows what a KRL program sets for the motions behind it: feed, base, tool and how the way
@@ -47,8 +53,10 @@ class KrlSettings {
     refuse(program_.file, line, why);
   }
   void note(std::size_t line, const std::string& text) { program_.notes.push_back({line, text}); }
+  KrlReadNumber read_speed(std::size_t line, Scanner* scanner) const;
   void set_feed(const std::optional<double>& feed, std::size_t line, KrlState* state);
-  void read_feed(std::size_t line, Scanner* scanner, KrlState* state);
+  void set_turning(std::size_t which, const KrlReadNumber& speed, std::size_t line);
+  void refuse_behind_speed(std::size_t line, Scanner* scanner) const;
   void read_speeds(std::size_t line, Scanner* scanner);
   void set_override(std::size_t line, Scanner* scanner);
   KrlFrame read_frame(const std::string& name, std::size_t line, Scanner* scanner);

@@ -3,6 +3,8 @@
 #include <set>
 #include <string>
 
+#include "programs/scanner.hpp"
+
 /// First words of KRL's statements, in capitals.
 namespace flexcomp::programs {
 
@@ -15,10 +17,17 @@ inline const std::set<std::string> kKrlMotions = {"LIN", "SLIN", "LIN_REL", "SLI
                                                   "PTP", "SPTP", "CIRC",    "SCIRC"};
 inline const std::set<std::string> kKrlLeaving = {"RETURN", "EXIT", "GOTO", "END", "ENDFCT"};
 inline const std::set<std::string> kKrlWithoutMotion = {
-    "DEFDAT", "ENDDAT", "EXT",     "EXTFCT",   "INI",    "INTERRUPT", "GLOBAL", "INT",   "SIGNAL",
-    "ENUM",   "STRUC",  "WAIT",    "HALT",     "PULSE",  "TRIGGER",   "REAL",   "BOOL",  "CHAR",
-    "ELSE",   "CASE",   "DEFAULT", "CONTINUE", "IMPORT", "ANOUT",     "ANIN",   "DIGIN", "CCLOSE",
-    "COPEN",  "CWRITE", "CREAD",   "SREAD",    "SWRITE", "ENDSPLINE", "DECL",   "BRAKE"};
+    "DEFDAT", "ENDDAT", "EXT",       "EXTFCT", "INI",     "INTERRUPT", "GLOBAL",
+    "SIGNAL", "ENUM",   "STRUC",     "WAIT",   "HALT",    "PULSE",     "TRIGGER",
+    "BOOL",   "CHAR",   "ELSE",      "CASE",   "DEFAULT", "CONTINUE",  "IMPORT",
+    "ANOUT",  "ANIN",   "DIGIN",     "CCLOSE", "COPEN",   "CWRITE",    "CREAD",
+    "SREAD",  "SWRITE", "ENDSPLINE", "DECL",   "BRAKE"};
 inline const std::set<std::string> kKrlPassing = {"C_DIS", "C_VEL", "C_ORI", "C_PTP", "C_SPL"};
+
+/// DEF or DEFFCT, known in other files too where GLOBAL stands before it.
+inline bool begins_krl_routine(const std::string& word, Scanner behind) {
+  const std::string kind = word == "GLOBAL" ? behind.name() : word;
+  return kind == "DEF" || kind == "DEFFCT";
+}
 
 }  // namespace flexcomp::programs

@@ -234,9 +234,9 @@ std::string new_program(const CorrectedProgram& program, const std::string& name
     }
     if (own.kind != MotionKind::rapid && own.turn_feed != turn_feed) {
       turn_feed = own.turn_feed;
-      text +=
-          fmt::format("$VEL.ORI1={}\n", turn_feed > 0 ? fmt::format("{:.6g}", turn_feed / kDegree)
-                                                      : std::string("$VEL_MA.ORI1"));
+      text += turn_feed > 0
+                  ? fmt::format("$VEL.ORI1={0:.6g}\n$VEL.ORI2={0:.6g}\n", turn_feed / kDegree)
+                  : std::string("$VEL.ORI1=$VEL_MA.ORI1\n$VEL.ORI2=$VEL_MA.ORI2\n");
     }
     if (own.feed > 0 && own.feed != feed) {
       feed = own.feed;

@@ -130,8 +130,10 @@ void other_formats_stop_where_the_way_is_not_told() {
 void other_formats_turn_as_slowly() {
   const CorrectedProgram program = corrected("G0 X0 Y0 Z5 A0\nG93 G1 A30 F2\nG94 X10 F600\n");
   const std::string krl = text_of(program, Format::krl, "p");
-  TEST_ASSERT_TRUE(krl.find("\n$VEL.ORI1=1\nLIN ") != std::string::npos);
-  TEST_ASSERT_TRUE(krl.find("\n$VEL.ORI1=$VEL_MA.ORI1\n$VEL.CP=0.01\nLIN ") != std::string::npos);
+  TEST_ASSERT_TRUE(krl.find("\n$VEL.ORI1=1\n$VEL.ORI2=1\nLIN ") != std::string::npos);
+  TEST_ASSERT_TRUE(
+      krl.find("\n$VEL.ORI1=$VEL_MA.ORI1\n$VEL.ORI2=$VEL_MA.ORI2\n$VEL.CP=0.01\nLIN ") !=
+      std::string::npos);
   const std::string rapid = text_of(program, Format::rapid, "p");
   TEST_ASSERT_TRUE(rapid.find(",[50,1,5000,1000],") != std::string::npos);
   TEST_ASSERT_TRUE(rapid.find(",[10,500,5000,1000],") != std::string::npos);

@@ -215,6 +215,54 @@ void feeds_follow_the_override_and_what_a_motion_sets_for_itself() {
   }
 }
 
+/// ORI1 swivels the tool and ORI2 turns it about itself, in degrees a second: the slower holds.
+void turning_is_as_fast_as_the_program_says() {
+  const Program program = krl_program(
+      "p.src",
+      "DEF p()\n$VEL={CP 0.1,ORI1 90,ORI2 180}\nPTP {X 0,Y 0,Z 0,A 0,B 90,C 0}\nLIN {A 10}\n"
+      "$VEL.ORI2=VTURN\n$OV_PRO=50\nLIN {A 20}\n$VEL.ORI1=$VEL_MA.ORI1\n"
+      "$VEL.ORI2=$VEL_MA.ORI2\nLIN {A 30}\nEND\n",
+      "DECL REAL VTURN=36\n");
+  const double turn_feeds[] = {0, M_PI / 2, M_PI / 10, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, turn_feeds[i], program.motions[i].turn_feed);
+  }
+  TEST_ASSERT_EQUAL(0, program.notes.size());
+}
+
+void a_feed_by_name_is_the_number_that_the_files_give() {
+  const Program program = krl_program(
+      "p.src",
+      "DEF p()\nREAL VLOW\nPTP {X 0,Y 0,Z 0,A 0,B 90,C 0}\n$VEL.CP=VCUT\nLIN {X 1}\nVLOW=0.001\n"
+      "$VEL={CP VLOW}\nLIN {X 2}\nBAS(#VEL_CP,VCUT)\nLIN {X 3}\n"
+      "SLIN {X 4} WITH $VEL.CP=VLOW\n$VEL.CP=VELSEWHERE\nLIN {X 5}\nEND\n",
+      "DEFDAT p\nDECL GLOBAL REAL VFAST=2,VCUT=0.03\nENDDAT\n");
+  const double feeds[] = {0, 0.03, 0.001, 0.03, 0.001, 0.03};
+  for (std::size_t i = 0; i < 6; ++i) {
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, feeds[i], program.motions[i].feed);
+  }
+  TEST_ASSERT_EQUAL(1, program.notes.size());
+  TEST_ASSERT_EQUAL(12, program.notes[0].line);
+}
+
+void a_feed_that_is_computed_is_refused_with_its_line() {
+  const std::string refusals[][2] = {
+      {"$VEL.CP=V*2\n", "p.src:4: expected a number alone, found '*2'"},
+      {"$VEL.CP=SPEED(3)\n", "p.src:4: expected a number alone, found '(3)'"},
+      {"$VEL.CP=-V\n", "p.src:4: expected a number or a name, found '-V'"},
+      {"$VEL={CP V*2}\n", "p.src:4: expected speeds such as"},
+      {"BAS(#VEL_CP,V*2)\n", "p.src:4: expected a number alone, found '*2)'"},
+      {"SLIN {X 1} WITH $VEL.CP=SPEED(3)\n", "p.src:4: '$VEL.CP': this setting"},
+      {"V=V/2\n$VEL.CP=V\n", "p.src:5: 'V': a number that is computed cannot be told"},
+      {"FOR V=1 TO 3\nENDFOR\n$VEL.CP=V\n", "p.src:6: 'V': a number that is computed"},
+      {"IF $IN[1] THEN\nV=2\nENDIF\n$VEL.CP=V\n", "p.src:7: 'V': a number that is computed"}};
+  for (const auto& [text, expected] : refusals) {
+    const std::string told =
+        refusal("DEF p()\nV=0.1\nPTP {X 0,Y 0,Z 0,A 0,B 90,C 0}\n" + text + "LIN {X 1}\nEND\n");
+    TEST_ASSERT_EQUAL_STRING(expected.c_str(), told.substr(0, expected.size()).c_str());
+  }
+}
+
 void what_stands_behind_return_is_not_run() {
   const Program program = krl_program(
       "p.src", "DEF p()\nPTP {X 0,Y 0,Z 0,A 0,B 90,C 0}\nLIN {X 1}\nRETURN\nLIN {X 9}\nEND\n", "");
@@ -443,6 +491,9 @@ int main() {
   RUN_TEST(what_changes_nothing_is_read_as_ever);
   RUN_TEST(a_product_of_frames_is_the_second_in_the_first);
   RUN_TEST(feeds_follow_the_override_and_what_a_motion_sets_for_itself);
+  RUN_TEST(turning_is_as_fast_as_the_program_says);
+  RUN_TEST(a_feed_by_name_is_the_number_that_the_files_give);
+  RUN_TEST(a_feed_that_is_computed_is_refused_with_its_line);
   RUN_TEST(what_stands_behind_return_is_not_run);
   RUN_TEST(tool_and_base_by_number_are_those_of_all_motions_or_refused);
   RUN_TEST(an_orientation_that_stays_is_refused_where_an_ldat_asks_for_it);
