@@ -212,10 +212,13 @@ void KrlSettings::set_tool(KrlFrame frame, std::size_t line) {
 
 /// How the way from one point to the next is made: as it is planned, or refused.
 void KrlSettings::set_mode(const std::string& name, std::size_t line, Scanner* scanner) {
+  if (name == "$CIRC_MODE") {
+    fail(line, "'$CIRC_MODE' is not read: the tool may turn otherwise along a circle");
+  }
   const bool is_enumeration = scanner->take('#');
   const std::string value = scanner->name();
   const bool is_planned = name == "$ORI_TYPE" ? value == "VAR" : value == "BASE";
-  if (name != "$CIRC_MODE" && !(is_enumeration && is_planned)) {
+  if (!(is_enumeration && is_planned)) {
     fail(line, fmt::format("'{}' other than #{} is not read: the way between two points is another",
                            name, name == "$ORI_TYPE" ? "VAR" : "BASE"));
   }

@@ -149,6 +149,7 @@ void what_changes_the_way_and_is_not_read_is_refused_with_its_line() {
       {"$IPO_MODE=#TCP\nLIN {X 1}\n", "p.src:4: '$IPO_MODE' other than #BASE"},
       {"$ORI_TYPE=#CONSTANT\nLIN {X 1}\n", "p.src:4: '$ORI_TYPE' other than #VAR"},
       {"$CIRC_TYPE=#PATH\nLIN {X 1}\n", "p.src:4: '$CIRC_TYPE' other than #BASE"},
+      {"$CIRC_MODE={AUX_PT {ORI #CONSIDER}}\nLIN {X 1}\n", "p.src:4: '$CIRC_MODE' is not read"},
       {"$BASE.X=1700\nLIN {X 1}\n", "p.src:4: '$BASE.X': a component alone is not read"},
       {"$BASE=BASE_DATA[3]\nLIN {X 1}\n", "p.src:4: a second $BASE"},
       {"BAS(#BASE,3)\nLIN {X 1}\n", "p.src:4: a second $BASE"},
