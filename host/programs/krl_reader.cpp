@@ -89,12 +89,8 @@ class KrlReader {
 
   /// A block begins with its line; a statement in the same line would be missed.
   void open_block(const std::string& word, Scanner* scanner) {
-    while (word == "IF" && !scanner->at_end()) {
-      const std::string each = scanner->name();
-      if (each == "THEN" && !scanner->at_end()) {
-        fail("a statement in the line of its IF is not read");
-      }
-      scanner->go_to(scanner->place() + (each.empty() ? 1 : 0));
+    if (word == "IF" && has_krl_statement_behind_then(*scanner)) {
+      fail("a statement in the line of its IF is not read");
     }
     if (word == "FOR") {
       data_.forget(scanner->name());
@@ -335,6 +331,7 @@ class KrlReader {
     Motion motion;
     motion.kind = kind;
     motion.end = point.pose();
+    motion.has_known_start = !is_lost_ || program_.motions.empty();
     motion.arc = arc;
     if (angle != 0) {
       go_round(program_.motions.back().end, angle, &motion);
@@ -345,6 +342,11 @@ class KrlReader {
     motion.line = line_;
     motion.begin = begin_;
     motion.finish = finish_;
+    if (!motion.has_known_start) {
+      note(fmt::format(
+          "the place before is not told; the way here from line {} is planned as straight",
+          program_.motions.back().line));
+    }
     append(motion, &program_);
     at_ = point;
     if (angle != 0) {

@@ -5,7 +5,7 @@
 
 #include "programs/scanner.hpp"
 
-/// First words of KRL's statements, in capitals.
+/// First words of KRL's statements, in capitals, and what is told by them.
 namespace flexcomp::programs {
 
 inline const std::set<std::string> kKrlOpening = {"IF", "FOR", "WHILE", "REPEAT", "LOOP", "SWITCH"};
@@ -28,6 +28,18 @@ inline const std::set<std::string> kKrlPassing = {"C_DIS", "C_VEL", "C_ORI", "C_
 inline bool begins_krl_routine(const std::string& word, Scanner behind) {
   const std::string kind = word == "GLOBAL" ? behind.name() : word;
   return kind == "DEF" || kind == "DEFFCT";
+}
+
+/// Does something follow THEN in the line? `behind` stands behind IF.
+inline bool has_krl_statement_behind_then(Scanner behind) {
+  while (!behind.at_end()) {
+    const std::string each = behind.name();
+    if (each == "THEN") {
+      return !behind.at_end();
+    }
+    behind.go_to(behind.place() + (each.empty() ? 1 : 0));
+  }
+  return false;
 }
 
 }  // namespace flexcomp::programs

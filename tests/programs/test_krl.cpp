@@ -446,6 +446,31 @@ void external_axes_of_named_points_are_written() {
                            text.substr(text.find("PTP")).c_str());
 }
 
+/// Where HOME is, no file tells: a straight way past it may go through the work.
+void another_language_stops_where_the_way_is_not_told() {
+  CorrectedProgram program;
+  program.source = krl_program("p.src",
+                               "DEF p()\nPTP HOME\nPTP {X 0,Y 0,Z 0,A 0,B 90,C 0}\nLIN {X 1}\n"
+                               "PTP HOME\nLIN {X 9,Y 0,Z 5,A 0,B 90,C 0}\nLIN {X 8}\n"
+                               "PTP {A1 0,A2 -90}\nPTP {X 7,Y 0,Z 5,A 0,B 90,C 0}\nEND\n",
+                               "");
+  const bool are_known[] = {true, true, false, true, false};
+  for (std::size_t i = 0; i < 5; ++i) {
+    const Motion& motion = program.source.motions[i];
+    TEST_ASSERT_EQUAL(are_known[i], motion.has_known_start);
+    program.in_place.push_back({motion});
+  }
+  TEST_ASSERT_EQUAL(6, program.source.notes[2].line);
+  TEST_ASSERT_EQUAL_STRING(
+      "the place before is not told; the way here from line 4 is planned as straight",
+      program.source.notes[2].text.c_str());
+  const std::string rapid = text_of(program, Format::rapid, "p");
+  const std::size_t stop = rapid.find("  ! PTP HOME\n  Stop; ! the source does not tell the way");
+  TEST_ASSERT_TRUE(stop != std::string::npos);
+  TEST_ASSERT_TRUE(rapid.find("[[1.0000,0.0000,0.0000]") < stop);
+  TEST_ASSERT_TRUE(rapid.find("[[9.0000,0.0000,5.0000]") > stop);
+}
+
 void the_frame_of_a_relative_motion_is_not_written_behind_a_place() {
   const std::string at_one = "LIN {" + std::string(kAtOne) + "}";
   const std::string lines[][2] = {{"LIN_REL {X 1} C_DIS #BASE", " C_DIS"},
@@ -503,6 +528,7 @@ int main() {
   RUN_TEST(what_is_computed_of_a_target_is_written_once);
   RUN_TEST(external_axes_before_a_blank_are_written_in_one_pair_of_braces);
   RUN_TEST(external_axes_of_named_points_are_written);
+  RUN_TEST(another_language_stops_where_the_way_is_not_told);
   RUN_TEST(the_frame_of_a_relative_motion_is_not_written_behind_a_place);
   RUN_TEST(what_is_written_is_read_back);
   return UNITY_END();
