@@ -32,6 +32,8 @@ class Nesting {
   void close() { depth_ -= depth_ > 0 ? 1 : 0; }
   bool is_inside() const { return depth_ > 0; }
   int depth() const { return depth_; }
+  /// Is what stands here run, and once?
+  bool is_surely_run() const { return depth_ == 0 && !doubt_; }
 
   /// What stands behind in the routine is not run: RETURN outside of branches, END.
   void end_run() { is_over_ = true; }

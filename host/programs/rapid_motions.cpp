@@ -19,13 +19,15 @@ constexpr const char* kNotATarget =
 
 /// What changes how motions behind it are made.
 bool RapidMotions::set(const std::string& word, Scanner* scanner) {
-  if (word == "PDISPOFF" || word == "EOFFSOFF") {
-    displaced_ = nesting_->is_inside() ? displaced_ : std::nullopt;
+  if (word == "PDISPOFF") {
+    end_mode("PDISP");
+  } else if (word == "EOFFSOFF") {
+    end_mode("EOFFS");
   } else if (displaces_rapid_motions(word)) {
-    displaced_ = Doubt{statement_->line, fmt::format("'{}' moves the points of the motions behind "
-                                                     "it, which is not read",
-                                                     word)};
-  } else if (word == "SPEEDREFRESH" || (word == "VELSET" && nesting_->is_inside())) {
+    modes_[word.substr(0, 5)] = {
+        statement_->line,
+        fmt::format("'{}' moves the points of the motions behind it, which is not read", word)};
+  } else if (word == "SPEEDREFRESH" || (word == "VELSET" && !nesting_->is_surely_run())) {
     doubt(fmt::format("'{}' here: the speed of the motions behind it cannot be told", word));
   } else if (word == "VELSET") {
     const std::optional<double> percent = data_->number(scanner);
@@ -39,6 +41,12 @@ bool RapidMotions::set(const std::string& word, Scanner* scanner) {
     return false;
   }
   return true;
+}
+
+void RapidMotions::end_mode(const std::string& name) {
+  if (nesting_->is_surely_run()) {
+    modes_.erase(name);
+  }
 }
 
 /// Whatever routine it stands in, the motions behind are not known.
@@ -57,10 +65,13 @@ void RapidMotions::refuse_hidden() {
   if (const char* why = nesting_->why_no_motion()) {
     fail(why);
   }
-  for (const std::optional<Doubt>& each : {nesting_->doubt(), doubt_, displaced_}) {
+  for (const std::optional<Doubt>& each : {nesting_->doubt(), doubt_}) {
     if (each) {
       refuse(program_.file, each->line, each->why);
     }
+  }
+  for (const auto& [name, mode] : modes_) {
+    refuse(program_.file, mode.line, mode.why);
   }
   if (is_within_) {
     fail("a motion in the line of another statement is not read");

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +48,7 @@ class RapidMotions {
   }
   [[noreturn]] void refuse_option(const std::string& option) const;
   void note(const std::string& text) { program_.notes.push_back({statement_->line, text}); }
+  void end_mode(const std::string& name);
   void refuse_hidden();
   void pass_options(std::initializer_list<std::string_view> known, Scanner* scanner) const;
   static std::optional<std::string> next_option(Scanner* scanner);
@@ -73,7 +75,7 @@ class RapidMotions {
   double override_ = 1;  ///< VelSet
   double most_ = kFastest;
   std::optional<Doubt> doubt_;
-  std::optional<Doubt> displaced_;
+  std::map<std::string, Doubt> modes_;  ///< by what ends them: PDISP, EOFFS
   bool has_told_of_posture_ = false;
   bool is_lost_ = true;
   bool is_within_ = false;

@@ -267,7 +267,7 @@ class RapidReader {
     const std::optional<RapidTarget> target = data_.target(scanner);
     data_.forget_target(word);
     const bool is_whole = !is_element && word.find('.') == std::string::npos;
-    if (target && scanner->at_end() && is_whole && !nesting_.is_inside()) {
+    if (target && scanner->at_end() && is_whole && nesting_.is_surely_run()) {
       data_.targets[word] = *target;
     }
   }

@@ -1,0 +1,81 @@
+// What a RAPID module sets for the motions behind it, and whether it surely does.
+#include <cmath>
+#include <string>
+
+#include "programs/corrected_program.hpp"
+#include "programs/positions.hpp"
+#include "programs/rapid_reader.hpp"
+#include "refusal.hpp"
+#include "unity_main.hpp"
+
+using flexcomp::test::assert_at;
+using flexcomp::test::refusal_of;
+using namespace flexcomp::programs;
+
+namespace {
+
+std::string module_of(const std::string& body) {
+  return "MODULE m\nVAR robtarget p:=[[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+         "PROC main()\n" +
+         body + "ENDPROC\nENDMODULE\n";
+}
+
+Program program_of(const std::string& body) { return rapid_program("m.mod", module_of(body)); }
+
+void assert_refused(const std::string& expected, const std::string& body) {
+  const std::string told = refusal_of([&] { program_of(body); });
+  TEST_ASSERT_EQUAL_STRING(expected.c_str(), told.substr(0, expected.size()).c_str());
+}
+
+constexpr const char* kGo = "MoveJ p,v100,fine,t;\n";
+constexpr const char* kFurther = "MoveL Offs(p,100,0,0),v100,fine,t;\n";
+constexpr const char* kElsewhere =
+    "p:=[[0,200,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n";
+
+std::string in_setup(const std::string& setup) {
+  return "setup;\n" + std::string(kGo) + kFurther + "ENDPROC\nPROC setup()\n" + setup;
+}
+
+void what_a_routine_may_leave_out_is_not_counted_as_run() {
+  const std::string kLeaving[] = {"IF d=1 RETURN;\n", "IF d=1 THEN\nRETURN;\nENDIF\n",
+                                  "IF d=1 GOTO skip;\n"};
+  for (const std::string& leaving : kLeaving) {
+    const Program program = program_of("setup;\n" + std::string(kGo) + "ENDPROC\nPROC setup()\n" +
+                                       leaving + kElsewhere + "skip:\n");
+    TEST_ASSERT_EQUAL(0, program.motions.size());
+    TEST_ASSERT_EQUAL(5, program.notes[0].line);
+    TEST_ASSERT_EQUAL(0, program.notes[0].text.find("the module does not tell this point"));
+  }
+  assert_refused("m.mod:10: 'VELSET' here: the speed", in_setup("IF d=1 RETURN;\nVelSet 1,100;\n"));
+  assert_refused("m.mod:4: 'PDISPSET' moves the points",
+                 "PDispSet d;\n" + in_setup("IF d=1 RETURN;\nPDispOff;\n"));
+}
+
+/// The doubt ends with the routine.
+void what_stands_behind_the_call_is_run() {
+  const Program program = program_of("setup;\n" + std::string(kElsewhere) + kGo +
+                                     "ENDPROC\nPROC setup()\nIF d=1 RETURN;\nn:=1;\n");
+  TEST_ASSERT_EQUAL(1, program.motions.size());
+  assert_at(0, 200, 0, program.motions[0].end.position);
+}
+
+/// PDispOff ends what PDispSet does alone, and EOffsOff what EOffsSet does.
+void each_displacement_is_ended_by_its_own_word() {
+  assert_refused("m.mod:4: 'PDISPSET' moves the points",
+                 "PDispSet d;\nEOffsOff;\n" + std::string(kGo));
+  assert_refused("m.mod:4: 'EOFFSSET' moves the points",
+                 "EOffsSet d;\nPDispOff;\n" + std::string(kGo));
+  TEST_ASSERT_EQUAL(1, program_of("PDispSet d;\nEOffsSet d;\nPDispOff;\nEOffsOff;\n" +
+                                  std::string(kGo))
+                           .motions.size());
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(what_a_routine_may_leave_out_is_not_counted_as_run);
+  RUN_TEST(what_stands_behind_the_call_is_run);
+  RUN_TEST(each_displacement_is_ended_by_its_own_word);
+  return UNITY_END();
+}
