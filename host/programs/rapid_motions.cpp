@@ -15,6 +15,8 @@ constexpr const char* kNotATarget =
     "the point is not one that this module tells: expected a robtarget in numbers, by its name, as "
     "an element of an array, or by Offs or RelTool with numbers and constants of the module";
 
+bool is_axis(double value) { return std::abs(value) < 8.9e9; }
+
 }  // namespace
 
 /// What changes how motions behind it are made.
@@ -54,6 +56,24 @@ void RapidMotions::doubt(const std::string& why) {
   if (!doubt_) {
     doubt_ = Doubt{statement_->line, why};
   }
+}
+
+void RapidMotions::pass_joints(Scanner* scanner) {
+  if (nesting_->is_inside()) {
+    fail(kInBranch);
+  }
+  if (const std::optional<Doubt>& doubt = nesting_->doubt()) {
+    refuse(program_.file, doubt->line, doubt->why);
+  }
+  pass_options({"CONC", "ID"}, scanner);
+  scanner->take(',');
+  if (const std::optional<RapidAxes> axes = data_->joint_axes(scanner)) {
+    for (std::size_t i = 0; i < left_at_.size(); ++i) {
+      left_at_[i] = is_axis((*axes)[i]) ? (*axes)[i] : left_at_[i];
+    }
+    left_in_ = statement_->line;
+  }
+  leave_out("a point in joint angles; the motion is left as it is");
 }
 
 void RapidMotions::leave_out(const std::string& why) {
@@ -227,17 +247,19 @@ void RapidMotions::set_work_object(const std::string& name) {
 
 /// An external axis turns or carries the work or the robot: one that moves is not planned.
 void RapidMotions::meet(const RapidTarget& target) {
-  constexpr double kNone = 8.9e9;
   for (std::size_t i = 0; i < external_.size(); ++i) {
-    const double to = target.external[i];
-    if (!(std::abs(to) < kNone)) {
+    const bool is_told = is_axis(target.external[i]);
+    if (!is_told && !left_at_[i]) {
       continue;
     }
+    const double to = is_told ? target.external[i] : *left_at_[i];
     if (to != external_[i].value_or(program_.motions.empty() ? to : 0)) {
-      fail("an external axis that moves is not planned");
+      refuse(program_.file, is_told ? statement_->line : left_in_,
+             "an external axis that moves is not planned");
     }
     external_[i] = to;
   }
+  left_at_ = {};
   if (target.has_configuration && !has_told_of_posture_) {
     note("the posture that the configuration gives is not used: plan chooses one by itself");
     has_told_of_posture_ = true;

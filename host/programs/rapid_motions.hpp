@@ -31,8 +31,8 @@ class RapidMotions {
 
   void read(const std::string& word, Scanner* scanner);
 
-  /// A motion to a place that is not known: nothing is planned.
-  void leave_out(const std::string& why);
+  /// A motion to a point in joint angles (MoveAbsJ): nothing is planned.
+  void pass_joints(Scanner* scanner);
 
   /// Is the statement in the line of another one? The writer could not tell them apart.
   void stand_within(bool is_within) { is_within_ = is_within; }
@@ -48,6 +48,7 @@ class RapidMotions {
   }
   [[noreturn]] void refuse_option(const std::string& option) const;
   void note(const std::string& text) { program_.notes.push_back({statement_->line, text}); }
+  void leave_out(const std::string& why);
   void end_mode(const std::string& name);
   void refuse_hidden();
   void pass_options(std::initializer_list<std::string_view> known, Scanner* scanner) const;
@@ -71,8 +72,10 @@ class RapidMotions {
   Nesting* nesting_;
   std::string work_object_;
   std::string tool_;
-  std::array<std::optional<double>, 6> external_{};
-  double override_ = 1;  ///< VelSet
+  std::array<std::optional<double>, 6> external_{};  ///< where motions are planned
+  std::array<std::optional<double>, 6> left_at_{};   ///< where what is left out sends them
+  std::size_t left_in_ = 0;                          ///< line of that
+  double override_ = 1;                              ///< VelSet
   double most_ = kFastest;
   std::optional<Doubt> doubt_;
   std::map<std::string, Doubt> modes_;  ///< by what ends them: PDISP, EOFFS

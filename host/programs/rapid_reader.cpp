@@ -27,6 +27,7 @@ class RapidReader {
     data_.read_all(program_.text);
     routines_ = rapid_routines(program_.text);
     moving_ = moving_routines(routines_);
+    joint_moving_ = joint_moving_routines(routines_);
     const std::size_t outside = routines_.at("").motion_line;
     if (outside != 0 && routines_.size() > 1) {
       refuse(program_.file, outside, "a motion outside of all routines is not read");
@@ -97,7 +98,7 @@ class RapidReader {
     } else if (word == "MOVEJ" || word == "MOVEL" || word == "MOVEC") {
       motions_.read(word, scanner);
     } else if (word == "MOVEABSJ") {
-      motions_.leave_out("a point in joint angles; the motion is left as it is");
+      motions_.pass_joints(scanner);
     } else if (!word.empty() && routines_.count(word) > 0) {
       call(word, scanner);
     } else if (is_unreadable_rapid_motion(word)) {
@@ -167,7 +168,7 @@ class RapidReader {
         read_rest(scanner);
         return;
       }
-      if (is_rapid_motion(word) || moving_.count(word) > 0) {
+      if (is_rapid_motion(word) || moving_.count(word) > 0 || joint_moving_.count(word) > 0) {
         fail(kInBranch);
       }
       read_in_condition(word, last, scanner);
@@ -279,6 +280,7 @@ class RapidReader {
   RapidMotions motions_{&program_, &data_, &statement_, &nesting_};
   RapidRoutines routines_;
   std::set<std::string> moving_;
+  std::set<std::string> joint_moving_;
   std::set<std::string> ran_;
   std::set<std::string> active_;
   int calls_ = 0;

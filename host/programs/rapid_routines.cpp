@@ -25,6 +25,20 @@ void take_words(const RapidStatement& statement, RapidRoutine* routine) {
   }
 }
 
+/// Adds the routines that call one of these, or one that does. What stands outside of all counts
+/// where there is nothing else.
+void add_callers(const RapidRoutines& routines, std::set<std::string>* called) {
+  for (std::size_t before = 1; before != 0;) {
+    before = 0;
+    for (const auto& [name, routine] : routines) {
+      const bool is_one = !name.empty() || routines.size() == 1;
+      const bool calls = std::any_of(routine.calls.begin(), routine.calls.end(),
+                                     [&](const auto& call) { return called->count(call) > 0; });
+      before += is_one && calls && called->insert(name).second ? 1 : 0;
+    }
+  }
+}
+
 }  // namespace
 
 std::string rapid_routine_begun(Scanner scanner) {
@@ -64,17 +78,19 @@ RapidRoutines rapid_routines(std::string_view text) {
 
 std::set<std::string> moving_routines(const RapidRoutines& routines) {
   std::set<std::string> moving;
-  for (std::size_t before = 1; before != 0;) {
-    before = 0;
-    for (const auto& [name, routine] : routines) {
-      const bool is_one = !name.empty() || routines.size() == 1;
-      const bool moves =
-          is_one && (routine.motion_line != 0 ||
-                     std::any_of(routine.calls.begin(), routine.calls.end(),
-                                 [&](const auto& call) { return moving.count(call) > 0; }));
-      before += moves && moving.insert(name).second ? 1 : 0;
+  for (const auto& [name, routine] : routines) {
+    const bool is_one = !name.empty() || routines.size() == 1;
+    if (is_one && routine.motion_line != 0) {
+      moving.insert(name);
     }
   }
+  add_callers(routines, &moving);
+  return moving;
+}
+
+std::set<std::string> joint_moving_routines(const RapidRoutines& routines) {
+  std::set<std::string> moving = {"MOVEABSJ"};
+  add_callers(routines, &moving);
   return moving;
 }
 

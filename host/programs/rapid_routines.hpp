@@ -30,6 +30,9 @@ RapidRoutines rapid_routines(std::string_view text);
 /// counts where there is nothing else.
 std::set<std::string> moving_routines(const RapidRoutines& routines);
 
+/// MoveAbsJ, and the routines that it stands in or that call such.
+std::set<std::string> joint_moving_routines(const RapidRoutines& routines);
+
 /// Where a module that moves begins: `main` if it does, else the one that moves and that no other
 /// calls; the first such where there are several. Empty where nothing moves, or outside of all.
 std::string first_routine(const RapidRoutines& routines, const std::set<std::string>& moving);

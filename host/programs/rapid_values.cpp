@@ -13,7 +13,8 @@
 namespace flexcomp::programs {
 namespace {
 
-constexpr int kDeepest = 8;      // of what stands in each other
+constexpr int kDeepest = 8;  // of what stands in each other
+constexpr std::size_t kJoints = 6;
 constexpr double kNoAxis = 9e9;  // an external axis that is none
 const std::set<std::string> kDeclaring = {"LOCAL", "TASK", "CONST", "PERS", "VAR"};
 
@@ -32,6 +33,16 @@ std::optional<Pose<double>> pose_of(const std::vector<double>& numbers, std::siz
   return Pose<double>{turn.normalized().toRotationMatrix(), place};
 }
 
+/// External axes from `first` on.
+RapidAxes axes_of(const std::vector<double>& numbers, std::size_t first) {
+  RapidAxes axes;
+  axes.fill(kNoAxis);
+  for (std::size_t i = 0; i < axes.size() && first + i < numbers.size(); ++i) {
+    axes[i] = numbers[first + i];
+  }
+  return axes;
+}
+
 std::optional<RapidTarget> target_of(const std::vector<double>& numbers) {
   const std::optional<Pose<double>> pose = pose_of(numbers, 0);
   if (!pose) {
@@ -39,15 +50,12 @@ std::optional<RapidTarget> target_of(const std::vector<double>& numbers) {
   }
   RapidTarget target;
   target.pose = *pose;
-  target.external.fill(kNoAxis);
   constexpr std::size_t kTurns = 7;  // behind place and quaternion
   constexpr std::size_t kAxes = 11;  // behind those four
   for (std::size_t i = kTurns; i < std::min(numbers.size(), kAxes); ++i) {
     target.has_configuration = target.has_configuration || numbers[i] != 0;
   }
-  for (std::size_t i = 0; i < 6 && kAxes + i < numbers.size(); ++i) {
-    target.external[i] = numbers[kAxes + i];
-  }
+  target.external = axes_of(numbers, kAxes);
   return target;
 }
 
@@ -64,49 +72,6 @@ std::optional<double> speed_by_name(const std::string& name) {
 
 }  // namespace
 
-std::optional<std::vector<double>> read_rapid_numbers(Scanner* scanner) {
-  std::vector<double> numbers;
-  int depth = 0;
-  do {
-    if (scanner->take('[')) {
-      ++depth;
-    } else if (scanner->take(']')) {
-      --depth;
-      if (depth > 0) {
-        scanner->take(',');
-      }
-    } else if (scanner->take('"')) {
-      const std::size_t close = scanner->rest().find('"');
-      if (close == std::string_view::npos) {
-        return std::nullopt;
-      }
-      scanner->go_to(scanner->place() + close + 1);
-      scanner->take(',');
-    } else if (const std::optional<double> number = scanner->number()) {
-      numbers.push_back(*number);
-      scanner->take(',');
-    } else {
-      const std::string word = scanner->name();
-      if (word != "TRUE" && word != "FALSE") {
-        return std::nullopt;
-      }
-      scanner->take(',');
-    }
-  } while (depth > 0 && numbers.size() < 1000);
-  return numbers;
-}
-
-std::string rapid_configuration(std::string_view target) {
-  std::size_t at = target.find(']');
-  at = at == std::string_view::npos ? at : target.find(']', at + 1);
-  const std::size_t end = target.rfind(']');
-  if (at == std::string_view::npos || end <= at + 1 ||
-      target.substr(at + 1).find('[') == std::string_view::npos) {
-    return ",[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]";
-  }
-  return files::one_line(target.substr(at + 1, end - at - 1), 200);
-}
-
 void RapidData::read_all(std::string_view text) {
   RapidStatements statements(text);
   RapidStatement statement;
@@ -118,6 +83,7 @@ void RapidData::read_all(std::string_view text) {
   }
   for (const std::string& name : changed_) {
     numbers.erase(name);
+    joints.erase(name);
     speeds.erase(name);
     if (work_objects.count(name) > 0) {
       work_objects[name].why = "the program changes this work object";
@@ -226,6 +192,8 @@ void RapidData::declare(const std::string& type, const std::string& name, Scanne
   const std::optional<std::vector<double>> values = read_rapid_numbers(scanner);
   if (values && type == "SPEEDDATA" && !values->empty() && values->front() > 0) {
     speeds[name] = kMillimetre * values->front();
+  } else if (values && type == "JOINTTARGET") {
+    joints[name] = axes_of(*values, kJoints);
   } else if (values && type == "WOBJDATA") {
     declare_work_object(name, *values, text);
   } else if (type == "TOOLDATA") {
@@ -292,6 +260,16 @@ std::optional<RapidTarget> RapidData::target(Scanner* scanner, int depth) const 
   return found != targets.end() && !is_more && name->find('.') == std::string::npos
              ? std::optional<RapidTarget>(found->second)
              : std::nullopt;
+}
+
+std::optional<RapidAxes> RapidData::joint_axes(Scanner* scanner) const {
+  if (scanner->peek() == '[') {
+    const std::optional<std::vector<double>> values = read_rapid_numbers(scanner);
+    return values ? std::optional<RapidAxes>(axes_of(*values, kJoints)) : std::nullopt;
+  }
+  const auto found = joints.find(scanner->name());
+  return found != joints.end() && scanner->peek() != '{' ? std::optional<RapidAxes>(found->second)
+                                                         : std::nullopt;
 }
 
 /// Offs(p,x,y,z) in the work object's axes, RelTool(p,x,y,z\Rx:=…\Ry:=…\Rz:=…) in the tool's.

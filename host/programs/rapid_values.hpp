@@ -8,15 +8,19 @@
 #include <vector>
 
 #include "flexcomp/types.hpp"
+#include "programs/rapid_aggregate.hpp"
 #include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
 
+/// External axes of a target; 9E9 is none.
+using RapidAxes = std::array<double, 6>;
+
 /// Where a motion goes to, as a robtarget says it.
 struct RapidTarget {
-  Pose<double> pose;                 ///< m
-  std::array<double, 6> external{};  ///< external axes; 9E9 is none
-  bool has_configuration = false;    ///< another than [0,0,0,0]
+  Pose<double> pose;               ///< m
+  RapidAxes external{};            ///< 9E9 is none
+  bool has_configuration = false;  ///< another than [0,0,0,0]
 };
 
 /// A work object, and why motions in it cannot be planned; empty where they can.
@@ -25,18 +29,11 @@ struct RapidWorkObject {
   std::string why;
 };
 
-/// The numbers of a RAPID aggregate such as [[1,2,3],[1,0,0,0]], brackets, truth values and texts
-/// left out; nothing if anything else stands in it.
-std::optional<std::vector<double>> read_rapid_numbers(Scanner* scanner);
-
-/// The parts of a target in brackets behind its place and orientation, ",[0,0,0,0],[9E9,…]" as they
-/// stand; those of a target without any if there are none.
-std::string rapid_configuration(std::string_view target);
-
 /// Declarations of a module, by name in capitals; of arrays by name and number, as PT{2}.
 struct RapidData {
   std::map<std::string, RapidTarget> targets;
   std::map<std::string, std::string> configurations;  ///< of targets by name, as they are written
+  std::map<std::string, RapidAxes> joints;            ///< external axes of jointtargets
   std::map<std::string, double> numbers;              ///< that nothing changes
   std::map<std::string, double> speeds;               ///< m/s of the TCP
   std::map<std::string, RapidWorkObject> work_objects;
@@ -59,6 +56,10 @@ struct RapidData {
   /// A target in brackets, by its name, or by Offs or RelTool of one; nothing where it cannot be
   /// told. `depth` counts the Offs and RelTool that it stands in.
   std::optional<RapidTarget> target(Scanner* scanner, int depth = 0) const;
+
+  /// The external axes of a jointtarget in brackets or by its name; nothing where they cannot be
+  /// told.
+  std::optional<RapidAxes> joint_axes(Scanner* scanner) const;
 
   /// A number, a constant, or a sum, product or quotient of such; nothing where it cannot be told.
   std::optional<double> number(Scanner* scanner, int depth = 0) const;

@@ -65,9 +65,36 @@ void each_displacement_is_ended_by_its_own_word() {
                  "PDispSet d;\nEOffsOff;\n" + std::string(kGo));
   assert_refused("m.mod:4: 'EOFFSSET' moves the points",
                  "EOffsSet d;\nPDispOff;\n" + std::string(kGo));
-  TEST_ASSERT_EQUAL(1, program_of("PDispSet d;\nEOffsSet d;\nPDispOff;\nEOffsOff;\n" +
-                                  std::string(kGo))
-                           .motions.size());
+  TEST_ASSERT_EQUAL(
+      1, program_of("PDispSet d;\nEOffsSet d;\nPDispOff;\nEOffsOff;\n" + std::string(kGo))
+             .motions.size());
+}
+
+/// The MoveL behind it was planned as a rapid from nowhere, and exported as a MoveJ.
+void joint_motions_in_a_branch_are_refused() {
+  const std::string to_home = "MoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n";
+  const std::string go = kGo;
+  assert_refused("m.mod:6: a motion in a branch",
+                 go + "IF d=1 THEN\n" + to_home + "ENDIF\n" + kFurther);
+  assert_refused("m.mod:11: a motion in a branch", go + "IF d=1 THEN\nhome;\nENDIF\n" + kFurther +
+                                                       "ENDPROC\nPROC home()\n" + to_home);
+  assert_refused("m.mod:5: a motion in a branch",
+                 go + "IF d=1 home;\n" + kFurther + "ENDPROC\nPROC home()\n" + to_home);
+  assert_refused(
+      "m.mod:9: 'RETURN': whether the motions",
+      go + "home;\n" + kFurther + "ENDPROC\nPROC home()\n" + "IF d=1 RETURN;\n" + to_home);
+}
+
+void joint_motions_that_leave_external_axes_elsewhere_are_refused() {
+  const std::string go = kGo;
+  const std::string away = "MoveAbsJ [[0,0,0,0,0,0],[500,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n";
+  const std::string named = "CONST jointtarget j:=[[0,0,0,0,0,0],[500,9E9,9E9,9E9,9E9,9E9]];\n";
+  assert_refused("m.mod:5: an external axis that moves", go + away + kFurther);
+  assert_refused("m.mod:6: an external axis that moves",
+                 go + named + "MoveAbsJ\\Conc,j\\NoEOffs,v100,fine,t;\n" + kFurther);
+  // It stands there for all motions, or none is behind it.
+  TEST_ASSERT_EQUAL(2, program_of(away + go + kFurther).motions.size());
+  TEST_ASSERT_EQUAL(2, program_of(go + kFurther + away).motions.size());
 }
 
 }  // namespace
@@ -77,5 +104,7 @@ int main() {
   RUN_TEST(what_a_routine_may_leave_out_is_not_counted_as_run);
   RUN_TEST(what_stands_behind_the_call_is_run);
   RUN_TEST(each_displacement_is_ended_by_its_own_word);
+  RUN_TEST(joint_motions_in_a_branch_are_refused);
+  RUN_TEST(joint_motions_that_leave_external_axes_elsewhere_are_refused);
   return UNITY_END();
 }
