@@ -100,7 +100,7 @@ void RapidMotions::refuse_hidden() {
 
 void RapidMotions::read(const std::string& word, Scanner* scanner) {
   refuse_hidden();
-  pass_options({"CONC", "ID"}, scanner);
+  pass_options({"CONC"}, scanner);
   scanner->take(',');
   std::optional<RapidTarget> between;
   if (word == "MOVEC") {
@@ -117,7 +117,7 @@ void RapidMotions::read(const std::string& word, Scanner* scanner) {
   if (!end) {
     fail(kNotATarget);
   }
-  pass_options({"ID"}, scanner);
+  pass_options({}, scanner);
   const Speed speed = read_speed(scanner);
   read_zone(scanner);
   read_tool(scanner);
@@ -125,7 +125,7 @@ void RapidMotions::read(const std::string& word, Scanner* scanner) {
   add(word, between, end->pose, speed);
 }
 
-/// \Conc, \ID:=10 and the like, which change no way.
+/// \Conc, \Inpos:=inpos50 and the like, which change no way.
 void RapidMotions::pass_options(std::initializer_list<std::string_view> known,
                                 Scanner* scanner) const {
   while (const std::optional<std::string> option = next_option(scanner)) {

@@ -95,7 +95,7 @@ void RapidData::read_all(std::string_view text) {
 }
 
 /// Names that a statement sets: before `:=`, behind FOR and INCR, and parameters, which hide
-/// others.
+/// others. What `:=` gives to an option (\WObj:=) is none of these.
 void RapidData::note_changes(const std::string& statement) {
   static const std::set<std::string> kAll = {"PROC", "FUNC", "TRAP"};
   static const std::set<std::string> kNext = {"FOR", "INCR", "DECR", "ADD", "CLEAR"};
@@ -109,14 +109,17 @@ void RapidData::note_changes(const std::string& statement) {
     const std::string name = scanner.name();
     changed_.insert(name.substr(0, name.find('.')));
   }
+  bool is_option = false;
   for (std::string last = word; !scanner.at_end();) {
     const bool is_assignment = scanner.take(':') && scanner.take('=');
-    if (is_assignment || takes_all) {
+    if ((is_assignment && !is_option) || takes_all) {
       changed_.insert(last.substr(0, last.find('.')));
     }
+    const bool is_marked = scanner.take('\\');
     const std::string name = scanner.name();
     if (!name.empty()) {
       last = name;
+      is_option = is_marked;
     } else if (!is_assignment && !scanner.at_end()) {
       scanner.go_to(scanner.place() + 1);
     }

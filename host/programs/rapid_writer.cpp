@@ -66,6 +66,7 @@ std::size_t next_comma(std::string_view text, std::size_t from) {
 
 /// A motion's statement in the source, taken to pieces.
 struct RapidMove {
+  std::string head;           ///< "\Conc,"
   std::string configuration;  ///< of its end
   std::string speed;          ///< ",v100"
   std::string zone;           ///< ",z1"
@@ -101,7 +102,7 @@ class Rewriter {
         program_, motion, [&](const Pose<double>& start, const Motion& each, bool is_last) {
           const double share = way > 0 ? way_of(start, each) / way : 1 / static_cast<double>(parts);
           const std::string speed = parts > 1 ? with_time_of(move.speed, share) : move.speed;
-          text += fmt::format("{} {}{}{}{};{}", word_for(each.kind),
+          text += fmt::format("{}{} {}{}{}{};{}", word_for(each.kind), is_last ? move.head : "",
                               targets(shift_, start, each, move.configuration), speed,
                               is_last ? move.zone : ",z0", move.tail,
                               is_last ? "" : line_end(program_.source));
@@ -117,7 +118,9 @@ class Rewriter {
     const bool is_circle = scanner.name() == "MOVEC";
     std::size_t begin = scanner.place();
     if (scanner.peek() == '\\') {
-      begin = next_comma(text, begin) + 1;
+      const std::size_t comma = next_comma(text, begin);
+      move.head = files::one_line(text.substr(begin, comma - begin), 200) + ",";
+      begin = comma + 1;
     }
     std::size_t end = next_comma(text, begin);
     if (is_circle) {

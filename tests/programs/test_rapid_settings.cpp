@@ -97,6 +97,44 @@ void joint_motions_that_leave_external_axes_elsewhere_are_refused() {
   TEST_ASSERT_EQUAL(2, program_of(go + kFurther + away).motions.size());
 }
 
+/// A work object, a tool and a number that have an option's name are what they are declared as.
+void an_options_name_is_no_variable() {
+  const std::string header =
+      "MODULE m\nPERS wobjdata "
+      "wobj:=[FALSE,TRUE,\"\",[[600,0,300],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n"
+      "PERS tooldata tool:=[TRUE,[[0,0,9],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+      "CONST num rz:=90;\nCONST robtarget q:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9]];\n"
+      "PROC main()\nhere:=CRobT(\\Tool:=tool\\WObj:=wobj);\n"
+      "MoveJ RelTool(q,1,2,3\\Rz:=rz),v100,fine,tool\\WObj:=wobj;\n";
+  const std::string end = "ENDPROC\nENDMODULE\n";
+  const Program program = rapid_program("m.mod", header + end);
+  TEST_ASSERT_EQUAL(1, program.motions.size());
+  assert_at(600, 0, 300, program.frame->position);
+  assert_at(1, 2, 3, program.motions[0].end.position);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1, program.motions[0].end.rotation(1, 0));
+  // What stands behind an option may still be set.
+  TEST_ASSERT_EQUAL_STRING(
+      "m.mod:8: 'WOBJ': the program changes this work object; its way is not planned",
+      refusal_of([&] {
+        rapid_program("m.mod", header + "IF Present(\\x) THEN wobj:=other;\nENDIF\n" + end);
+      }).c_str());
+}
+
+void an_option_that_another_robot_hears_is_refused_or_kept() {
+  const std::string go = kGo;
+  assert_refused("m.mod:5: '\\ID': this option", go + "MoveL Offs(p,9,0,0)\\ID:=20,v100,z1,t;\n");
+  assert_refused("m.mod:5: '\\ID': this option", go + "MoveL\\ID:=20,Offs(p,9,0,0),v100,z1,t;\n");
+  CorrectedProgram program;
+  program.source = program_of(go + "MoveL\\Conc,Offs(p,100,0,0),v100,z1,t;\n");
+  Motion half = program.source.motions[1];
+  half.end.position.x() = 0.05;
+  program.in_place = {{program.source.motions[0]}, {half, program.source.motions[1]}};
+  const std::string text = text_of(program, Format::rapid, "m");
+  // What stands behind is run when the last part begins.
+  TEST_ASSERT_TRUE(text.find("\nMoveL [[50.0000,") != std::string::npos);
+  TEST_ASSERT_TRUE(text.find("\nMoveL\\Conc, [[100.0000,") != std::string::npos);
+}
+
 }  // namespace
 
 int main() {
@@ -106,5 +144,7 @@ int main() {
   RUN_TEST(each_displacement_is_ended_by_its_own_word);
   RUN_TEST(joint_motions_in_a_branch_are_refused);
   RUN_TEST(joint_motions_that_leave_external_axes_elsewhere_are_refused);
+  RUN_TEST(an_options_name_is_no_variable);
+  RUN_TEST(an_option_that_another_robot_hears_is_refused_or_kept);
   return UNITY_END();
 }
