@@ -15,6 +15,9 @@ constexpr const char* kNotATarget =
     "the point is not one that this module tells: expected a robtarget in numbers, by its name, as "
     "an element of an array, or by Offs or RelTool with numbers and constants of the module";
 
+constexpr const char* kTimeBehindVelSet =
+    "'\\T' behind VelSet: how long the motion lasts cannot be told";
+
 bool is_axis(double value) { return std::abs(value) < 8.9e9; }
 
 }  // namespace
@@ -29,6 +32,8 @@ bool RapidMotions::set(const std::string& word, Scanner* scanner) {
     modes_[word.substr(0, 5)] = {
         statement_->line,
         fmt::format("'{}' moves the points of the motions behind it, which is not read", word)};
+  } else if (word == "SINGAREA" || word == "CIRPATHMODE") {
+    set_orientation_mode(word, scanner);
   } else if (word == "SPEEDREFRESH" || (word == "VELSET" && !nesting_->is_surely_run())) {
     doubt(fmt::format("'{}' here: the speed of the motions behind it cannot be told", word));
   } else if (word == "VELSET") {
@@ -43,6 +48,19 @@ bool RapidMotions::set(const std::string& word, Scanner* scanner) {
     return false;
   }
   return true;
+}
+
+/// How the tool turns on its way: another way than one rotation is not planned.
+void RapidMotions::set_orientation_mode(const std::string& word, Scanner* scanner) {
+  const std::string option = next_option(scanner).value_or("");
+  if (option == "OFF" || option == "PATHFRAME" || option.empty()) {
+    end_mode(word);
+  } else {
+    modes_[word] = {statement_->line,
+                    fmt::format("'{} \\{}' changes how the tool turns on its way, which is not "
+                                "planned",
+                                word, files::one_line(option, 30))};
+  }
 }
 
 void RapidMotions::end_mode(const std::string& name) {
@@ -79,9 +97,10 @@ void RapidMotions::pass_joints(Scanner* scanner) {
 void RapidMotions::leave_out(const std::string& why) {
   note(why);
   is_lost_ = true;
+  lost_in_ = statement_->line;
 }
 
-void RapidMotions::refuse_hidden() {
+void RapidMotions::refuse_hidden(const std::string& word) {
   if (const char* why = nesting_->why_no_motion()) {
     fail(why);
   }
@@ -91,7 +110,11 @@ void RapidMotions::refuse_hidden() {
     }
   }
   for (const auto& [name, mode] : modes_) {
-    refuse(program_.file, mode.line, mode.why);
+    const bool is_of_others =
+        (name == "SINGAREA" && word == "MOVEJ") || (name == "CIRPATHMODE" && word != "MOVEC");
+    if (!is_of_others) {
+      refuse(program_.file, mode.line, mode.why);
+    }
   }
   if (is_within_) {
     fail("a motion in the line of another statement is not read");
@@ -99,7 +122,7 @@ void RapidMotions::refuse_hidden() {
 }
 
 void RapidMotions::read(const std::string& word, Scanner* scanner) {
-  refuse_hidden();
+  refuse_hidden(word);
   pass_options({"CONC"}, scanner);
   scanner->take(',');
   std::optional<RapidTarget> between;
@@ -163,7 +186,8 @@ RapidMotions::Speed RapidMotions::read_speed(Scanner* scanner) {
     fail("expected a comma and the speed");
   }
   Speed speed;
-  std::optional<double> feed = data_->speed(scanner);
+  const std::optional<RapidSpeed> given = data_->speed(scanner);
+  std::optional<double> feed = given ? std::optional<double>(given->feed) : std::nullopt;
   while (const std::optional<std::string> option = next_option(scanner)) {
     const std::optional<double> value =
         *option == "V" || *option == "T" ? data_->number(scanner) : std::nullopt;
@@ -180,8 +204,10 @@ RapidMotions::Speed RapidMotions::read_speed(Scanner* scanner) {
     note("the module does not tell the speed; the default is used");
   }
   speed.feed = std::min(feed.value_or(0) * override_, most_);
-  if (speed.time && (override_ != 1 || most_ < kFastest)) {
-    fail("'\\T' behind VelSet: how long the motion lasts cannot be told");
+  const double turn = given ? given->turn * override_ : 0;
+  speed.turn = turn < kFastestRapidTurn ? turn : 0;
+  if (speed.time && override_ != 1) {
+    fail(kTimeBehindVelSet);
   }
   return speed;
 }
@@ -310,6 +336,13 @@ void RapidMotions::add(const std::string& word, const std::optional<RapidTarget>
   motion.line = statement_->line;
   motion.begin = statement_->begin;
   motion.finish = statement_->finish;
+  motion.has_known_start = !is_lost_ || program_.motions.empty();
+  if (!motion.has_known_start) {
+    note(
+        fmt::format("where this motion begins is not known: line {} is left as it is; the way "
+                    "here from line {} is planned as straight",
+                    lost_in_, program_.motions.back().line));
+  }
   append(motion, &program_);
   is_lost_ = false;
 }
@@ -318,11 +351,15 @@ void RapidMotions::add(const std::string& word, const std::optional<RapidTarget>
 void RapidMotions::set_feed(const Speed& speed, Motion* motion) const {
   if (!speed.time) {
     motion->feed = speed.feed;
+    motion->turn_feed = speed.turn;
     return;
   }
   const Pose<double>& start = program_.motions.back().end;
   motion->feed = length_of(start, *motion) / *speed.time;
   motion->turn_feed = turn_between(start.rotation, motion->end.rotation) / *speed.time;
+  if (motion->feed > most_) {
+    fail(kTimeBehindVelSet);
+  }
   if (!(motion->feed > 0 || motion->turn_feed > 0)) {
     fail("'\\T' of a motion that goes nowhere is not read");
   }

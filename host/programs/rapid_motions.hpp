@@ -40,6 +40,7 @@ class RapidMotions {
  private:
   struct Speed {
     double feed = 0;             ///< m/s; zero where the module does not tell it
+    double turn = 0;             ///< rad/s; zero where nothing bounds it
     std::optional<double> time;  ///< s, of the whole motion
   };
 
@@ -49,8 +50,9 @@ class RapidMotions {
   [[noreturn]] void refuse_option(const std::string& option) const;
   void note(const std::string& text) { program_.notes.push_back({statement_->line, text}); }
   void leave_out(const std::string& why);
+  void set_orientation_mode(const std::string& word, Scanner* scanner);
   void end_mode(const std::string& name);
-  void refuse_hidden();
+  void refuse_hidden(const std::string& word);
   void pass_options(std::initializer_list<std::string_view> known, Scanner* scanner) const;
   static std::optional<std::string> next_option(Scanner* scanner);
   Speed read_speed(Scanner* scanner);
@@ -78,9 +80,10 @@ class RapidMotions {
   double override_ = 1;                              ///< VelSet
   double most_ = kFastest;
   std::optional<Doubt> doubt_;
-  std::map<std::string, Doubt> modes_;  ///< by what ends them: PDISP, EOFFS
+  std::map<std::string, Doubt> modes_;  ///< by name: PDISP, EOFFS, SINGAREA, CIRPATHMODE
   bool has_told_of_posture_ = false;
   bool is_lost_ = true;
+  std::size_t lost_in_ = 0;  ///< line
   bool is_within_ = false;
 };
 

@@ -59,15 +59,24 @@ std::optional<RapidTarget> target_of(const std::vector<double>& numbers) {
   return target;
 }
 
-/// v100 is 100 mm/s, vmax as fast as it goes.
-std::optional<double> speed_by_name(const std::string& name) {
+/// v100 is 100 mm/s, and 500 degrees a second as they all are; vmax is as fast as it goes.
+std::optional<RapidSpeed> speed_by_name(const std::string& name) {
   if (name.size() < 2 || name[0] != 'V') {
     return std::nullopt;
   }
   Scanner digits(std::string_view(name).substr(1));
   const std::optional<double> number = digits.number();
-  return number && digits.at_end() && *number > 0 ? std::optional<double>(kMillimetre * *number)
-                                                  : std::nullopt;
+  return number && digits.at_end() && *number > 0
+             ? std::optional<RapidSpeed>({kMillimetre * *number, kFastestRapidTurn})
+             : std::nullopt;
+}
+
+std::optional<RapidSpeed> speed_in(const std::optional<std::vector<double>>& numbers) {
+  if (!numbers || numbers->empty() || !(numbers->front() > 0)) {
+    return std::nullopt;
+  }
+  const double turn = numbers->size() > 1 ? std::max((*numbers)[1], 0.0) : 0;
+  return RapidSpeed{kMillimetre * numbers->front(), kDegree * turn};
 }
 
 }  // namespace
@@ -193,8 +202,9 @@ void RapidData::declare(const std::string& type, const std::string& name, Scanne
   }
   const std::string_view text = scanner->rest();
   const std::optional<std::vector<double>> values = read_rapid_numbers(scanner);
-  if (values && type == "SPEEDDATA" && !values->empty() && values->front() > 0) {
-    speeds[name] = kMillimetre * values->front();
+  const std::optional<RapidSpeed> speed = type == "SPEEDDATA" ? speed_in(values) : std::nullopt;
+  if (speed) {
+    speeds[name] = *speed;
   } else if (values && type == "JOINTTARGET") {
     joints[name] = axes_of(*values, kJoints);
   } else if (values && type == "WOBJDATA") {
@@ -358,16 +368,13 @@ std::optional<double> RapidData::factor(Scanner* scanner, int depth) const {
              : std::nullopt;
 }
 
-std::optional<double> RapidData::speed(Scanner* scanner) const {
+std::optional<RapidSpeed> RapidData::speed(Scanner* scanner) const {
   if (scanner->peek() == '[') {
-    const std::optional<std::vector<double>> values = read_rapid_numbers(scanner);
-    return values && !values->empty() && values->front() > 0
-               ? std::optional<double>(kMillimetre * values->front())
-               : std::nullopt;
+    return speed_in(read_rapid_numbers(scanner));
   }
   const std::string name = scanner->name();
   const auto found = speeds.find(name);
-  return found != speeds.end() ? std::optional<double>(found->second) : speed_by_name(name);
+  return found != speeds.end() ? std::optional<RapidSpeed>(found->second) : speed_by_name(name);
 }
 
 }  // namespace flexcomp::programs

@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "flexcomp/types.hpp"
+#include "programs/program.hpp"
 #include "programs/rapid_aggregate.hpp"
 #include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
+
+/// The orientation's speed of all speeddata that a controller has by itself, rad/s: no bound.
+constexpr double kFastestRapidTurn = 500 * kDegree;
 
 /// External axes of a target; 9E9 is none.
 using RapidAxes = std::array<double, 6>;
@@ -21,6 +25,12 @@ struct RapidTarget {
   Pose<double> pose;               ///< m
   RapidAxes external{};            ///< 9E9 is none
   bool has_configuration = false;  ///< another than [0,0,0,0]
+};
+
+/// A speeddata.
+struct RapidSpeed {
+  double feed = 0;  ///< m/s of the TCP
+  double turn = 0;  ///< rad/s of the orientation; zero where it does not say
 };
 
 /// A work object, and why motions in it cannot be planned; empty where they can.
@@ -35,7 +45,7 @@ struct RapidData {
   std::map<std::string, std::string> configurations;  ///< of targets by name, as they are written
   std::map<std::string, RapidAxes> joints;            ///< external axes of jointtargets
   std::map<std::string, double> numbers;              ///< that nothing changes
-  std::map<std::string, double> speeds;               ///< m/s of the TCP
+  std::map<std::string, RapidSpeed> speeds;
   std::map<std::string, RapidWorkObject> work_objects;
   std::map<std::string, bool> tools;  ///< does the robot hold it?
 
@@ -65,7 +75,7 @@ struct RapidData {
   std::optional<double> number(Scanner* scanner, int depth = 0) const;
 
   /// A feed by name (v100, vmax), in brackets, or declared; nothing where it cannot be told.
-  std::optional<double> speed(Scanner* scanner) const;
+  std::optional<RapidSpeed> speed(Scanner* scanner) const;
 
  private:
   void declare(const std::string& type, const std::string& name, Scanner* scanner);

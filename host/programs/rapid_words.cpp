@@ -25,13 +25,13 @@ const std::set<std::string> kRapidClosing = {"ENDIF", "ENDFOR", "ENDWHILE", "END
 const std::set<std::string> kRapidRoutines = {"PROC", "FUNC", "TRAP"};
 const std::set<std::string> kRapidDisplacing = {"PDISPON", "PDISPSET", "EOFFSON", "EOFFSSET"};
 const std::set<std::string> kRapidWithoutMotion = {
-    "MODULE",     "ENDMODULE", "ENDPROC",   "ENDFUNC",   "ENDTRAP", "ELSE",       "ELSEIF",
-    "CASE",       "DEFAULT",   "RECORD",    "ENDRECORD", "STOP",    "CONFL",      "CONFJ",
-    "SINGAREA",   "ACCSET",    "RESET",     "SET",       "INCR",    "DECR",       "ADD",
-    "CLEAR",      "ACTUNIT",   "DEACTUNIT", "GRIPLOAD",  "CONNECT", "RAISE",      "RETRY",
-    "TRYNEXT",    "PULSEDO",   "LABEL",     "OPEN",      "CLOSE",   "WRITE",      "CLKSTART",
-    "CLKSTOP",    "CLKRESET",  "STOPMOVE",  "STARTMOVE", "TRIGGIO", "TRIGGEQUIP", "TRIGGINT",
-    "PATHACCLIM", "PATHRESOL"};
+    "MODULE",   "ENDMODULE", "ENDPROC",   "ENDFUNC",   "ENDTRAP",    "ELSE",     "ELSEIF",
+    "CASE",     "DEFAULT",   "RECORD",    "ENDRECORD", "STOP",       "CONFL",    "CONFJ",
+    "ACCSET",   "RESET",     "SET",       "INCR",      "DECR",       "ADD",      "CLEAR",
+    "ACTUNIT",  "DEACTUNIT", "GRIPLOAD",  "CONNECT",   "RAISE",      "RETRY",    "TRYNEXT",
+    "PULSEDO",  "LABEL",     "OPEN",      "CLOSE",     "WRITE",      "CLKSTART", "CLKSTOP",
+    "CLKRESET", "STOPMOVE",  "STARTMOVE", "TRIGGIO",   "TRIGGEQUIP", "TRIGGINT", "PATHACCLIM",
+    "PATHRESOL"};
 constexpr std::array<std::string_view, 5> kWithoutMotionBegin = {"SETDO", "SETAO", "SETGO", "WAIT",
                                                                  "TP"};
 

@@ -135,6 +135,61 @@ void an_option_that_another_robot_hears_is_refused_or_kept() {
   TEST_ASSERT_TRUE(text.find("\nMoveL\\Conc, [[100.0000,") != std::string::npos);
 }
 
+constexpr double kDegreeByHand = 0.017453292519943295;
+
+/// Of [mm/s, degrees/s, …] the second number bounds how fast the tool turns. 500 degrees a second,
+/// which v5 to v7000 have, are no bound.
+void a_speeddata_bounds_the_turn() {
+  const std::string go = kGo;
+  const Program program = program_of(
+      "CONST speeddata slow:=[25,6,5000,1000];\n" + go +
+      "MoveL Offs(p,1,0,0),[100,3,5000,1000],z1,t;\nMoveL p,slow,z1,t;\nMoveL p,slow\\V:=9,z1,t;\n"
+      "MoveL Offs(p,1,0,0),v100,z1,t;\nVelSet 10,5000;\nMoveL p,v100,z1,t;\n");
+  const double expected[][2] = {{0.1, 3}, {0.025, 6}, {0.009, 6}, {0.1, 0}, {0.01, 50}};
+  for (std::size_t i = 0; i < 5; ++i) {
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected[i][0], program.motions[i + 1].feed);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected[i][1] * kDegreeByHand,
+                              program.motions[i + 1].turn_feed);
+  }
+}
+
+void a_motion_behind_one_that_is_left_out_has_no_known_start() {
+  const Program program = program_of("MoveAbsJ j,v100,fine,t;\n" + std::string(kGo) + kFurther +
+                                     "MoveAbsJ j,v100,fine,t;\nMoveL p,v100,fine,t;\n" + kFurther);
+  TEST_ASSERT_TRUE(program.motions[0].has_known_start);
+  TEST_ASSERT_FALSE(program.motions[2].has_known_start);
+  TEST_ASSERT_TRUE(program.motions[3].has_known_start);
+  TEST_ASSERT_EQUAL(8, program.notes.back().line);
+  TEST_ASSERT_TRUE(program.notes.back().text.find("the way here from line 6 is planned as") !=
+                   std::string::npos);
+}
+
+/// 100 mm in 4 s are 25 mm/s.
+void a_time_is_obeyed_where_vel_set_does_not_reach_it() {
+  const std::string timed = "MoveL Offs(p,100,0,0),v100\\T:=4,fine,t;\n";
+  const Program program = program_of("VelSet 100,26;\n" + std::string(kGo) + timed);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.025, program.motions[1].feed);
+  assert_refused("m.mod:6: '\\T' behind VelSet", "VelSet 100,24;\n" + std::string(kGo) + timed);
+}
+
+void other_ways_to_turn_the_tool_are_refused() {
+  const std::string both = std::string(kGo) + kFurther;
+  const std::string arc = both + "MoveC Offs(p,150,50,0),Offs(p,200,0,0),v100,fine,t;\n";
+  assert_refused("m.mod:4: 'SINGAREA \\WRIST' changes", "SingArea\\Wrist;\n" + both);
+  assert_refused("m.mod:4: 'SINGAREA \\LOCKAXIS4' changes", "SingArea \\LockAxis4;\n" + both);
+  assert_refused("m.mod:5: 'SINGAREA \\WRIST' changes",
+                 "IF d=1 THEN\nSingArea\\Wrist;\nENDIF\n" + both);
+  assert_refused("m.mod:4: 'CIRPATHMODE \\OBJECTFRAME' changes",
+                 "CirPathMode\\ObjectFrame;\n" + arc);
+  const std::string plain[] = {
+      "SingArea\\Off;\nCirPathMode\\PathFrame;\n",
+      "SingArea\\Wrist;\nSingArea\\Off;\nCirPathMode\\Wrist45;\nCirPathMode\\PathFrame;\n"};
+  for (const std::string& each : plain) {
+    TEST_ASSERT_EQUAL(3, program_of(each + arc).motions.size());
+  }
+  TEST_ASSERT_EQUAL(2, program_of("CirPathMode\\ObjectFrame;\n" + both).motions.size());
+}
+
 }  // namespace
 
 int main() {
@@ -146,5 +201,9 @@ int main() {
   RUN_TEST(joint_motions_that_leave_external_axes_elsewhere_are_refused);
   RUN_TEST(an_options_name_is_no_variable);
   RUN_TEST(an_option_that_another_robot_hears_is_refused_or_kept);
+  RUN_TEST(a_speeddata_bounds_the_turn);
+  RUN_TEST(a_motion_behind_one_that_is_left_out_has_no_known_start);
+  RUN_TEST(a_time_is_obeyed_where_vel_set_does_not_reach_it);
+  RUN_TEST(other_ways_to_turn_the_tool_are_refused);
   return UNITY_END();
 }
