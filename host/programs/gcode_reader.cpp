@@ -149,6 +149,7 @@ class GcodeReader {
       case 300:
       case 530:
         goes_to_machine_place_ = true;
+        takes_p_ = takes_p_ || word.code() == 300;  // which of the places
         break;
       case 800:
         motion_ = -1;
@@ -214,10 +215,13 @@ class GcodeReader {
     const bool is_arc = motion_ == 2 || motion_ == 3;
     const bool moves = line.has_any("XYZABC");
     if (line.has('P') && !takes_p_ && !is_arc) {
-      fail("'P': goes with G4, G64 and arcs alone");
+      fail("'P': goes with G4, G30, G64 and arcs alone");
     }
     if (moves && has_dwell_) {
       fail("a dwell with an axis; expected G4 and P");
+    }
+    if (has_dwell_ && line.has('F') && !line.has('P')) {
+      fail("'F' beside G4: a dwell in seconds (Siemens) or a feed? expected G4 and P");
     }
     if (line.has('Q') && !takes_p_) {
       fail("'Q': unknown word");

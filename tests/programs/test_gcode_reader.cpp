@@ -262,6 +262,22 @@ void a_dwell_is_noted_and_moves_nothing() {
                            refusal("G0 X0 Y0 Z10\nG4 X2\n").c_str());
 }
 
+/// Siemens' G4 F3 waits three seconds; in RS274/NGC the F would be the feed of all that follows.
+void a_dwell_in_siemens_words_is_no_feed() {
+  TEST_ASSERT_EQUAL_STRING(
+      "p.nc:3: 'F' beside G4: a dwell in seconds (Siemens) or a feed? expected G4 and P",
+      refusal("G0 X0 Y0 Z0\nG1 X10 F600\nG4 F3\nG1 X110\n").c_str());
+  const Program program = program_of("G0 X0 Y0 Z0\nG4 P3 F600\nG1 X110\n");
+  TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.01, program.motions[1].feed);
+}
+
+void p_of_g30_is_the_number_of_the_place() {
+  const Program program = program_of("G91 G30 P2 Z0\nG90 G0 X0 Y0 Z5\n");
+  TEST_ASSERT_EQUAL(1, program.motions.size());
+  TEST_ASSERT_EQUAL_STRING("p.nc:1: 'P': goes with G4, G30, G64 and arcs alone",
+                           refusal("G91 G28 P2 Z0\n").c_str());
+}
+
 }  // namespace
 
 int main() {
@@ -286,5 +302,7 @@ int main() {
   RUN_TEST(a_program_ends_at_its_second_percent_sign);
   RUN_TEST(block_delete_is_noted_once);
   RUN_TEST(a_dwell_is_noted_and_moves_nothing);
+  RUN_TEST(a_dwell_in_siemens_words_is_no_feed);
+  RUN_TEST(p_of_g30_is_the_number_of_the_place);
   return UNITY_END();
 }

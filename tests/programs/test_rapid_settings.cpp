@@ -203,7 +203,7 @@ int main() {
   RUN_TEST(an_option_that_another_robot_hears_is_refused_or_kept);
   RUN_TEST(a_speeddata_bounds_the_turn);
   RUN_TEST(a_motion_behind_one_that_is_left_out_has_no_known_start);
-  RUN_TEST(a_time_is_obeyed_where_vel_set_does_not_reach_it);
   RUN_TEST(other_ways_to_turn_the_tool_are_refused);
+  RUN_TEST(a_time_is_obeyed_where_vel_set_does_not_reach_it);
   return UNITY_END();
 }
