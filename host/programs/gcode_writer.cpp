@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "programs/gcode_axes.hpp"
+#include "programs/gcode_line.hpp"
 #include "programs/gcode_modes.hpp"
 #include "programs/gcode_statement.hpp"
 #include "programs/krl_point.hpp"
@@ -27,6 +30,40 @@ std::string plain(double value) {
     text.erase(text.find_last_not_of('.') + 1);
   }
   return text;
+}
+
+/// G28, G30 and G53 name places of the machine.
+bool goes_to_machine_place(const std::vector<Word>& words) {
+  return std::any_of(words.begin(), words.end(), [](const Word& word) {
+    return word.letter == 'G' && (word.code() == 280 || word.code() == 300 || word.code() == 530);
+  });
+}
+
+/// A, B and C, degrees.
+using GcodeAngles = std::array<double, 3>;
+
+/// The same orientation with each angle as near to another as whole turns bring it.
+GcodeAngles unwound(GcodeAngles angles, const GcodeAngles& near) {
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    angles[i] += 360 * std::round((near[i] - angles[i]) / 360);
+  }
+  return angles;
+}
+
+double farness(const GcodeAngles& angles, const GcodeAngles& from) {
+  double sum = 0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    sum += std::abs(angles[i] - from[i]);
+  }
+  return sum;
+}
+
+/// The nearest of all that are the same orientation: B beyond 90 degrees is one with A and C turned
+/// by half a turn.
+GcodeAngles nearest(const GcodeAngles& angles, const GcodeAngles& near) {
+  const GcodeAngles own = unwound(angles, near);
+  const GcodeAngles other = unwound({angles[0] + 180, 180 - angles[1], angles[2] + 180}, near);
+  return farness(other, near) < farness(own, near) ? other : own;
 }
 
 /// A line in place of a motion, or of a part of it.
@@ -69,11 +106,13 @@ class GcodeWriter {
   }
 
  private:
-  /// The modes that hold in each line that moves, and the letters of angles that the program has.
+  /// The modes that hold in each line that moves, the angles behind it, and the letters of angles
+  /// that the program has.
   void read_source() {
     std::vector<Word> words;
     std::size_t motion = 0;
     GcodeModes modes;
+    GcodeAxes axes;
     std::size_t number = 0;
     for (std::size_t begin = 0; begin < source_.text.size() && motion < modes_.size();) {
       read_words(next_line(source_.text, &begin), &words);
@@ -85,32 +124,41 @@ class GcodeWriter {
                      ? std::string(1, word.letter)
                      : std::string();
       }
+      if (!goes_to_machine_place(words)) {
+        axes.go(GcodeLine(words), modes);
+      }
       if (source_.motions[motion].line == number) {
+        const Vector3<double> turn = axes.turn() / kDegree;
+        turns_.push_back({turn.x(), turn.y(), turn.z()});
         modes_[motion++] = modes;
       }
     }
   }
 
   /// The tool's axis as the pose has it, its turn about that as near as can be to the source's.
-  static std::array<double, 3> angles_of(const Pose<double>& pose, const Motion& source) {
+  static GcodeAngles angles_of(const Pose<double>& pose, const Motion& source) {
     const Matrix3<double> turned =
         Eigen::Quaterniond::FromTwoVectors(source.end.rotation.col(2), pose.rotation.col(2))
             .toRotationMatrix() *
         source.end.rotation;
     const Matrix3<double> down = orientation_by_axis(Vector3<double>::UnitZ());
-    return krl_angles(turned * down.transpose());
+    const std::array<double, 3> about_zyx = krl_angles(turned * down.transpose());
+    return {about_zyx[2], about_zyx[1], about_zyx[0]};
   }
 
-  std::string axes(const Pose<double>& pose, std::size_t motion) const {
+  /// A rotary axis goes from one written angle to the next, the long way round too: the source's
+  /// own turns are kept, and a program in another format goes on from the line before.
+  std::string axes(const Pose<double>& pose, std::size_t motion) {
     const double unit = modes_[motion].unit;
     const int decimals = unit == kInch ? 6 : 4;
     const Vector3<double> place = pose.position / unit;
     std::string text = fmt::format("X{} Y{} Z{}", fixed(place.x(), decimals),
                                    fixed(place.y(), decimals), fixed(place.z(), decimals));
-    const std::array<double, 3> angles = angles_of(pose, source_.motions[motion]);
+    const GcodeAngles angles = angles_of(pose, source_.motions[motion]);
+    written_ = motion < turns_.size() ? nearest(angles, turns_[motion]) : unwound(angles, written_);
     for (std::size_t i = 0; i < angles_.size(); ++i) {
       if (angles_[i]) {
-        text += fmt::format(" {}{}", kAngleLetters[i], fixed(angles[2 - i], 6));
+        text += fmt::format(" {}{}", kAngleLetters[i], fixed(written_[i], 6));
       }
     }
     return text;
@@ -187,7 +235,7 @@ class GcodeWriter {
     return text + (only_turns ? "G94\n" : "");
   }
 
-  std::string line_in_place(std::size_t motion) const {
+  std::string line_in_place(std::size_t motion) {
     const Motion& own = source_.motions[motion];
     const GcodeModes& modes = modes_[motion];
     const bool is_fed = own.kind != MotionKind::rapid;
@@ -246,9 +294,11 @@ class GcodeWriter {
 
   const CorrectedProgram& program_;
   const Program& source_;
-  std::vector<GcodeModes> modes_;  ///< by motion
-  std::string told_;               ///< letters of angles that the source has
-  std::array<bool, 3> angles_{};   ///< of A, B and C: is it written?
+  std::vector<GcodeModes> modes_;   ///< by motion
+  std::string told_;                ///< letters of angles that the source has
+  std::array<bool, 3> angles_{};    ///< of A, B and C: is it written?
+  std::vector<GcodeAngles> turns_;  ///< of the source in G-code, by motion
+  GcodeAngles written_{};           ///< in the line before
   double feed_ = 0;
 };
 

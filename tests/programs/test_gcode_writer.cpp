@@ -139,6 +139,27 @@ void other_formats_turn_as_slowly() {
   TEST_ASSERT_TRUE(rapid.find(",[10,500,5000,1000],") != std::string::npos);
 }
 
+/// A table that is at C170 would go back by 340 degrees to C-170.
+void rotary_axes_keep_their_turns() {
+  TEST_ASSERT_EQUAL_STRING(
+      "G90 G0 X0.1000 Y0.0000 Z0.0000 A10.000000 B0.000000 C170.000000\n"
+      "G90 G1 X10.1000 Y0.0000 Z0.0000 A10.000000 B0.000000 C190.000000 F600\n"
+      "G90 G1 X20.1000 Y0.0000 Z0.0000 A10.000000 B0.000000 C740.000000\nG91\n"
+      "G90 G1 X30.1000 Y0.0000 Z0.0000 A10.000000 B100.000000 C730.000000\n",
+      rewritten("G0 X0 Y0 Z0 A10 C170\nG1 X10 C190 F600\nX20 C740\nG91\nX10 B100 C-10\n").c_str());
+}
+
+void rotary_axes_of_a_new_program_go_the_short_way() {
+  CorrectedProgram program = corrected("G0 X0 Y0 Z0 A10 C170\nG1 X10 C190 F600\nX20 C350\nC370\n");
+  program.source.format = Format::rapid;
+  const std::string text = text_of(program, Format::gcode, "p");
+  std::size_t at = 0;
+  for (const char* each : {" C170.000000", " C190.000000", " C350.000000", " C370.000000"}) {
+    at = text.find(each, at);
+    TEST_ASSERT_TRUE(at != std::string::npos);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -153,5 +174,7 @@ int main() {
   RUN_TEST(other_formats_say_in_comments_what_a_moving_line_says_beside);
   RUN_TEST(other_formats_stop_where_the_way_is_not_told);
   RUN_TEST(other_formats_turn_as_slowly);
+  RUN_TEST(rotary_axes_keep_their_turns);
+  RUN_TEST(rotary_axes_of_a_new_program_go_the_short_way);
   return UNITY_END();
 }
