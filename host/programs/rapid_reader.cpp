@@ -185,6 +185,10 @@ class RapidReader {
       }
     } else if (word.empty()) {
       scanner->go_to(scanner->place() + 1);
+    } else if (routines_.count(word) > 0) {
+      if (active_.count(word) == 0) {  // else it is followed already
+        call(word, scanner);
+      }
     } else if (!leave(word)) {
       motions_.set(word, scanner);
     }

@@ -51,6 +51,16 @@ void what_a_routine_may_leave_out_is_not_counted_as_run() {
                  "PDispSet d;\n" + in_setup("IF d=1 RETURN;\nPDispOff;\n"));
 }
 
+/// IF d=1 setup; was passed over, whatever stands in the routine.
+void a_routine_that_is_called_in_a_condition_may_have_run() {
+  const std::string called = "IF d=1 setup;\n" + std::string(kGo) + "ENDPROC\nPROC setup()\n";
+  const Program program = program_of(called + kElsewhere + "IF n>0 setup;\n");
+  TEST_ASSERT_EQUAL(0, program.motions.size());
+  TEST_ASSERT_EQUAL(5, program.notes[0].line);
+  assert_refused("m.mod:8: 'VELSET' here: the speed", called + "VelSet 1,100;\n");
+  assert_refused("m.mod:8: 'PDISPSET' moves the points", called + "PDispSet d;\n");
+}
+
 /// The doubt ends with the routine.
 void what_stands_behind_the_call_is_run() {
   const Program program = program_of("setup;\n" + std::string(kElsewhere) + kGo +
@@ -195,6 +205,7 @@ void other_ways_to_turn_the_tool_are_refused() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(what_a_routine_may_leave_out_is_not_counted_as_run);
+  RUN_TEST(a_routine_that_is_called_in_a_condition_may_have_run);
   RUN_TEST(what_stands_behind_the_call_is_run);
   RUN_TEST(each_displacement_is_ended_by_its_own_word);
   RUN_TEST(joint_motions_in_a_branch_are_refused);
