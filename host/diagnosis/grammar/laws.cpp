@@ -34,13 +34,15 @@ struct WithLaw {
 
 /// The effect that a law's constant is by itself, or its factor, if that is the direction of
 /// motion: other factors vary as a whole, as a torque's gain does with heat. A law of few numbers
-/// says hardly more than an effect, and stands for itself.
+/// says hardly more than an effect, and stands for itself; so does friction by the course of its
+/// own speed, of which dry friction is but one part.
 std::string constant_of(const Material& material, const Composed& law) {
   constexpr std::size_t kFew = 2;
   if (law.form.has_constant) {
     return constant_as(law.lead);
   }
-  const bool is_by_direction = law.lead.factor.text != law.lead.factor.signal;
+  const bool is_by_direction =
+      law.lead.factor.text != law.lead.factor.signal && !law.lead.is_of_itself();
   return is_by_direction && law.numbers() > kFew ? factor_as(material, law.lead) : "";
 }
 
