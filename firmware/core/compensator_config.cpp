@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 
 #include "checked_number.hpp"
@@ -21,11 +20,6 @@ bool lasts(Scalar time, Scalar period, Scalar most) {
   const Scalar count = std::ceil(time / period);
   return count >= Scalar(0) && count <= most;
 }
-
-struct Member {
-  bool is_usable;
-  const char* name;
-};
 
 /// The first of the members that are counted in periods which cannot be with this period, or null.
 template <typename Scalar, int Joints>
@@ -54,7 +48,7 @@ bool is_unusual(Scalar period) {
 
 template <typename Scalar, int Joints>
 const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config) {
-  const std::array<Member, 10> members = {{
+  const char* const own = first_unusable<10>({{
       {is_positive(config.period), "period"},
       {is_positive(config.gain) && config.gain <= Scalar(1), "gain"},
       {std::isfinite(config.filter_cutoff) && config.filter_cutoff >= Scalar(0), "filter_cutoff"},
@@ -67,11 +61,9 @@ const char* unusable_member(const CompensatorConfig<Scalar, Joints>& config) {
        "joint_speed"},
       {is_positive(config.deflection_limit), "deflection_limit"},
       {is_positive(config.chart_margin), "chart_margin"},
-  }};
-  for (const Member& member : members) {
-    if (!member.is_usable) {
-      return member.name;
-    }
+  }});
+  if (own != nullptr) {
+    return own;
   }
   const char* const member = unusable_in_periods(config, config.period);
   const bool period_is_at_fault = member != nullptr && is_unusual(config.period) &&

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "checked_number.hpp"
 #include "instantiate.hpp"
 
 namespace flexcomp {
@@ -59,22 +60,6 @@ bool none_negative(const Eigen::MatrixBase<Derived>& values) {
 template <typename Scalar>
 bool not_negative(Scalar value) {
   return std::isfinite(value) && value >= Scalar(0);
-}
-
-struct Member {
-  bool is_usable;
-  const char* name;
-};
-
-/// The name of the first that is not usable, or null.
-template <std::size_t Count>
-const char* first_unusable(const std::array<Member, Count>& members) {
-  for (const Member& member : members) {
-    if (!member.is_usable) {
-      return member.name;
-    }
-  }
-  return nullptr;
 }
 
 template <typename Scalar>

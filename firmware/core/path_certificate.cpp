@@ -77,30 +77,32 @@ TableError<Scalar> PathCertificate<Scalar, Joints>::error_at(const float* from, 
 }
 
 template <typename Scalar, int Joints>
+auto PathCertificate<Scalar, Joints>::beyond_planes(const float* from, const float* to,
+                                                    const Angles& q) const -> Beyond {
+  const Angles opens = read<Scalar, Joints>(from + layout_.switching);
+  const Angles closes = read<Scalar, Joints>(to + layout_.switching);
+  return {-opens.dot(q - read<Scalar, Joints>(from + layout_.angles)),
+          closes.dot(q - read<Scalar, Joints>(to + layout_.angles))};
+}
+
+template <typename Scalar, int Joints>
 bool PathCertificate<Scalar, Joints>::is_between_neighbours(const float* from, const float* to,
                                                             const Angles& start,
                                                             const Angles& motion) const {
-  const Angles first = read<Scalar, Joints>(from + layout_.angles);
-  const Angles second = read<Scalar, Joints>(to + layout_.angles);
-  const Angles opens = read<Scalar, Joints>(from + layout_.switching);
-  const Angles closes = read<Scalar, Joints>(to + layout_.switching);
-  const Angles end = start + motion;
-  const auto past = [](const Angles& normal, const Angles& q, const Angles& node) {
-    return normal.dot(q - node);
-  };
-  return std::min(past(opens, start, first), past(opens, end, first)) >= -Scalar(kPlaneSlack) &&
-         std::max(past(closes, start, second), past(closes, end, second)) <= Scalar(kPlaneSlack);
+  const Beyond first = beyond_planes(from, to, start);
+  const Beyond last = beyond_planes(from, to, Angles(start + motion));
+  return std::max(std::max(first.before, last.before), std::max(first.behind, last.behind)) <=
+         Scalar(kPlaneSlack);
 }
 
 template <typename Scalar, int Joints>
 auto PathCertificate<Scalar, Joints>::side(const float* from, const float* to,
                                            const Angles& q) const -> Side {
-  const Angles opens = read<Scalar, Joints>(from + layout_.switching);
-  const Angles closes = read<Scalar, Joints>(to + layout_.switching);
-  if (opens.dot(q - read<Scalar, Joints>(from + layout_.angles)) < Scalar(0)) {
+  const Beyond beyond = beyond_planes(from, to, q);
+  if (beyond.before > Scalar(0)) {
     return Side::before;
   }
-  if (closes.dot(q - read<Scalar, Joints>(to + layout_.angles)) > Scalar(0)) {
+  if (beyond.behind > Scalar(0)) {
     return Side::behind;
   }
   const Scalar t = place_on_segment<Scalar, Joints>(from, to, q).blend();

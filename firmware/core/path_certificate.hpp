@@ -69,6 +69,12 @@ class PathCertificate {
   TableError<Scalar> inside_error(const float* from, const float* to) const;
 
  private:
+  /// Distances (rad) before the first and behind the second of the planes between segments.
+  struct Beyond {
+    Scalar before;
+    Scalar behind;
+  };
+  Beyond beyond_planes(const float* from, const float* to, const Angles& q) const;
   TableError<Scalar> error_at(const float* from, const float* to, const Angles& q,
                               Scalar* outside) const;
   /// Longest part of a move between points looked at, for curvature's share of the tolerance.

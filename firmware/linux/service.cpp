@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "linux/complaint.hpp"
+#include "linux/fault_words.hpp"
 #include "linux/statistics_file.hpp"
 #include "linux/whole_file.hpp"
 #include "node/reply.hpp"
@@ -156,23 +157,9 @@ void Service::on_real_time() {
   }
 }
 
-/// In the words of `flexcomp node status`. A fault of the node comes to the core as one "reported
-/// by the caller", which says nothing beside it.
+/// In the words of `flexcomp node status`.
 void Service::tell(const FaultsLatched& latched) {
-  const std::uint32_t own =
-      latched.node_faults != 0 ? latched.faults & ~std::uint32_t{kExternalFault} : latched.faults;
-  std::string words;
-  const auto add = [&](const char* word) {
-    words += (words.empty() ? "" : ", ") + std::string(word);
-  };
-  for (std::uint32_t bit = 1; (bit & kFaultBits) != 0; bit <<= 1) {
-    if ((own & bit) != 0) {
-      add(describe(static_cast<StatusBit>(bit)));
-    }
-    if ((latched.node_faults & kNodeFaultBits & bit) != 0) {
-      add(describe(static_cast<NodeBit>(bit)));
-    }
-  }
+  const std::string words = fault_words(latched.faults, latched.node_faults);
   if (!words.empty()) {
     background_->say("latched: " + words);
   }

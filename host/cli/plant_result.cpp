@@ -7,29 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "node/node_status.hpp"
+#include "linux/fault_words.hpp"
 #include "node/reply.hpp"
 #include "recording/recording.hpp"
 
 namespace flexcomp::cli {
 namespace {
 
-/// The faults of the status words, in words. A fault of the node comes to the core as one "reported
-/// by the caller", which is left out beside it.
 std::string faults_of(std::uint32_t status, std::uint16_t node_status) {
-  if ((node_status & kNodeFaultBits) != 0) {
-    status &= ~static_cast<std::uint32_t>(kExternalFault);
-  }
-  std::string text;
-  for (std::uint32_t bit = 1; (bit & kFaultBits) != 0; bit <<= 1) {
-    if ((status & bit) != 0) {
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(static_cast<StatusBit>(bit)));
-    }
-    if ((node_status & kNodeFaultBits & bit) != 0) {
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", describe(static_cast<NodeBit>(bit)));
-    }
-  }
-  return text.empty() ? "no fault reported" : text;
+  const std::string words = fault_words(status, node_status);
+  return words.empty() ? "no fault reported" : words;
 }
 
 /// Warns of what went on but should not have.

@@ -29,9 +29,7 @@ Pose<double> flange_of(const model::Robot& robot) {
   if (!robot.tool) {
     return robot.elastic.tool;
   }
-  const Pose<double> tool = robot.tool->mounting();
-  const Matrix3<double> back = tool.rotation.transpose();
-  return robot.elastic.tool * Pose<double>{back, back * -tool.position};
+  return robot.elastic.tool * inverse(robot.tool->mounting());
 }
 
 }  // namespace

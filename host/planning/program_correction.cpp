@@ -116,11 +116,6 @@ double largest_correction(const Poses& planned, const Poses& corrected,
   return largest;
 }
 
-Pose<double> inverse(const Pose<double>& pose) {
-  const Matrix3<double> back = pose.rotation.transpose();
-  return {back, -(back * pose.position)};
-}
-
 }  // namespace
 
 programs::CorrectedProgram correct_program(const RobotModel<double, 6>& model,

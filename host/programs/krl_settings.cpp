@@ -63,10 +63,7 @@ bool KrlSettings::is_setting(const std::string& word, Scanner scanner) {
   return kSettings.count(whole_name(word)) > 0 && scanner.peek() == '=';
 }
 
-bool KrlSettings::assign(const std::string& name, std::size_t line, Scanner* scanner) {
-  if (kSettings.count(whole_name(name)) == 0) {
-    return false;
-  }
+void KrlSettings::assign(const std::string& name, std::size_t line, Scanner* scanner) {
   if (name == "$VEL.CP") {
     set_feed(read_speed(line, scanner).number, line, &state_);
     refuse_behind_speed(line, scanner);
@@ -92,7 +89,6 @@ bool KrlSettings::assign(const std::string& name, std::size_t line, Scanner* sca
   } else {
     fail(line, fmt::format("'{}': a component alone is not read; give the whole", shown(name)));
   }
-  return true;
 }
 
 void KrlSettings::set_feed(const std::optional<double>& feed, std::size_t line, KrlState* state) {

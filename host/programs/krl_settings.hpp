@@ -33,8 +33,8 @@ class KrlSettings {
   /// Would a statement change how motions behind it are made? `word` is its first word.
   static bool is_setting(const std::string& word, Scanner scanner);
 
-  /// Takes what stands behind `name =`; false where it is no setting.
-  bool assign(const std::string& name, std::size_t line, Scanner* scanner);
+  /// Takes what stands behind `name =` of a setting.
+  void assign(const std::string& name, std::size_t line, Scanner* scanner);
 
   /// BAS(#BASE,2), BAS(#CP_PARAMS,0.2) and the like.
   void call_bas(std::size_t line, Scanner* scanner);

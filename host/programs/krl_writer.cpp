@@ -177,8 +177,7 @@ Pose<double> shift_of(const CorrectedProgram& program) {
   if (!program.source.loads_frame || !own || is_frame_of_source(program)) {
     return {};
   }
-  const Matrix3<double> back = own->rotation.transpose();
-  return Pose<double>{back, -(back * own->position)} * program.frame;
+  return inverse(*own) * program.frame;
 }
 
 /// What stands before the first motion. A base that the program loads and no file tells cannot be

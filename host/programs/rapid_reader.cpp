@@ -58,7 +58,7 @@ class RapidReader {
     while (statements.next(&statement_)) {
       Scanner scanner(statement_.text);
       const std::string word = scanner.name();
-      if (!name.empty() && (word == "ENDPROC" || word == "ENDFUNC" || word == "ENDTRAP")) {
+      if (!name.empty() && ends_rapid_routine(word)) {
         break;
       }
       if (!name.empty() && statement_.begin != routine.begin &&

@@ -68,7 +68,7 @@ RapidRoutines rapid_routines(std::string_view text) {
       routine = &routines[name];
       routine->begin = statement.begin;
       routine->line = statement.line;
-    } else if (word == "ENDPROC" || word == "ENDFUNC" || word == "ENDTRAP") {
+    } else if (ends_rapid_routine(word)) {
       routine = &routines[""];
     }
     take_words(statement, routine);

@@ -9,6 +9,7 @@
 #include "files/one_line.hpp"
 #include "programs/program.hpp"
 #include "programs/rapid_statements.hpp"
+#include "programs/rapid_words.hpp"
 
 namespace flexcomp::programs {
 namespace {
@@ -106,14 +107,13 @@ void RapidData::read_all(std::string_view text) {
 /// Names that a statement sets: before `:=`, behind FOR and INCR, and parameters, which hide
 /// others. What `:=` gives to an option (\WObj:=) is none of these.
 void RapidData::note_changes(const std::string& statement) {
-  static const std::set<std::string> kAll = {"PROC", "FUNC", "TRAP"};
   static const std::set<std::string> kNext = {"FOR", "INCR", "DECR", "ADD", "CLEAR"};
   Scanner scanner(statement);
   std::string word = scanner.name();
   if (word == "LOCAL") {
     word = scanner.name();
   }
-  const bool takes_all = kAll.count(word) > 0;
+  const bool takes_all = begins_rapid_routine(word);
   if (kNext.count(word) > 0) {
     const std::string name = scanner.name();
     changed_.insert(name.substr(0, name.find('.')));
@@ -143,7 +143,7 @@ bool RapidData::read_declaration(std::string word, Scanner* scanner) {
   while (kDeclaring.count(word) > 0) {
     word = scanner->name();
   }
-  if (word == "PROC" || word == "FUNC" || word == "TRAP") {
+  if (begins_rapid_routine(word)) {
     *scanner = begin;
     return false;
   }

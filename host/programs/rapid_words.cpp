@@ -61,6 +61,9 @@ bool is_rapid_without_motion(const std::string& word) {
 bool opens_rapid_block(const std::string& word) { return kRapidOpening.count(word) > 0; }
 bool closes_rapid_block(const std::string& word) { return kRapidClosing.count(word) > 0; }
 bool begins_rapid_routine(const std::string& word) { return kRapidRoutines.count(word) > 0; }
+bool ends_rapid_routine(const std::string& word) {
+  return word.compare(0, 3, "END") == 0 && begins_rapid_routine(word.substr(3));
+}
 bool displaces_rapid_motions(const std::string& word) { return kRapidDisplacing.count(word) > 0; }
 
 }  // namespace flexcomp::programs

@@ -17,6 +17,7 @@ bool is_rapid_without_motion(const std::string& word);
 bool opens_rapid_block(const std::string& word);
 bool closes_rapid_block(const std::string& word);
 bool begins_rapid_routine(const std::string& word);
+bool ends_rapid_routine(const std::string& word);
 
 /// An instruction that moves the points of motions behind it: PDispSet, EOffsOn.
 bool displaces_rapid_motions(const std::string& word);

@@ -78,8 +78,7 @@ class Rewriter {
   explicit Rewriter(const CorrectedProgram& program) : program_(program) {
     const std::optional<Pose<double>>& own = program.source.frame;
     if (own) {  // the module's work object stays: the points are moved in it
-      const Matrix3<double> back = own->rotation.transpose();
-      shift_ = Pose<double>{back, -(back * own->position)} * program.frame;
+      shift_ = inverse(*own) * program.frame;
     }
     data_.read_all(program.source.text);
   }

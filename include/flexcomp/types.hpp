@@ -56,4 +56,11 @@ struct Pose {
   }
 };
 
+/// Placement of the outer frame in the inner.
+template <typename Scalar>
+Pose<Scalar> inverse(const Pose<Scalar>& pose) {
+  const Matrix3<Scalar> back = pose.rotation.transpose();
+  return {back, -(back * pose.position)};
+}
+
 }  // namespace flexcomp

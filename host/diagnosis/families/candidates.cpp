@@ -5,15 +5,15 @@
 #include <limits>
 
 #include "diagnosis/plausible.hpp"
+#include "diagnosis/search/search.hpp"
 #include "linear_algebra/span.hpp"
 
 namespace flexcomp::diagnosis {
 
 bool is_candidate(const Observations& observations, const Hypothesis& hypothesis) {
   // Torques tell one encoder's zero from masses; all zeros beside all masses they do not.
-  const bool is_seen = hypothesis.traits().measures != effects::Measures::zero ||
-                       observations.has(simulation::tcp_position) ||
-                       observations.has(simulation::joint_deflection);
+  const bool is_seen =
+      hypothesis.traits().measures != effects::Measures::zero || sees_angles(observations);
   return hypothesis.traits().is_in_family && is_seen &&
          hypothesis.linear == hypothesis.parameters.size() &&
          (!hypothesis.traits().is_body || observations.has(simulation::joint_torque));

@@ -15,14 +15,14 @@ constexpr double kDelays[] = {-0.03, -0.02, -0.012, -0.006, -0.003,
                               0.003, 0.006, 0.012,  0.02,   0.03};
 
 /// A fit, and what of its machine's torques stays when a drive or a clock is changed.
-struct Known {
+struct Fitted {
   const Observations& observations;
   const Fit& fit;
   std::vector<simulation::RigidTorque> rigid;
 };
 
 /// Change of a fit's prediction by a machine, in the samples to fit to.
-Eigen::VectorXd change_by(const Known& known, const Machine& machine) {
+Eigen::VectorXd change_by(const Fitted& known, const Machine& machine) {
   const Observations& observations = known.observations;
   const Eigen::VectorXd predicted = observations.stacked(
       predict(machine, observations.scenes_to_fit(), known.rigid, observations.simulations));
@@ -33,7 +33,7 @@ Eigen::VectorXd change_by(const Known& known, const Machine& machine) {
 
 /// A drive that turns with the joint before its own, by one turn or against it, its friction and
 /// rotor as they are.
-void propose_coupling(const Known& known, const effects::LawPointer& law, int joint,
+void propose_coupling(const Fitted& known, const effects::LawPointer& law, int joint,
                       std::vector<Extra>* all) {
   const auto left = known.fit.remainder.head(known.observations.train);
   Hypothesis hypothesis(law, joint, known.observations.machine.robot);
@@ -48,7 +48,7 @@ void propose_coupling(const Known& known, const effects::LawPointer& law, int jo
   }
 }
 
-void propose_couplings(const Known& known, std::vector<Extra>* all) {
+void propose_couplings(const Fitted& known, std::vector<Extra>* all) {
   const model::Robot& robot = known.fit.machine.robot;
   for (const effects::Effect& effect : effects::catalogue()) {
     for (const effects::LawPointer& law : effect.forms) {
@@ -65,7 +65,7 @@ void propose_couplings(const Known& known, std::vector<Extra>* all) {
 }
 
 /// Torques whose clock is late or early.
-void propose_clocks(const Known& known, const std::vector<Hypothesis>& hypotheses,
+void propose_clocks(const Fitted& known, const std::vector<Hypothesis>& hypotheses,
                     std::vector<Extra>* all) {
   const auto left = known.fit.remainder.head(known.observations.train);
   for (const Hypothesis& hypothesis : hypotheses) {
@@ -92,8 +92,8 @@ void propose_clocks(const Known& known, const std::vector<Hypothesis>& hypothese
 
 std::vector<Extra> propose_extras(const Observations& observations, const Fit& fit,
                                   const std::vector<Hypothesis>& hypotheses) {
-  const Known known{observations, fit,
-                    simulation::rigid_torques(fit.machine, observations.scenes_to_fit())};
+  const Fitted known{observations, fit,
+                     simulation::rigid_torques(fit.machine, observations.scenes_to_fit())};
   std::vector<Extra> all;
   propose_couplings(known, &all);
   propose_clocks(known, hypotheses, &all);
