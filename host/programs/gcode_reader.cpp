@@ -65,7 +65,7 @@ class GcodeReader {
       fail("a letter stands twice in the line");
     }
     has_motion_word_ = false;
-    goes_to_machine_place_ = false;
+    goes_to_machine_place_ = goes_to_machine_place(words_);
     takes_p_ = false;
     has_dwell_ = false;
     modes_.read(words_);
@@ -148,7 +148,6 @@ class GcodeReader {
       case 280:
       case 300:
       case 530:
-        goes_to_machine_place_ = true;
         takes_p_ = takes_p_ || word.code() == 300;  // which of the places
         break;
       case 800:

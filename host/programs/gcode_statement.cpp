@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "programs/gcode_words.hpp"
+#include "programs/scanner.hpp"
 
 namespace flexcomp::programs {
 namespace {
@@ -36,14 +37,6 @@ void erase_word(const Word& word, std::string* line) {
   }
 }
 
-std::string trimmed_of_blanks(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  return begin == std::string::npos
-             ? std::string()
-             : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 }  // namespace
 
 GcodeStatement gcode_statement(std::string_view line, const GcodeOmission& omission,
@@ -67,7 +60,7 @@ GcodeStatement gcode_statement(std::string_view line, const GcodeOmission& omiss
       erase_word(*word, &text);
     }
   }
-  statement.rest = trimmed_of_blanks(text.substr(end));
+  statement.rest = trimmed_line(std::string_view(text).substr(end));
   return statement;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -90,6 +91,12 @@ std::string read_words(std::string_view line, std::vector<Word>* words) {
     words->push_back(word);
   }
   return {};
+}
+
+bool goes_to_machine_place(const std::vector<Word>& words) {
+  return std::any_of(words.begin(), words.end(), [](const Word& word) {
+    return word.letter == 'G' && (word.code() == 280 || word.code() == 300 || word.code() == 530);
+  });
 }
 
 }  // namespace flexcomp::programs

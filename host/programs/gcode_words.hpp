@@ -23,4 +23,7 @@ struct Word {
 /// Returns the words in `words`, and nothing or a sentence that says what is wrong.
 std::string read_words(std::string_view line, std::vector<Word>* words);
 
+/// Do the words of a line name places of the machine: G28, G30 and G53?
+bool goes_to_machine_place(const std::vector<Word>& words);
+
 }  // namespace flexcomp::programs

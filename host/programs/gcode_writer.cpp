@@ -32,13 +32,6 @@ std::string plain(double value) {
   return text;
 }
 
-/// G28, G30 and G53 name places of the machine.
-bool goes_to_machine_place(const std::vector<Word>& words) {
-  return std::any_of(words.begin(), words.end(), [](const Word& word) {
-    return word.letter == 'G' && (word.code() == 280 || word.code() == 300 || word.code() == 530);
-  });
-}
-
 /// A, B and C, degrees.
 using GcodeAngles = std::array<double, 3>;
 

@@ -14,14 +14,6 @@
 namespace flexcomp::programs {
 namespace {
 
-std::string_view trimmed_line(std::string_view line) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t begin = line.find_first_not_of(kBlanks);
-  return begin == std::string_view::npos
-             ? std::string_view{}
-             : line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
-}
-
 Vector3<double> direction_at(const Pose<double>& start, const Motion& motion, double from,
                              double to) {
   return pose_at(start, motion, to).position - pose_at(start, motion, from).position;

@@ -65,6 +65,14 @@ std::optional<double> Scanner::number() {
   return std::nullopt;
 }
 
+std::string_view trimmed_line(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t begin = line.find_first_not_of(kBlanks);
+  return begin == std::string_view::npos
+             ? std::string_view{}
+             : line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
+}
+
 std::string_view next_line(std::string_view text, std::size_t* begin) {
   const std::size_t end = std::min(text.find('\n', *begin), text.size());
   const std::string_view line = text.substr(*begin, end - *begin);

@@ -38,6 +38,9 @@ class Scanner {
   std::size_t at_ = 0;
 };
 
+/// A line without the blanks, tabs and returns around it.
+std::string_view trimmed_line(std::string_view line);
+
 /// Takes from a text its next line, without the line's end.
 std::string_view next_line(std::string_view text, std::size_t* begin);
 
