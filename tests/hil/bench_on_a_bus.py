@@ -60,11 +60,11 @@ class Job:
             flexcomp("table", "verify", self.table, "--model", self.model, "--samples", 1, "--json")
         )["model_hash"]
 
-    def be_patient(self):
+    def be_patient(self, seconds=0.5):
         """For a client in Python, in a guest on a busy machine: half a second without a setpoint is no
         fault. How staleness is answered is the fault catalogue's business."""
         with open(self.config, "a") as config:
-            config.write("setpoint-age-limit = 0.5\nwrench-age-limit = 0.5\nlate-ticks = 100\n")
+            config.write(f"setpoint-age-limit = {seconds}\nwrench-age-limit = {seconds}\nlate-ticks = 100\n")
 
 
 class Flexcompd:

@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -74,10 +75,12 @@ class InLockstep(Firmware):
 
 
 class AtThePaceOfTheClock(Firmware):
-    """Periods of 20 ms: the line goes through a guest and back. All tests have one job, which takes a guest two
-    seconds to make."""
+    """Periods of 40 ms: the line goes through a guest and back, on a machine that may be busy. All tests have one
+    job, which takes a guest two seconds to make."""
 
-    PERIOD = 0.02
+    PERIOD = 0.04
+    ATTEMPTS = 5  # to bring it up; on a busy machine one may come while the board misses a setpoint
+    STALE = 2  # s without a setpoint; guest and board have clocks of their own, and a busy machine runs one at a time
 
     @classmethod
     def setUpClass(cls):
@@ -85,7 +88,7 @@ class AtThePaceOfTheClock(Firmware):
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
         cls.job = Job(scratch.name, period=cls.PERIOD)
-        cls.job.be_patient()
+        cls.job.be_patient(cls.STALE)
 
 
 class Fed(AtThePaceOfTheClock):
@@ -96,14 +99,19 @@ class Fed(AtThePaceOfTheClock):
         self.feeder = Feeder(self.job, self.peer)
 
     def bring_up(self):
-        self.feeder.forget()
-        self.feeder.run(1.2)  # the robot is named every second
-        self.peer.command("arm")
-        received = self.feeder.run(1.0)
-        received += self.feeder.run_until(lambda since: state_of(since) == STATES["active"])
-        replies = [signals["reply"] for name, signals in decoded(received) if name == "CommandReply"]
-        self.assertEqual([0], replies)
-        self.assertEqual(STATES["active"], states(received)[-1])
+        """What it said meanwhile."""
+        for _ in range(self.ATTEMPTS):
+            self.feeder.forget()
+            self.feeder.run(2.2)  # the robot is named every two seconds
+            self.peer.command("arm")
+            received = self.feeder.run(1.0)
+            received += self.feeder.run_until(lambda since: state_of(since) == STATES["active"])
+            if states(received)[-1:] == [STATES["active"]]:
+                break
+            self.peer.command("reset")
+        told = decoded(received)
+        self.assertEqual([0], [signals["reply"] for name, signals in told if name == "CommandReply"])
+        self.assertEqual(STATES["active"], states(received)[-1], f"{told[-20:]}")
         return received
 
 
@@ -153,7 +161,7 @@ class InRealTime(Fed):
     def test_a_line_that_is_cut_makes_it_fade_out(self):
         self.bring_up()
         ask("cut")
-        self.feeder.run(0.5)  # what was on its way
+        self.feeder.run(self.STALE + 1)  # what was on its way, and until it has faded out
         self.assertEqual([], corrections(self.feeder.run(1.0)))
         ask("mend")
         self.assert_latched_until_reset_and_armed()
@@ -161,10 +169,18 @@ class InRealTime(Fed):
     def test_text_that_is_spoilt_makes_it_fade_out(self):
         self.bring_up()
         ask("corrupt")
-        self.feeder.run(1.5)
+        self.feeder.run(self.STALE + 1)
         ask("mend")
         self.feeder.run(0.5)  # what was on its way
         self.assert_latched_until_reset_and_armed()
+
+    def test_a_line_that_is_not_read_for_a_second_lives_on(self):
+        self.bring_up()
+        interface.send_signal(signal.SIGSTOP)
+        time.sleep(1)
+        interface.send_signal(signal.SIGCONT)
+        self.feeder.run(1.0)  # what was held up
+        self.assertGreater(len(states(self.feeder.run(1.0))), 0.5 / self.PERIOD)
 
     def test_a_reset_of_the_processor_leaves_it_off_until_it_is_armed(self):
         self.bring_up()
@@ -217,15 +233,23 @@ class ThePlant(AtThePaceOfTheClock):
     def largest_of(self, received):
         return max((abs(value) for row in corrections(received) for value in row), default=0.0)
 
+    def start_milling(self, run):
+        """A plant whose robot is being corrected."""
+        for _ in range(self.ATTEMPTS):
+            self.start(self.job)
+            peer = self.client()
+            plant = subprocess.Popen([BIN / "flexcomp", "plant", "--model", self.job.model, "--path", self.job.path,
+                                      "--period", str(self.PERIOD), "--bus", f"can:{BUS}", "--out", run],
+                                     stdout=subprocess.DEVNULL)
+            while plant.poll() is None:
+                if self.largest_of(peer.receive(0.5)) > self.MOVED:
+                    return plant
+        raise AssertionError("it never corrects")
+
     def mill_while(self, order):
         """Motion of the robot's second joint, in rad, while `order` happens to the board."""
-        self.start(self.job)
         run = self.folder / "run.csv"
-        plant = subprocess.Popen([BIN / "flexcomp", "plant", "--model", self.job.model, "--path", self.job.path,
-                                  "--period", str(self.PERIOD), "--bus", f"can:{BUS}", "--out", run],
-                                 stdout=subprocess.DEVNULL)
-        peer = self.client()
-        wait_until(lambda: self.largest_of(peer.receive(0.5)) > self.MOVED, "it never corrects")
+        plant = self.start_milling(run)
         time.sleep(2)  # the contour takes six
         ask(order)
         self.assertEqual(0, plant.wait(timeout=60))

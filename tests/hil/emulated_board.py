@@ -10,7 +10,7 @@ import subprocess
 import time
 import tty
 
-from relay import carry
+from relay import Window, carry
 
 SETTINGS_ADDRESS = 0x200000
 TABLE_ADDRESS = 0x300000
@@ -28,6 +28,7 @@ class Board:
         self.far = far  # kept open, or reading from the near end fails
         self.terminal = os.ttyname(far)
         self.fault = None  # "cut" or "corrupt"
+        self.window = Window()
         self.process = None
         self.line = None
         carry(lambda: os.read(self.near, 4096), self._to_processor)
@@ -46,7 +47,7 @@ class Board:
         self.monitor = self._connect(monitor).makefile("rw")
         self.fault = None
         line = self.line = self._connect(serial)
-        carry(lambda: line.recv(4096), lambda data: os.write(self.near, self._spoilt(data)))
+        carry(lambda: line.recv(4096), self._to_terminal)
         self.monitor.readline()
         self._order("qmp_capabilities")
         self._order("cont")  # until now the processor stood still
@@ -77,7 +78,11 @@ class Board:
         while "return" not in json.loads(self.monitor.readline()):
             pass
 
+    def _to_terminal(self, data):
+        self.window.send(lambda part: os.write(self.near, part), self._spoilt(data))
+
     def _to_processor(self, data):
+        data = self.window.without_receipts(data)
         line = self.line
         if line is not None:
             with contextlib.suppress(OSError):  # it may be stopped at any time
