@@ -1,6 +1,7 @@
 // The samples of observations and the noise of each: of its measurement, and of its prediction.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "diagnosis/observations.hpp"
@@ -50,6 +51,16 @@ double borne_out(const Eigen::VectorXd& difference, const Eigen::VectorXd& doubt
     }
   }
   return left < doubted ? std::sqrt(left / doubted) : 1.0;
+}
+
+/// A component's difference where it says something: none of the torque of a joint that stands,
+/// which may be anything that its friction holds. As noise it would count for the motion, too.
+Eigen::VectorXd shown_difference(const Scene& scene, const Sample& of, Eigen::VectorXd difference) {
+  if (of.channel == joint_torque && !scene.is_static) {
+    difference = (scene.stands.col(of.component).array() != 0)
+                     .select(std::numeric_limits<double>::quiet_NaN(), difference);
+  }
+  return difference;
 }
 
 }  // namespace
@@ -150,8 +161,9 @@ void Observations::add_component(const Sample& first, const PredictionNoise& pre
   const bool is_predicted_noisily = predicted.deviation[channel].size() > 0;
   const double prediction_noise =
       is_predicted_noisily ? predicted.deviation[channel][component] : 0.0;
-  const Eigen::VectorXd difference =
-      scene.measured[channel].col(component) - predictions[s].channel[channel].col(component);
+  const Eigen::VectorXd difference = shown_difference(
+      scene, first,
+      scene.measured[channel].col(component) - predictions[s].channel[channel].col(component));
   // In a load test neighbours say nothing of the noise: one unit for all until a fit tells.
   const double deviation = scene.is_static
                                ? 1e-5
@@ -163,8 +175,7 @@ void Observations::add_component(const Sample& first, const PredictionNoise& pre
     doubt *= borne_out(difference, doubt, deviation);
   }
   for (Eigen::Index row = top; row < scene.rows(); ++row) {
-    if (!std::isfinite(difference[row]) ||
-        (channel == joint_torque && !scene.is_static && scene.stands(row, component) != 0)) {
+    if (!std::isfinite(difference[row])) {
       continue;
     }
     if (!scene.is_static && recording::stands_alone(difference, row, deviation)) {
