@@ -62,7 +62,7 @@ struct Traits {
   bool is_model_number = false;  ///< a number that every model has: it may stand in for physics
                                  ///< that no law has
   bool is_in_family = false;    ///< every machine has a little of it: fitted together with its like
-  bool joins_family = false;    ///< the same, but not linear: it joins when the others are fitted
+  bool joins_family = false;    ///< it is tried beside the families when these are fitted
   bool is_friction = false;     ///< one of the forms of a joint's friction: over little of a speed
                                 ///< or load they share what they explain
   bool is_gain = false;         ///< it multiplies what all other laws do at its joint

@@ -71,6 +71,7 @@ Forms laws::gravity_compensator() {
   spring.sketch = balancer;
   sine.form = "sine";
   sine.traits.is_curve_only = true;
+  sine.traits.joins_family = true;
   sine.parameters = constant({{"sine_torque", "N·m"}, {"cosine_torque", "N·m"}});
   balance(&sine, sine_torque);
   return {
