@@ -43,10 +43,25 @@ void an_attempt_that_loses_leaves_nothing_behind() {
   }
 }
 
+/// A zero of a joint with a value and a standard deviation, both in rad.
+bool is_told_from_nothing(double value, double deviation) {
+  const SwingingRobot swinging(1);
+  const Hypothesis hypothesis(flexcomp::effects::find_law("joint_offset", ""), 3, swinging.robot);
+  return are_told_from_nothing({hypothesis, {value}},
+                               Eigen::MatrixXd::Constant(1, 1, deviation * deviation));
+}
+
+void a_number_is_told_from_nothing_where_its_95_percent_interval_leaves_nothing_out() {
+  TEST_ASSERT_TRUE(is_told_from_nothing(2.0e-4, 1e-4));
+  TEST_ASSERT_TRUE(is_told_from_nothing(-2.0e-4, 1e-4));
+  TEST_ASSERT_FALSE(is_told_from_nothing(1.9e-4, 1e-4));
+}
+
 }  // namespace
 
 int main() {
   UNITY_BEGIN();
   RUN_TEST(an_attempt_that_loses_leaves_nothing_behind);
+  RUN_TEST(a_number_is_told_from_nothing_where_its_95_percent_interval_leaves_nothing_out);
   return UNITY_END();
 }

@@ -8,7 +8,7 @@ bool prepare_transmission(const Observations& observations, Hypothesis* hypothes
   const auto index = static_cast<std::size_t>(hypothesis->joint - 1);
   const model::JointDynamics& motor = observations.machine.robot.dynamics[index];
   hypothesis->set_bounds({{-3, 3, 0.1}});
-  hypothesis->starts = {{1.0}, {-1.0}};
+  hypothesis->starts = {{1.0}, {-1.0}, {0.3}, {-0.3}};
   return sees_moving_torques(observations) &&
          motor.viscous + motor.coulomb + motor.rotor_inertia > 0;
 }

@@ -48,19 +48,47 @@ Fit fit_of(const Observations& observations, std::vector<Finding>* findings) {
   return whole;
 }
 
-}  // namespace
+/// The weakest finding whose interval holds nothing; null where there is none.
+const Finding* untold(const std::vector<Finding>& findings) {
+  const auto weakest = std::find_if(findings.rbegin(), findings.rend(), [](const Finding& each) {
+    return !are_told_from_nothing(each.chosen, each.covariance);
+  });
+  return weakest == findings.rend() ? nullptr : &*weakest;
+}
 
-Choice conclude(const Inquiry& inquiry, const Attempt& grown) {
+Choice concluded(const Inquiry& inquiry, const std::vector<Chosen>& chosen, const Sought& sought) {
   const Observations& observations = inquiry.observations;
-  Proved proved = prove(inquiry, prune(inquiry, fit(observations, grown.fit.chosen, kLastSteps)));
+  Proved proved = prove(inquiry, prune(inquiry, fit(observations, chosen, kLastSteps)));
   Choice choice;
-  choice.findings = simplify(inquiry, grown.sought, std::move(proved.selection)).findings;
+  choice.findings = simplify(inquiry, sought, std::move(proved.selection)).findings;
   strongest_first(&choice.findings);
   choice.fit = fit_of(observations, &choice.findings);
   choice.withdrawn = std::move(proved.withdrawn);
   choice.explained = proved.explained;
   choice.mispredicts = proved.mispredicts;
   return choice;
+}
+
+}  // namespace
+
+Choice conclude(const Inquiry& inquiry, const Attempt& grown) {
+  std::vector<Chosen> chosen = grown.fit.chosen;
+  std::vector<Chosen> left_out;
+  while (true) {
+    Choice choice = concluded(inquiry, chosen, grown.sought);
+    const Finding* const weakest = untold(choice.findings);
+    if (weakest == nullptr) {
+      choice.withdrawn.insert(choice.withdrawn.end(), left_out.begin(), left_out.end());
+      return choice;
+    }
+    left_out.push_back(weakest->chosen);
+    chosen.clear();
+    for (const Finding& finding : choice.findings) {
+      if (&finding != weakest) {
+        chosen.push_back(finding.chosen);
+      }
+    }
+  }
 }
 
 Choice choose(const Inquiry& inquiry, const TellStage& tell) {
@@ -75,10 +103,10 @@ Choice choose(const Inquiry& inquiry, const TellStage& tell) {
   } else if (is_fresh && !is_settled(observations, best.fit)) {
     best = best_of_pairs(inquiry, std::move(best), tell);
   }
-  Choice concluded = conclude(inquiry, best);
-  concluded.ranking = std::move(choice.ranking);
-  concluded.begun = std::move(choice.begun);
-  return concluded;
+  Choice last = conclude(inquiry, best);
+  last.ranking = std::move(choice.ranking);
+  last.begun = std::move(choice.begun);
+  return last;
 }
 
 }  // namespace flexcomp::diagnosis

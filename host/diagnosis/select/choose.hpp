@@ -29,13 +29,15 @@ struct Choice {
 /// 3. Prune: what no longer stands beside the others is dropped, and findings that account for too
 ///    little of the mismatch where they show, or fail together on what was held out, are withdrawn.
 /// 4. Simplify: a plainer finding takes the place of what the evidence does not prefer to it.
+/// 5. Doubt: a finding whose interval holds nothing goes, the weakest first, and 3 and 4 are done
+/// again.
 ///
 /// A hypothesis holds if its gain is strong, its chance (times the hypotheses looked at) is below
 /// `false_discovery`, what was held out confirms it, it can be (plausible.hpp), and it is large
 /// enough; select/standards.hpp says by how much.
 Choice choose(const Inquiry& inquiry, const TellStage& tell);
 
-/// Prunes and simplifies (3 and 4) what has grown.
+/// Prunes, simplifies and doubts (3 to 5) what has grown.
 Choice conclude(const Inquiry& inquiry, const Attempt& grown);
 
 }  // namespace flexcomp::diagnosis

@@ -1,10 +1,12 @@
 #include "diagnosis/select/judge.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/plausible.hpp"
 #include "diagnosis/select/standards.hpp"
+#include "statistics/distributions.hpp"
 
 namespace flexcomp::diagnosis {
 
@@ -28,6 +30,19 @@ Finding judge(const Inquiry& inquiry, const Fit& whole, std::size_t index) {
   std::rotate(last.chosen.begin() + at, last.chosen.begin() + at + 1, last.chosen.end());
   Evidence evidence = weigh_last(inquiry, without, last);
   return {whole.chosen[index], {}, std::move(evidence), std::move(without), {}, {}, {}};
+}
+
+bool are_told_from_nothing(const Chosen& chosen, const Eigen::MatrixXd& covariance) {
+  constexpr double kChance = 0.05;  // as of the interval
+  const auto count = static_cast<Eigen::Index>(chosen.hypothesis.linear);
+  if (count == 0) {
+    return true;
+  }
+  const Eigen::Map<const Eigen::VectorXd> value(chosen.values.data(), count);
+  const Eigen::MatrixXd inverse =
+      covariance.topLeftCorner(count, count).completeOrthogonalDecomposition().pseudoInverse();
+  return statistics::chi_squared_above(value.dot(inverse * value), static_cast<double>(count)) <
+         kChance;
 }
 
 bool holds(const Inquiry& inquiry, const Evidence& evidence) {

@@ -1,13 +1,11 @@
 #include "diagnosis/select/members.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "diagnosis/families/without.hpp"
 #include "diagnosis/select/standards.hpp"
-#include "statistics/distributions.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -74,17 +72,9 @@ bool stands_as_member(const Inquiry& inquiry, const Evidence& evidence) {
 /// Otherwise the error that it takes away may be another's. A number that is in no family was found
 /// by itself, and counts as told apart.
 bool is_told_apart(const Fit& whole, std::size_t index) {
-  constexpr double kChance = 0.05;  // as of the interval that is told with it
   const effects::Traits& traits = whole.chosen[index].hypothesis.traits();
-  const auto count = static_cast<Eigen::Index>(whole.chosen[index].hypothesis.linear);
-  if (count == 0 || !(traits.is_in_family || traits.joins_family)) {
-    return true;
-  }
-  const Eigen::MatrixXd covariance = whole.covariance_of(index).topLeftCorner(count, count);
-  const Eigen::Map<const Eigen::VectorXd> value(whole.chosen[index].values.data(), count);
-  const double deviations =
-      value.dot(covariance.completeOrthogonalDecomposition().pseudoInverse() * value);
-  return statistics::chi_squared_above(deviations, static_cast<double>(count)) < kChance;
+  return !(traits.is_in_family || traits.joins_family) ||
+         are_told_from_nothing(whole.chosen[index], whole.covariance_of(index));
 }
 
 /// Members that stand each beside all others.

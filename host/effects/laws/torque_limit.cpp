@@ -1,0 +1,36 @@
+#include <limits>
+
+#include "effects/laws/laws.hpp"
+
+namespace flexcomp::effects {
+
+// A torque sensor or a drive's current that goes up to a limit, the same in both directions, and
+// stays there: the amplifier's or the converter's full scale.
+Forms laws::torque_limit() {
+  Law law;
+  law.joints = every_joint;
+  law.traits.can_be_undone = false;
+  law.parameters = of_joint({{"limit", "N·m"}});
+  law.words = "limit of the torque";
+  law.statement = says("the torque of joint {} is shown up to a limit, and no further");
+  add_term(
+      [](const Values& values, int joint) {
+        return Term{Term::instrument, [=](const Scene&, const Simulation&, Prediction* prediction) {
+                      Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
+                      if (torque.cols() > 0) {
+                        auto shown = torque.col(joint - 1);
+                        shown = shown.cwiseMax(-values[0]).cwiseMin(values[0]);
+                      }
+                    }};
+      },
+      &law);
+  return {{law},
+          {},
+          {{"", " limit ",
+            [](const Subject&) {
+              return Range{0, std::numeric_limits<double>::infinity(), Rest::nowhere};
+            },
+            "a sensor may be of any range"}}};
+}
+
+}  // namespace flexcomp::effects

@@ -1,0 +1,80 @@
+// A torque that is shown up to a limit: as clipped, as found, and not where none was reached.
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/driven_robot.hpp"
+#include "unity_main.hpp"
+
+using flexcomp::diagnosis::Diagnosis;
+using flexcomp::diagnosis::Finding;
+using flexcomp::diagnosis::Observations;
+using flexcomp::test::DrivenRobot;
+namespace diagnosis = flexcomp::diagnosis;
+namespace effects = flexcomp::effects;
+namespace simulation = flexcomp::simulation;
+
+namespace {
+
+constexpr int kJoint = 3;
+
+Eigen::MatrixXd torques(const simulation::Machine& machine, const simulation::Scene& scene) {
+  return simulation::predict(machine, {scene}).front().channel[simulation::joint_torque];
+}
+
+double largest(const DrivenRobot& robot) {
+  return torques(robot.machine(), robot.scene).col(kJoint - 1).cwiseAbs().maxCoeff();
+}
+
+/// The machine whose sensor goes to a share of the joint's largest torque.
+simulation::Machine clipped(const DrivenRobot& robot, double share) {
+  const double limit = share * largest(robot);
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(
+      {simulation::Term::instrument, [=](const simulation::Scene&, const simulation::Simulation&,
+                                         simulation::Prediction* prediction) {
+         for (double& torque : prediction->channel[simulation::joint_torque].col(kJoint - 1)) {
+           torque = torque > limit ? limit : torque < -limit ? -limit : torque;
+         }
+       }});
+  return truth;
+}
+
+std::vector<Finding> found_of(const DrivenRobot& robot, double share) {
+  Observations observations = robot.observed(clipped(robot, share));
+  diagnosis::Settings settings;
+  settings.law_seconds = 0;
+  settings.simulating = [](std::size_t, std::size_t) {};
+  settings.choosing = [](const std::string&) {};
+  return diagnose(&observations, all_hypotheses(observations), settings).choice.findings;
+}
+
+void a_torque_is_shown_up_to_the_limit_and_others_as_they_are() {
+  const DrivenRobot robot;
+  simulation::Machine machine = robot.machine();
+  effects::find_law("torque_limit", "")->apply({0.5 * largest(robot)}, kJoint, &machine);
+  const Eigen::MatrixXd shown = torques(machine, robot.scene);
+  const Eigen::MatrixXd expected = torques(clipped(robot, 0.5), robot.scene);
+  TEST_ASSERT_TRUE((shown - expected).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+void a_limit_that_was_reached_is_found() {
+  const DrivenRobot robot;
+  const std::vector<Finding> found = found_of(robot, 0.8);
+  TEST_ASSERT_EQUAL_UINT64(1, found.size());
+  TEST_ASSERT_EQUAL_STRING("torque_limit", found[0].chosen.hypothesis.effect().c_str());
+  TEST_ASSERT_EQUAL(kJoint, found[0].chosen.hypothesis.joint);
+  const double limit = 0.8 * largest(robot);
+  TEST_ASSERT_DOUBLE_WITHIN(0.01 * limit, limit, found[0].chosen.values[0]);
+}
+
+void a_limit_that_was_not_reached_is_not_found() {
+  TEST_ASSERT_TRUE(found_of(DrivenRobot(), 1.2).empty());
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(a_torque_is_shown_up_to_the_limit_and_others_as_they_are);
+  RUN_TEST(a_limit_that_was_reached_is_found);
+  RUN_TEST(a_limit_that_was_not_reached_is_not_found);
+  return UNITY_END();
+}
