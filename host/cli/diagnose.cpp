@@ -199,6 +199,13 @@ void summarize(const model::Robot& robot, const diagnosis::Observations& observa
   for (std::size_t i = 0; i < result.choice.findings.size(); ++i) {
     say(diagnosis::statement(observations, result, i));
   }
+  for (const diagnosis::Event& event : result.events) {
+    say(diagnosis::statement_of_event(observations, event));
+  }
+  const std::string left = diagnosis::statement_of_left(result);
+  if (!left.empty()) {
+    say(left);
+  }
   for (const diagnosis::Trial& trial : result.trials) {
     say(diagnosis::statement_of_trial(observations, trial));
   }

@@ -149,6 +149,26 @@ void leave_out_found_clocks(Diagnosis* diagnosis) {
   }
 }
 
+std::vector<Event> events_left(const Observations& observations, const Diagnosis& diagnosis) {
+  return is_open(diagnosis) ? find_events(observations, diagnosis.choice.fit.remainder)
+                            : std::vector<Event>();
+}
+
+/// The diagnosis of all but events, and these: what is left beside them may be noise, and is then
+/// explained by them.
+Diagnosis diagnose_without(const std::vector<Event>& events, Observations* observations,
+                           const std::vector<Hypothesis>& hypotheses, const Settings& settings) {
+  for (const Event& event : events) {
+    observations->leave_out(event.scene, event.rows);
+  }
+  Diagnosis rest = diagnose(observations, hypotheses, settings);
+  rest.events.insert(rest.events.begin(), events.begin(), events.end());
+  if (rest.verdict == Verdict::no_mismatch) {
+    rest.verdict = Verdict::explained;
+  }
+  return rest;
+}
+
 }  // namespace
 
 Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hypotheses,
@@ -180,6 +200,9 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
     diagnosis.nearest.clear();
     diagnosis.indistinguishable.clear();
     settle(inquiry, settings, &diagnosis);
+  }
+  if (const auto events = events_left(*observations, diagnosis); !events.empty()) {
+    return diagnose_without(events, observations, hypotheses, settings);
   }
   refit_open(inquiry, hypotheses, settings.choosing, &diagnosis);
   if (!diagnosis.is_weighed_whole) {

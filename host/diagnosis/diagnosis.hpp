@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/clock_check.hpp"
+#include "diagnosis/event.hpp"
 #include "diagnosis/excitation.hpp"
 #include "diagnosis/locate.hpp"
 #include "diagnosis/proposal.hpp"
@@ -30,6 +31,7 @@ struct Diagnosis {
   std::string reason;  ///< why not explained; empty where it is
   std::vector<ClockCheck> clocks;
   std::vector<Excitation> excitation;  ///< of each joint
+  std::vector<Event> events;  ///< that happened once; their samples are left out of all else
   Choice choice;
   double cancellation = 1;     ///< power of the findings' shares over that of their sum
   std::vector<Place> nearest;  ///< what comes nearest to an unexplained mismatch, without proof

@@ -217,26 +217,41 @@ std::vector<JointResidual> Observations::torque_residual(int joint,
   });
 }
 
-void Observations::drop_outliers(const Eigen::VectorXd& values, double limit) {
-  std::vector<Eigen::Index> kept;
+void Observations::keep(const std::vector<bool>& kept) {
+  Eigen::Index count = 0;
   Eigen::Index kept_train = 0;
   for (Eigen::Index i = 0; i < size(); ++i) {
-    if (std::abs(values[i]) <= limit) {
-      kept.push_back(i);
-      kept_train += i < train ? 1 : 0;
+    if (!kept[static_cast<std::size_t>(i)]) {
+      continue;
     }
+    samples[static_cast<std::size_t>(count)] = samples[static_cast<std::size_t>(i)];
+    noise[count] = noise[i];
+    floor[count] = floor[i];
+    ++count;
+    kept_train += i < train ? 1 : 0;
   }
-  outliers += static_cast<std::size_t>(size()) - kept.size();
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    samples[i] = samples[static_cast<std::size_t>(kept[i])];
-    noise[static_cast<Eigen::Index>(i)] = noise[kept[i]];
-    floor[static_cast<Eigen::Index>(i)] = floor[kept[i]];
-  }
-  samples.resize(kept.size());
-  noise.conservativeResize(static_cast<Eigen::Index>(kept.size()));
-  floor.conservativeResize(static_cast<Eigen::Index>(kept.size()));
+  samples.resize(static_cast<std::size_t>(count));
+  noise.conservativeResize(count);
+  floor.conservativeResize(count);
   train = kept_train;
   renew_residual();
+}
+
+void Observations::leave_out(std::size_t scene, Part rows) {
+  std::vector<bool> kept;
+  for (const Sample& at : samples) {
+    kept.push_back(at.scene != scene || at.row < rows.first || at.row >= rows.end);
+  }
+  keep(kept);
+}
+
+void Observations::drop_outliers(const Eigen::VectorXd& values, double limit) {
+  std::vector<bool> kept;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    kept.push_back(std::abs(values[i]) <= limit);
+  }
+  outliers += static_cast<std::size_t>(std::count(kept.begin(), kept.end(), false));
+  keep(kept);
 }
 
 void Observations::set_noise(double factor) {

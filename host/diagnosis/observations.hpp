@@ -114,7 +114,9 @@ class Observations {
   /// A residual as an error of a joint's torque, by scene.
   std::vector<JointResidual> torque_residual(int joint, const Eigen::VectorXd& unexplained) const;
 
-  /// Leaves out samples whose `values` (over the noise) are beyond `limit`.
+  /// Leaves out the samples of some rows of a scene.
+  void leave_out(std::size_t scene, Part rows);
+  /// Leaves out samples whose `values` (over the noise) are beyond `limit`, as outliers.
   void drop_outliers(const Eigen::VectorXd& values, double limit);
   /// Sets the noise of a load test from what the fullest fit leaves.
   void set_noise(double factor);
@@ -122,6 +124,8 @@ class Observations {
   void add_model_error(const Eigen::VectorXd& factors);
 
  private:
+  /// Keeps the samples of a sign.
+  void keep(const std::vector<bool>& kept);
   /// Change of the predictions, by channel, for another course of a scene's motion.
   std::array<Eigen::MatrixXd, 3> change_with(const Scene& other, std::size_t scene) const;
   PredictionNoise prediction_noise(std::size_t scene) const;

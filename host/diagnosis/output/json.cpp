@@ -5,6 +5,7 @@
 #include "check/json.hpp"
 #include "diagnosis/output/sentences.hpp"
 #include "diagnosis/output/torque_band.hpp"
+#include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
 
 namespace flexcomp::diagnosis {
@@ -41,6 +42,19 @@ Json noise_floor(const Observations& observations) {
         observations.rms(Eigen::VectorXd::Ones(observations.size()), channel, false);
   }
   return json;
+}
+
+Json event_json(const Observations& observations, const Event& event) {
+  Json places = Json::array();
+  for (const Excursion& each : event.excursions) {
+    places.push_back({{"channel", kChannels[each.channel]},
+                      {"component", component_in_words(each.channel, each.component)},
+                      {"largest", each.most}});
+  }
+  return {{"file", observations.scenes[event.scene].file},
+          {"time", {event.begin, event.end}},
+          {"places", places},
+          {"statement", statement_of_event(observations, event)}};
 }
 
 Json location(const Location& location) {
@@ -242,6 +256,10 @@ Json to_json(const Observations& observations, const Diagnosis& diagnosis,
   for (const ClockCheck& clock : diagnosis.clocks) {
     json["clocks"].push_back(
         {{"group", clock.group}, {"delay", clock.delay}, {"std", clock.deviation}});
+  }
+  json["events"] = Json::array();
+  for (const Event& event : diagnosis.events) {
+    json["events"].push_back(event_json(observations, event));
   }
   json["excitation"] = Json::array();
   for (const Excitation& each : diagnosis.excitation) {

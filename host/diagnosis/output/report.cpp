@@ -180,6 +180,9 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
       "<p>{} samples stood alone, far from their neighbours, and were "
       "left out.</p>\n",
       observations.outliers);
+  for (const Event& event : diagnosis.events) {
+    html += fmt::format("<p>{}</p>\n", escaped(statement_of_event(observations, event)));
+  }
   for (const ClockCheck& clock : diagnosis.clocks) {
     html += fmt::format("<p>{}</p>\n", statement_of_clock(clock));
   }

@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <set>
 
 #include "diagnosis/output/torque_band.hpp"
 #include "diagnosis/output/words.hpp"
 #include "diagnosis/parameters.hpp"
+#include "diagnosis/verdict.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
+
+constexpr double kTellingShare = 0.2;  // of what is left, that goes with a cue: less of it misleads
 
 /// Deviations from zero.
 double sureness(const Estimate& each) {
@@ -155,6 +159,49 @@ std::string statement_of_band(const Observations& observations, const Diagnosis&
       "ms), held-out error of joint torque {}.",
       band->frequency, 2e3 * band->half_window,
       after == before ? "is " + before : fmt::format("falls from {} to {}", before, after));
+}
+
+std::string statement_of_event(const Observations& observations, const Event& event) {
+  std::vector<std::string> places;
+  for (const Excursion& each : event.excursions) {
+    places.push_back(fmt::format("{} of {} is off by up to {}", in_words(each.channel),
+                                 component_in_words(each.channel, each.component),
+                                 readable(each.most, unit_of(observations, each.channel))));
+  }
+  return fmt::format(
+      "Something happened once, from {:.4g} to {:.4g} s of {}: {}. It is left out of all else.",
+      event.begin, event.end,
+      std::filesystem::path(observations.scenes[event.scene].file).filename().string(),
+      first_few(places));
+}
+
+std::string statement_of_left(const Diagnosis& diagnosis) {
+  const Location& left = diagnosis.left;
+  std::vector<std::string> parts;
+  if (!left.joints.empty()) {
+    parts.push_back(fmt::format("at {} {}", left.joints.size() > 1 ? "joints" : "joint",
+                                fmt::join(left.joints, ", ")));
+  }
+  if (!left.axes.empty()) {
+    parts.push_back(fmt::format("along {}", fmt::join(left.axes, ", ")));
+  }
+  std::vector<std::string> times;
+  for (const auto& [begin, end] : left.time) {
+    times.push_back(fmt::format("from {:.4g} to {:.4g} s", begin, end));
+  }
+  if (!times.empty()) {
+    parts.push_back(first_few(times));
+  }
+  if (!left.frequency_hz.empty()) {
+    parts.push_back(fmt::format("at {:.3g} Hz", left.frequency_hz.front()));
+  }
+  if (!left.correlates_with.empty() && left.correlates_with.front().share > kTellingShare) {
+    const Correlate& most = left.correlates_with.front();
+    parts.push_back(fmt::format("{:.0f} % of it with the {}", 100 * most.share, most.cue));
+  }
+  return is_open(diagnosis) && !parts.empty()
+             ? fmt::format("What is left stands {}.", fmt::join(parts, ", "))
+             : "";
 }
 
 std::string statement_of_clock(const ClockCheck& clock) {

@@ -17,6 +17,13 @@ std::string statement_of_retuned(const Observations& observations, const Diagnos
 /// One plain sentence about the torques that the angles can tell of; empty where that is all.
 std::string statement_of_band(const Observations& observations, const Diagnosis& diagnosis);
 
+/// One plain sentence about something that happened once: when, where, and how much.
+std::string statement_of_event(const Observations& observations, const Event& event);
+
+/// One plain sentence about where and when what is unexplained stands; empty where nothing of it
+/// stands out.
+std::string statement_of_left(const Diagnosis& diagnosis);
+
 /// One plain sentence about a clock: how late it is, ± 95 %, and whether that is nothing.
 std::string statement_of_clock(const ClockCheck& clock);
 

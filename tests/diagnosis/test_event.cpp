@@ -1,0 +1,84 @@
+// What happened once: found with its time and place, left out, and not where it comes again.
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/driven_robot.hpp"
+#include "diagnosis/event.hpp"
+#include "unity_main.hpp"
+
+using namespace flexcomp::diagnosis;
+using flexcomp::test::DrivenRobot;
+namespace effects = flexcomp::effects;
+
+namespace {
+
+constexpr double kBegin = 20.5;   // s
+constexpr double kLong = 0.3;     // s
+constexpr double kFriction = 40;  // N·m
+const double kBump = 60 * DrivenRobot::kNoise;
+
+/// A robot that is pushed at its third joint, every so many seconds.
+Observations pushed(double every, bool rubs) {
+  const DrivenRobot robot;
+  flexcomp::simulation::Machine truth = robot.machine();
+  if (rubs) {
+    effects::find_law("coulomb_friction", "")->apply({kFriction}, 2, &truth);
+  }
+  truth.terms.push_back(
+      {flexcomp::simulation::Term::output,
+       [=](const flexcomp::simulation::Scene& scene, const flexcomp::simulation::Simulation&,
+           flexcomp::simulation::Prediction* prediction) {
+         auto torque = prediction->channel[flexcomp::simulation::joint_torque].col(2);
+         for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+           const double after = std::fmod(scene.time[row] - kBegin + 10 * every, every);
+           torque[row] += after < kLong ? kBump : 0;
+         }
+       }});
+  return robot.observed(truth);
+}
+
+Diagnosis diagnosed(Observations* observations) {
+  Settings settings;
+  settings.law_seconds = 0;
+  settings.simulating = [](std::size_t, std::size_t) {};
+  settings.choosing = [](const std::string&) {};
+  return diagnose(observations, all_hypotheses(*observations), settings);
+}
+
+void a_bump_is_told_with_its_time_and_joint() {
+  Observations observations = pushed(100, false);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_TRUE(found.choice.findings.empty());
+  TEST_ASSERT_EQUAL_UINT64(1, found.events.size());
+  const Event& event = found.events.front();
+  TEST_ASSERT_DOUBLE_WITHIN(0.15, kBegin, event.begin);
+  TEST_ASSERT_DOUBLE_WITHIN(0.15, kBegin + kLong, event.end);
+  TEST_ASSERT_EQUAL_UINT64(1, event.excursions.size());
+  TEST_ASSERT_EQUAL_INT64(2, event.excursions.front().component);
+  TEST_ASSERT_DOUBLE_WITHIN(3 * DrivenRobot::kNoise, kBump, event.excursions.front().most);
+}
+
+void an_effect_beside_a_bump_is_found() {
+  Observations observations = pushed(100, true);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_EQUAL_UINT64(1, found.events.size());
+  TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
+  const Chosen& chosen = found.choice.findings.front().chosen;
+  TEST_ASSERT_EQUAL_STRING("coulomb_friction", chosen.hypothesis.effect().c_str());
+  TEST_ASSERT_DOUBLE_WITHIN(0.05 * kFriction, kFriction, chosen.values.front());
+}
+
+void what_comes_again_and_again_is_no_event() {
+  Observations observations = pushed(3, false);
+  TEST_ASSERT_TRUE(diagnosed(&observations).events.empty());
+}
+
+}  // namespace
+
+int main() {
+  UNITY_BEGIN();
+  RUN_TEST(a_bump_is_told_with_its_time_and_joint);
+  RUN_TEST(an_effect_beside_a_bump_is_found);
+  RUN_TEST(what_comes_again_and_again_is_no_event);
+  return UNITY_END();
+}
