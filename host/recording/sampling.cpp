@@ -10,6 +10,7 @@ namespace flexcomp::recording {
 namespace {
 
 constexpr Eigen::Index kAround = 5;       // steps on either side that tell how a joint moves
+constexpr double kFewCounts = 3;          // of an encoder, by which it goes on where it creeps
 constexpr double kSteady = 0.5;           // of the median step around, that the next ones have
 constexpr Eigen::Index kFewestEven = 50;  // rows, to draw a line through
 constexpr double kGap = 2.5;              // usual steps without a row, where a line ends
@@ -18,53 +19,81 @@ constexpr double kLeastLag = 0.01;        // periods, that a stamp is off: less 
 constexpr double kMuchSmoother = 0.5;  // of the mean square by which angles miss their neighbours'
 constexpr double kLeastMiss = 1e-12;   // rad: angles computed and not measured
 
-/// The steps of a joint before and after rows first … last, which show the same; fewer at the ends.
-std::vector<double> steps_around(const Samples& angles, Eigen::Index joint, Eigen::Index first,
-                                 Eigen::Index last) {
-  std::vector<double> steps;
-  for (Eigen::Index i = std::max<Eigen::Index>(1, first - kAround + 1); i <= first; ++i) {
-    steps.push_back(angles(i, joint) - angles(i - 1, joint));
+/// Rows that show the same angles to the bit, from the first to the last.
+struct Run {
+  Eigen::Index first, last;
+};
+
+std::vector<Run> runs_of(const Samples& angles) {
+  std::vector<Run> runs;
+  for (Eigen::Index row = 0; row < angles.rows(); ++row) {
+    if (row > 0 && (angles.row(row).array() == angles.row(row - 1).array()).all()) {
+      runs.back().last = row;
+    } else {
+      runs.push_back({row, row});
+    }
   }
-  for (Eigen::Index i = last + 1; i < std::min(angles.rows(), last + 1 + kAround); ++i) {
-    steps.push_back(angles(i, joint) - angles(i - 1, joint));
-  }
-  return steps;
+  return runs;
 }
 
-/// Does a joint move on steadily before the first of some rows and after the last?
-bool moves_about(const Samples& angles, Eigen::Index joint, Eigen::Index first, Eigen::Index last) {
-  if (first == 0 || last + 1 >= angles.rows()) {
-    return false;
-  }
-  const std::vector<double> steps = steps_around(angles, joint, first, last);
-  const double usual = statistics::median(steps);
+/// Do values before a run and after it, of the steps to each run from the one before, go on as
+/// those around do?
+bool goes_on(const Eigen::VectorXd& steps, Eigen::Index run) {
+  const Eigen::Index first = std::max<Eigen::Index>(1, run - kAround + 1);
+  const Eigen::Index count = std::min(steps.size(), run + kAround + 1) - first;
+  const Eigen::VectorXd around = steps.segment(first, count);
+  const double usual = statistics::median({around.data(), around.data() + count});
   const double least = kSteady * std::abs(usual);
-  const double before = angles(first, joint) - angles(first - 1, joint);
-  const double after = angles(last + 1, joint) - angles(last, joint);
-  return before * usual > 0 && after * usual > 0 && std::abs(before) >= least &&
-         std::abs(after) >= least &&
-         std::all_of(steps.begin(), steps.end(), [&](double step) { return step * usual > 0; });
+  return std::abs(steps[run]) > least && std::abs(steps[run + 1]) > least &&
+         (around.array() * usual > 0).all();
 }
 
-bool is_like_before(const Samples& angles, Eigen::Index row) {
-  return (angles.row(row).array() == angles.row(row - 1).array()).all();
+/// How a joint moves from each run's sample to the next.
+struct Motion {
+  Eigen::VectorXd steps;  ///< rad, to each run from the one before
+  Eigen::VectorXd rates;  ///< rad/s, the same
+  double count = 0;       ///< rad, of its encoder; zero where none is seen
+
+  /// Does it move on steadily before a run and after it? A log may ask at even times, and see a
+  /// sample once more, or be shown samples at uneven ones. By a few counts it may creep.
+  bool moves_about(Eigen::Index run) const {
+    if (run == 0 || run + 1 >= steps.size()) {
+      return false;
+    }
+    const double least = kFewCounts * count;
+    return std::abs(steps[run]) > least && std::abs(steps[run + 1]) > least &&
+           (goes_on(steps, run) || goes_on(rates, run));
+  }
+};
+
+Motion motion_of(const Eigen::VectorXd& time, const Eigen::VectorXd& angle) {
+  const Eigen::Index n = angle.size();
+  Motion motion{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), quantisation_step(angle)};
+  motion.steps.tail(n - 1) = angle.tail(n - 1) - angle.head(n - 1);
+  motion.rates.tail(n - 1) =
+      motion.steps.tail(n - 1).cwiseQuotient(time.tail(n - 1) - time.head(n - 1));
+  return motion;
 }
 
-void find_repeats(const Samples& angles, Sampling* sampling) {
-  for (Eigen::Index row = 0; row < angles.rows();) {
-    Eigen::Index last = row;
-    while (last + 1 < angles.rows() && is_like_before(angles, last + 1)) {
-      ++last;
+void find_repeats(const Eigen::VectorXd& time, const Samples& angles, Sampling* sampling) {
+  const std::vector<Run> runs = runs_of(angles);
+  std::vector<Eigen::Index> first;
+  for (const Run& run : runs) {
+    first.push_back(run.first);
+  }
+  std::vector<Motion> motions;
+  for (Eigen::Index joint = 0; joint < angles.cols() && !first.empty(); ++joint) {
+    motions.push_back(motion_of(time(first), angles(first, joint)));
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const bool repeats = runs[i].last > runs[i].first &&
+                         std::any_of(motions.begin(), motions.end(), [i](const Motion& motion) {
+                           return motion.moves_about(static_cast<Eigen::Index>(i));
+                         });
+    sampling->rows.push_back(runs[i].first);
+    for (Eigen::Index row = runs[i].first + 1; row <= runs[i].last; ++row) {
+      (repeats ? sampling->repeats : sampling->rows).push_back(row);
     }
-    bool repeats = false;
-    for (Eigen::Index joint = 0; last > row && joint < angles.cols() && !repeats; ++joint) {
-      repeats = moves_about(angles, joint, row, last);
-    }
-    sampling->rows.push_back(row);
-    for (Eigen::Index i = row + 1; i <= last; ++i) {
-      (repeats ? sampling->repeats : sampling->rows).push_back(i);
-    }
-    row = last + 1;
   }
 }
 
@@ -148,7 +177,7 @@ void pick(const std::vector<Eigen::Index>& rows, std::optional<Group>* group) {
 
 Sampling sampling_of(const Eigen::VectorXd& time, const Samples& angles) {
   Sampling sampling;
-  find_repeats(angles, &sampling);
+  find_repeats(time, angles, &sampling);
   sampling.time = time(sampling.rows);
   if (sampling.time.size() < kFewestEven) {
     return sampling;

@@ -1,7 +1,9 @@
 // Rows that repeat a sample and times that are not those of the samples, against the clock by which
 // made-up joints were sampled.
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "recording/sampling.hpp"
 #include "unity_main.hpp"
@@ -57,6 +59,43 @@ void a_sample_that_a_log_shows_twice_is_found_where_joints_move() {
   // Near the turn of a joint its steps are no steady motion; others move on there.
   TEST_ASSERT_TRUE(sampling.repeats == expected);
   TEST_ASSERT_EQUAL_INT64(kRows, static_cast<Index>(sampling.rows.size() + expected.size()));
+}
+
+/// Rows of which each shows the sample of another, and which of them must be found; at the ends of
+/// a recording nobody knows how a joint moves.
+void assert_repeats_are_found(const VectorXd& times, const std::vector<Index>& shown) {
+  const Samples whole = at(times);
+  const Sampling sampling = sampling_of(times, whole(shown, Eigen::all));
+  std::vector<Index> expected;
+  for (Index row = 1; row < times.size(); ++row) {
+    const Index own = shown[static_cast<std::size_t>(row)];
+    if (own < row && own > shown.front() && own < shown.back()) {
+      expected.push_back(row);
+    }
+  }
+  TEST_ASSERT_TRUE(expected.size() > 100);
+  TEST_ASSERT_TRUE(std::includes(sampling.repeats.begin(), sampling.repeats.end(), expected.begin(),
+                                 expected.end()));
+}
+
+void a_log_several_times_as_fast_as_the_robot_repeats_each_sample() {
+  for (const Index each : {2, 3, 8}) {
+    std::vector<Index> shown;
+    for (Index row = 0; row < kRows; ++row) {
+      shown.push_back(row / each * each);
+    }
+    assert_repeats_are_found(even(kRows, 0.004), shown);
+  }
+}
+
+void samples_that_come_at_odd_moments_are_repeated_until_the_next() {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> chance(0, 1);
+  std::vector<Index> shown;
+  for (Index row = 0; row < kRows; ++row) {
+    shown.push_back(row == 0 || chance(random) < 0.6 ? row : shown.back());
+  }
+  assert_repeats_are_found(even(kRows, 0.004), shown);
 }
 
 void times_are_those_of_the_samples_then() {
@@ -206,6 +245,8 @@ void steps_are_regular_if_few_are_longer() {
 int main() {
   UNITY_BEGIN();
   RUN_TEST(a_sample_that_a_log_shows_twice_is_found_where_joints_move);
+  RUN_TEST(a_log_several_times_as_fast_as_the_robot_repeats_each_sample);
+  RUN_TEST(samples_that_come_at_odd_moments_are_repeated_until_the_next);
   RUN_TEST(times_are_those_of_the_samples_then);
   RUN_TEST(stamps_that_jitter_are_evened);
   RUN_TEST(times_that_are_uneven_indeed_stay);
