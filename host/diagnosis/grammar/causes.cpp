@@ -50,7 +50,8 @@ std::string cause_of_torque(const Lead& lead, const Shape& shape) {
                  ? "usually a spring, a stop or a dress pack"
                  : "usually a cable or hose";
     case SignalKind::speed:
-      return "usually drag of grease, oil or air";
+      return lead.driver->is_product ? "usually a mass that both joints move"
+                                     : "usually drag of grease, oil or air";
     case SignalKind::torque:
     case SignalKind::load:
       return "usually a drive or its current sensor that is not linear";

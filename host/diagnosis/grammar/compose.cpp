@@ -95,7 +95,7 @@ std::vector<Composed> modulated(const Material& material, const Composed& law) {
   for (const Driver& driver : material.drivers) {
     for (const Shape& shape : modulations()) {
       const Modulation by{&driver, &shape};
-      const bool is_able = !driver.is_power && driver.kind != effects::SignalKind::time &&
+      const bool is_able = !driver.is_product && driver.kind != effects::SignalKind::time &&
                            driver.name != law.lead.driver->name && shape.suits(driver) &&
                            law.form.shape->terms.size() * shape.terms.size() <= kMostTerms;
       if (is_able) {

@@ -88,20 +88,40 @@ double least_span(SignalKind kind) {
   }
 }
 
+/// Adds the product of two signals that are there, of the second one's kind and joint.
+void add_product(const std::string& first, const std::string& second,
+                 std::vector<Driver>* drivers) {
+  const Driver* one = find_driver(*drivers, first);
+  const Driver* other = find_driver(*drivers, second);
+  if (one == nullptr || other == nullptr) {
+    return;
+  }
+  Driver product = *other;
+  product.name = fmt::format("({}*{})", first, second);
+  product.is_product = true;
+  product.course = one->course.cwiseProduct(other->course);
+  product.low = product.course.minCoeff();
+  product.high = product.course.maxCoeff();
+  drivers->push_back(std::move(product));
+}
+
 /// Speed times acceleration, and speed times torque: of what a joint accelerates, and of all.
 void add_powers(int joints, std::vector<Driver>* drivers) {
   for (int joint = 1; joint <= joints; ++joint) {
-    for (const char* other : {"a", "tau"}) {
-      const Driver* speed = find_driver(*drivers, fmt::format("v{}", joint));
-      const Driver* push = find_driver(*drivers, fmt::format("{}{}", other, joint));
-      if (speed != nullptr && push != nullptr) {
-        Driver power = *push;
-        power.name = fmt::format("({}*{})", speed->name, push->name);
-        power.is_power = true;
-        power.course = speed->course.cwiseProduct(push->course);
-        power.low = power.course.minCoeff();
-        power.high = power.course.maxCoeff();
-        drivers->push_back(std::move(power));
+    for (const char* push : {"a", "tau"}) {
+      add_product(fmt::format("v{}", joint), fmt::format("{}{}", push, joint), drivers);
+    }
+  }
+}
+
+/// The speeds of any two joints; the product belongs to none.
+void add_products_of_speeds(int joints, std::vector<Driver>* drivers) {
+  for (int joint = 1; joint <= joints; ++joint) {
+    for (int other = joint + 1; other <= joints; ++other) {
+      const std::size_t before = drivers->size();
+      add_product(fmt::format("v{}", joint), fmt::format("v{}", other), drivers);
+      for (std::size_t i = before; i < drivers->size(); ++i) {
+        (*drivers)[i].joint = 0;
       }
     }
   }
@@ -144,6 +164,7 @@ std::vector<Driver> drivers_of(const Observations& observations, const Rows& row
     }
   }
   add_powers(observations.machine.robot.joints(), &drivers);
+  add_products_of_speeds(observations.machine.robot.joints(), &drivers);
   return drivers;
 }
 

@@ -16,7 +16,7 @@ bool has(const std::vector<Item>& all, const Item& item) {
 bool is_by_own_signal(const Lead& lead) {
   const bool is_same_component = lead.seat->place.kind != PlaceKind::sensor_wrench ||
                                  "sensor " + lead.driver->name == lead.seat->name + "_tool";
-  return !lead.driver->is_power && lead.driver->joint == lead.seat->place.joint &&
+  return !lead.driver->is_product && lead.driver->joint == lead.seat->place.joint &&
          is_same_component;
 }
 

@@ -94,20 +94,21 @@ class Hats {
 };
 
 /// Would a law of a driver and a factor mean something at a seat? Errors of sensors follow time
-/// alone, and a joint's power is felt by its own drive.
+/// alone, a joint's power is felt by its own drive, and two speeds by any.
 bool means_something(const Seat& seat, const Driver& driver, const Factor& factor) {
   if (seat.is_sensor()) {
     return driver.kind == SignalKind::time && factor.text.empty();
   }
-  return !driver.is_power ||
-         (seat.place.kind == PlaceKind::joint_torque && seat.place.joint == driver.joint);
+  return !driver.is_product ||
+         (seat.place.kind == PlaceKind::joint_torque &&
+          (driver.joint == 0 ? factor.text.empty() : seat.place.joint == driver.joint));
 }
 
 /// Gain of the best shape with a memory, which a conditional mean does not show: of what a joint
 /// carries, and of its angle, at that joint.
 double gain_of_memory(const Material& material, const Seat& seat, const Driver& driver,
                       const Factor& factor) {
-  const bool is_own = !driver.is_power && driver.joint != 0 && driver.joint == seat.place.joint;
+  const bool is_own = !driver.is_product && driver.joint != 0 && driver.joint == seat.place.joint;
   const bool is_held = driver.kind == SignalKind::torque || driver.kind == SignalKind::load ||
                        (driver.kind == SignalKind::angle && factor.text.empty());
   if (!is_own || !is_held) {
@@ -161,8 +162,8 @@ std::optional<Lead> lead_of(const Material& material, const Seat& seat, const Dr
 /// May the size of a wave at a joint follow this driver, beside the joint's own angle? Another
 /// angle loads its gear otherwise, and so does what the joint carries.
 bool may_swell(const Driver& by, int joint) {
-  return !by.is_power && (by.joint == joint ? by.kind != SignalKind::angle
-                                            : by.kind == SignalKind::angle && by.joint > 0);
+  return !by.is_product && (by.joint == joint ? by.kind != SignalKind::angle
+                                              : by.kind == SignalKind::angle && by.joint > 0);
 }
 
 /// The wave over a joint's angle that does most at that joint, where its size follows another

@@ -182,7 +182,7 @@ bool Shape::fits(const Seat& seat, const Driver& driver) const {
   if (driver.kind == SignalKind::time && is_event != seat.is_sensor()) {
     return false;
   }
-  if (driver.is_power && trait == ShapeTrait::heating) {
+  if (driver.is_product && trait == ShapeTrait::heating) {
     return false;
   }
   if (driver.unit != "rad" && trait == ShapeTrait::whole_waves) {

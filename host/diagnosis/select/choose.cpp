@@ -48,11 +48,16 @@ Fit fit_of(const Observations& observations, std::vector<Finding>* findings) {
   return whole;
 }
 
-/// The weakest finding whose interval holds nothing; null where there is none.
+/// Is a finding one number, whose interval holds nothing? Several numbers together are less sure to
+/// be so: their covariance has many more.
+bool may_be_nothing(const Finding& finding) {
+  return finding.chosen.hypothesis.linear == 1 &&
+         !are_told_from_nothing(finding.chosen, finding.covariance);
+}
+
+/// The weakest finding that may be nothing; null where there is none.
 const Finding* untold(const std::vector<Finding>& findings) {
-  const auto weakest = std::find_if(findings.rbegin(), findings.rend(), [](const Finding& each) {
-    return !are_told_from_nothing(each.chosen, each.covariance);
-  });
+  const auto weakest = std::find_if(findings.rbegin(), findings.rend(), may_be_nothing);
   return weakest == findings.rend() ? nullptr : &*weakest;
 }
 
