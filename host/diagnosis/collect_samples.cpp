@@ -35,7 +35,7 @@ Eigen::Index memory_of(const Scene& scene) {
 double noise_of(const Eigen::VectorXd& difference, double prediction_noise, Eigen::Index memory) {
   const double white = recording::white_noise(difference);
   const double both = std::hypot(white, prediction_noise);
-  return std::min(both, recording::white_noise(difference, memory));
+  return std::min(both, std::max(white, recording::white_noise(difference, memory)));
 }
 
 /// Share of the doubts about a prediction that a residual bears out: where they stand out of the
