@@ -2,6 +2,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/event.hpp"
+#include "diagnosis/output/sentences.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp::diagnosis;
@@ -55,6 +56,10 @@ void a_bump_is_told_with_its_time_and_joint() {
   TEST_ASSERT_EQUAL_UINT64(1, event.excursions.size());
   TEST_ASSERT_EQUAL_INT64(2, event.excursions.front().component);
   TEST_ASSERT_DOUBLE_WITHIN(3 * DrivenRobot::kNoise, kBump, event.excursions.front().most);
+  const std::string statement = statement_of_event(observations, event);
+  TEST_ASSERT_EQUAL_UINT64(0, statement.find("Something happened once, from 20."));
+  TEST_ASSERT_TRUE(statement.find("of swinging.csv: joint torque of joint 3 is off by up to 12") !=
+                   std::string::npos);
 }
 
 void an_effect_beside_a_bump_is_found() {

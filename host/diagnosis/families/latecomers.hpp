@@ -6,8 +6,8 @@
 namespace flexcomp::diagnosis {
 
 /// Hypotheses that join families once these are fitted (`Traits::joins_family`), since they are not
-/// linear in all their numbers: those whose columns explain more of what is left than chance would,
-/// beside all that is fitted, each at the best of its starts.
+/// linear in all their numbers or few machines have them: those whose columns explain more of what
+/// is left than chance would, beside all that is fitted, each at the best of its starts.
 ///
 /// A form of friction brings the linear forms of its joint that were left out, where the two
 /// explain more together: friction that first falls with speed and then rises looks like dry

@@ -169,7 +169,7 @@ std::string statement_of_event(const Observations& observations, const Event& ev
                                  readable(each.most, unit_of(observations, each.channel))));
   }
   return fmt::format(
-      "Something happened once, from {:.4g} to {:.4g} s of {}: {}. It is left out of all else.",
+      "Something happened once, from {:.2f} to {:.2f} s of {}: {}. It is left out of all else.",
       event.begin, event.end,
       std::filesystem::path(observations.scenes[event.scene].file).filename().string(),
       first_few(places));
@@ -187,7 +187,7 @@ std::string statement_of_left(const Diagnosis& diagnosis) {
   }
   std::vector<std::string> times;
   for (const auto& [begin, end] : left.time) {
-    times.push_back(fmt::format("from {:.4g} to {:.4g} s", begin, end));
+    times.push_back(fmt::format("from {:.2f} to {:.2f} s", begin, end));
   }
   if (!times.empty()) {
     parts.push_back(first_few(times));
