@@ -23,10 +23,9 @@ double largest(const DrivenRobot& robot) {
   return torques(robot.machine(), robot.scene).col(kJoint - 1).cwiseAbs().maxCoeff();
 }
 
-/// The machine whose sensor goes to a share of the joint's largest torque.
-simulation::Machine clipped(const DrivenRobot& robot, double share) {
+/// A machine whose sensor goes to a share of the largest torque of the model's joint.
+simulation::Machine clipped(const DrivenRobot& robot, double share, simulation::Machine truth) {
   const double limit = share * largest(robot);
-  simulation::Machine truth = robot.machine();
   truth.terms.push_back(
       {simulation::Term::instrument, [=](const simulation::Scene&, const simulation::Simulation&,
                                          simulation::Prediction* prediction) {
@@ -37,8 +36,12 @@ simulation::Machine clipped(const DrivenRobot& robot, double share) {
   return truth;
 }
 
-std::vector<Finding> found_of(const DrivenRobot& robot, double share) {
-  Observations observations = robot.observed(clipped(robot, share));
+simulation::Machine clipped(const DrivenRobot& robot, double share) {
+  return clipped(robot, share, robot.machine());
+}
+
+std::vector<Finding> found_of(const DrivenRobot& robot, const simulation::Machine& truth) {
+  Observations observations = robot.observed(truth);
   diagnosis::Settings settings;
   settings.law_seconds = 0;
   settings.simulating = [](std::size_t, std::size_t) {};
@@ -57,7 +60,7 @@ void a_torque_is_shown_up_to_the_limit_and_others_as_they_are() {
 
 void a_limit_that_was_reached_is_found() {
   const DrivenRobot robot;
-  const std::vector<Finding> found = found_of(robot, 0.8);
+  const std::vector<Finding> found = found_of(robot, clipped(robot, 0.8));
   TEST_ASSERT_EQUAL_UINT64(1, found.size());
   TEST_ASSERT_EQUAL_STRING("torque_limit", found[0].chosen.hypothesis.effect().c_str());
   TEST_ASSERT_EQUAL(kJoint, found[0].chosen.hypothesis.joint);
@@ -66,7 +69,23 @@ void a_limit_that_was_reached_is_found() {
 }
 
 void a_limit_that_was_not_reached_is_not_found() {
-  TEST_ASSERT_TRUE(found_of(DrivenRobot(), 1.2).empty());
+  const DrivenRobot robot;
+  TEST_ASSERT_TRUE(found_of(robot, clipped(robot, 1.2)).empty());
+}
+
+/// The model as it was does not get there.
+void a_limit_that_a_load_reaches_is_found_beside_it() {
+  const DrivenRobot robot;
+  simulation::Machine truth = robot.machine();
+  const effects::LawPointer load = effects::find_law("payload", "");
+  effects::Values values(load->parameters(robot.robot, 0).size(), 0.0);
+  values[0] = 150;  // kg
+  load->apply(values, 0, &truth);
+  const std::vector<Finding> found = found_of(robot, clipped(robot, 1.05, truth));
+  TEST_ASSERT_EQUAL_UINT64(2, found.size());
+  TEST_ASSERT_EQUAL_STRING("torque_limit", found[1].chosen.hypothesis.effect().c_str());
+  const double limit = 1.05 * largest(robot);
+  TEST_ASSERT_DOUBLE_WITHIN(0.01 * limit, limit, found[1].chosen.values[0]);
 }
 
 }  // namespace
@@ -76,5 +95,6 @@ int main() {
   RUN_TEST(a_torque_is_shown_up_to_the_limit_and_others_as_they_are);
   RUN_TEST(a_limit_that_was_reached_is_found);
   RUN_TEST(a_limit_that_was_not_reached_is_not_found);
+  RUN_TEST(a_limit_that_a_load_reaches_is_found_beside_it);
   return UNITY_END();
 }

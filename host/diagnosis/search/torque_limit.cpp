@@ -26,28 +26,42 @@ double size_beyond(const Observations& observations, int joint, Eigen::Index one
   return *place;
 }
 
-/// Needs torques of a robot that moves, which are predicted beyond those that were measured. Where
-/// a limit was reached, the largest sizes lie near it.
+constexpr Eigen::Index kOneIn = 100;  // beyond it noise may be
+constexpr double kBeyondNoise = 3;    // deviations
+
+/// Needs torques of a robot that moves.
 bool prepare_torque_limit(const Observations& observations, Hypothesis* hypothesis) {
-  constexpr Eigen::Index kOneIn = 100;  // beyond it noise may be
-  const int joint = hypothesis->joint;
   if (!sees_moving_torques(observations)) {
     return false;
   }
-  const double size = size_beyond(observations, joint, kOneIn);
-  double predicted = 0;
-  for (const Prediction& prediction : observations.predictions) {
-    predicted =
-        std::max(predicted,
-                 prediction.channel[simulation::joint_torque].col(joint - 1).cwiseAbs().maxCoeff());
-  }
+  const double size = size_beyond(observations, hypothesis->joint, kOneIn);
   hypothesis->set_bounds({{0.5 * size, 1.5 * size, 0.01 * size}});
-  hypothesis->starts = {{size}};
-  return size > 0 && predicted > size;
+  return size > 0;
+}
+
+/// Where a limit was reached, the largest sizes that are measured lie near it, and larger ones are
+/// predicted.
+std::vector<Values> seek_torque_limit(const Observations& observations,
+                                      const Eigen::VectorXd& unexplained,
+                                      const Hypothesis& hypothesis) {
+  const double size = size_beyond(observations, hypothesis.joint, kOneIn);
+  for (Eigen::Index i = 0; i < observations.train; ++i) {
+    const Sample& at = observations.samples[static_cast<std::size_t>(i)];
+    if (at.channel != simulation::joint_torque || at.component != hypothesis.joint - 1) {
+      continue;
+    }
+    const double measured =
+        observations.scenes[at.scene].measured[at.channel](at.row, at.component);
+    const double predicted = measured - unexplained[i] * observations.noise[i];
+    if (std::abs(predicted) > size + kBeyondNoise * observations.noise[i]) {
+      return {{size}};
+    }
+  }
+  return {};
 }
 
 }  // namespace
 
-Search search::torque_limit() { return {prepare_torque_limit}; }
+Search search::torque_limit() { return {prepare_torque_limit, seek_torque_limit}; }
 
 }  // namespace flexcomp::diagnosis

@@ -53,9 +53,17 @@ Eigen::MatrixXd normalized(const Observations& observations, const Columns& colu
 Sought seek(const Inquiry& inquiry, const Fit& fit) {
   std::vector<Hypothesis> found =
       sought_anew(inquiry.observations, fit.remainder, inquiry.dictionary.hypotheses);
-  return found.empty() ? nullptr
-                       : std::make_shared<const Dictionary>(inquiry.observations, std::move(found),
-                                                            [](std::size_t, std::size_t) {});
+  if (found.empty()) {
+    return nullptr;
+  }
+  const auto untold = [](std::size_t, std::size_t) {};
+  const bool are_curved = std::any_of(
+      found.begin(), found.end(), [](const Hypothesis& each) { return each.traits().is_curved; });
+  // What is far from proportion does nothing to the model as it was, where that is far away.
+  return are_curved
+             ? std::make_shared<const Dictionary>(inquiry.observations, std::move(found),
+                                                  fit.machine, untold)
+             : std::make_shared<const Dictionary>(inquiry.observations, std::move(found), untold);
 }
 
 std::vector<Candidate> propose(const Inquiry& inquiry, const Attempt& before) {

@@ -9,6 +9,7 @@ namespace flexcomp::effects {
 Forms laws::torque_limit() {
   Law law;
   law.joints = every_joint;
+  law.traits.is_curved = true;
   law.traits.can_be_undone = false;
   law.parameters = of_joint({{"limit", "N·m"}});
   law.words = "limit of the torque";
