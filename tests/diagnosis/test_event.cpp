@@ -56,6 +56,9 @@ void a_bump_is_told_with_its_time_and_joint() {
   TEST_ASSERT_EQUAL_UINT64(1, event.excursions.size());
   TEST_ASSERT_EQUAL_INT64(2, event.excursions.front().component);
   TEST_ASSERT_DOUBLE_WITHIN(3 * DrivenRobot::kNoise, kBump, event.excursions.front().most);
+  TEST_ASSERT_EQUAL_STRING(
+      "Model and recording agree within the noise, but for what happened once.",
+      headline(observations, found).c_str());
   const std::string statement = statement_of_event(observations, event);
   TEST_ASSERT_EQUAL_UINT64(0, statement.find("Something happened once, from 20."));
   TEST_ASSERT_TRUE(statement.find("of swinging.csv: joint torque of joint 3 is off by up to 12") !=

@@ -106,12 +106,16 @@ std::string finding_rows(const Observations& observations, const Diagnosis& diag
                         finding.evidence.delta_bic, chance(finding.evidence.p_value),
                         others.empty() ? "none comes near" : others);
   }
+  std::string events;
+  for (const Event& event : diagnosis.events) {
+    events += fmt::format("<p>{}</p>\n", escaped(statement_of_event(observations, event)));
+  }
   if (rows.empty()) {
-    return "<p>No effect is proved.</p>\n";
+    return "<p>No effect is proved.</p>\n" + events;
   }
   return "<table><tr><th>finding</th><th>parameters, ± 95 %</th><th>evidence, BIC</th>"
          "<th>by chance</th><th>next best, BIC</th></tr>\n" +
-         rows + "</table>\n";
+         rows + "</table>\n" + events;
 }
 
 template <typename List, typename Text>
@@ -180,9 +184,6 @@ std::string quality_table(const Observations& observations, const Diagnosis& dia
       "<p>{} samples stood alone, far from their neighbours, and were "
       "left out.</p>\n",
       observations.outliers);
-  for (const Event& event : diagnosis.events) {
-    html += fmt::format("<p>{}</p>\n", escaped(statement_of_event(observations, event)));
-  }
   for (const ClockCheck& clock : diagnosis.clocks) {
     html += fmt::format("<p>{}</p>\n", statement_of_clock(clock));
   }

@@ -236,6 +236,9 @@ std::string headline(const Observations& observations, const Diagnosis& diagnosi
   if (diagnosis.verdict == Verdict::no_mismatch) {
     return "Model and recording agree within the noise.";
   }
+  if (diagnosis.verdict == Verdict::explained) {
+    return "Model and recording agree within the noise, but for what happened once.";
+  }
   const std::string form =
       diagnosis.proposal.empty()
           ? ""
