@@ -5,19 +5,10 @@
 #include <limits>
 #include <vector>
 
+#include "statistics/quantile.hpp"
+
 namespace flexcomp::check {
-namespace {
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) {
-    return 0;
-  }
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
-
-}  // namespace
+namespace {}  // namespace
 
 bool moves_smoothly(const recording::Samples& q) {
   constexpr Eigen::Index kMost = 1500;  // rows that are looked at
@@ -37,14 +28,15 @@ bool moves_smoothly(const recording::Samples& q) {
         second.push_back(std::abs(step - before));
       }
     }
-    const double quick = quantile(first, 0.95);
+    const double quick = statistics::quantile(first, 0.95);
     std::vector<double> change;  // of the step, over it, where the joint moves
     for (std::size_t i = 0; i < first.size(); ++i) {
       if (first[i] > kMoving * quick) {
         change.push_back(second[i] / first[i]);
       }
     }
-    if (change.size() > 20 && quick > kMoves * range[joint] && quantile(change, 0.5) < kSmooth) {
+    if (change.size() > 20 && quick > kMoves * range[joint] &&
+        statistics::quantile(change, 0.5) < kSmooth) {
       return true;
     }
   }
@@ -63,7 +55,7 @@ Eigen::RowVectorXd usual_top_speed(const Eigen::VectorXd& time, const recording:
         all.push_back(speed);
       }
     }
-    speeds[joint] = quantile(std::move(all), 0.95);
+    speeds[joint] = statistics::quantile(std::move(all), 0.95);
   }
   return speeds;
 }

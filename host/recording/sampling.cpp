@@ -36,8 +36,8 @@ std::vector<Run> runs_of(const Samples& angles) {
   return runs;
 }
 
-/// Do values before a run and after it, of the steps to each run from the one before, go on as
-/// those around do?
+/// Do the steps to a run and to the next one go on as those around do? `steps`: to each run from
+/// the one before.
 bool goes_on(const Eigen::VectorXd& steps, Eigen::Index run) {
   const Eigen::Index first = std::max<Eigen::Index>(1, run - kAround + 1);
   const Eigen::Index count = std::min(steps.size(), run + kAround + 1) - first;

@@ -61,7 +61,7 @@ class Job:
         )["model_hash"]
 
     def be_patient(self, seconds=0.5):
-        """For a client in Python, in a guest on a busy machine: half a second without a setpoint is no
+        """For a client in Python, in a guest on a busy machine: so long without a setpoint is no
         fault. How staleness is answered is the fault catalogue's business."""
         with open(self.config, "a") as config:
             config.write(f"setpoint-age-limit = {seconds}\nwrench-age-limit = {seconds}\nlate-ticks = 100\n")

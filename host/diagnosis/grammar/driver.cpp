@@ -88,8 +88,9 @@ double least_span(SignalKind kind) {
   }
 }
 
-/// Adds the product of two signals that are there, of the second one's kind and joint.
-void add_product(const std::string& first, const std::string& second,
+/// Adds the product of two signals that are there, of the second one's kind; `joint`: 0 where it
+/// belongs to none.
+void add_product(const std::string& first, const std::string& second, int joint,
                  std::vector<Driver>* drivers) {
   const Driver* one = find_driver(*drivers, first);
   const Driver* other = find_driver(*drivers, second);
@@ -99,6 +100,7 @@ void add_product(const std::string& first, const std::string& second,
   Driver product = *other;
   product.name = fmt::format("({}*{})", first, second);
   product.is_product = true;
+  product.joint = joint;
   product.course = one->course.cwiseProduct(other->course);
   product.low = product.course.minCoeff();
   product.high = product.course.maxCoeff();
@@ -109,20 +111,16 @@ void add_product(const std::string& first, const std::string& second,
 void add_powers(int joints, std::vector<Driver>* drivers) {
   for (int joint = 1; joint <= joints; ++joint) {
     for (const char* push : {"a", "tau"}) {
-      add_product(fmt::format("v{}", joint), fmt::format("{}{}", push, joint), drivers);
+      add_product(fmt::format("v{}", joint), fmt::format("{}{}", push, joint), joint, drivers);
     }
   }
 }
 
-/// The speeds of any two joints; the product belongs to none.
+/// The speeds of any two joints.
 void add_products_of_speeds(int joints, std::vector<Driver>* drivers) {
   for (int joint = 1; joint <= joints; ++joint) {
     for (int other = joint + 1; other <= joints; ++other) {
-      const std::size_t before = drivers->size();
-      add_product(fmt::format("v{}", joint), fmt::format("v{}", other), drivers);
-      for (std::size_t i = before; i < drivers->size(); ++i) {
-        (*drivers)[i].joint = 0;
-      }
+      add_product(fmt::format("v{}", joint), fmt::format("v{}", other), 0, drivers);
     }
   }
 }

@@ -1,14 +1,18 @@
-#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/search/search.hpp"
+#include "statistics/quantile.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
 
-/// The size (N·m) of a joint's measured torque that one in so many is beyond.
-double size_beyond(const Observations& observations, int joint, Eigen::Index one_in) {
+constexpr double kMostSizes = 0.99;  // of the measured ones: beyond them noise may be
+constexpr double kBeyondNoise = 3;   // deviations
+
+/// The size (N·m) that most of a joint's measured torques stay below.
+double largest_size(const Observations& observations, int joint) {
   std::vector<double> sizes;
   for (const Scene& scene : observations.scenes) {
     for (const double torque : scene.measured[simulation::joint_torque].col(joint - 1)) {
@@ -17,24 +21,15 @@ double size_beyond(const Observations& observations, int joint, Eigen::Index one
       }
     }
   }
-  if (sizes.empty()) {
-    return 0;
-  }
-  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size()) - 1 -
-                     static_cast<std::ptrdiff_t>(sizes.size()) / one_in;
-  std::nth_element(sizes.begin(), place, sizes.end());
-  return *place;
+  return statistics::quantile(std::move(sizes), kMostSizes);
 }
-
-constexpr Eigen::Index kOneIn = 100;  // beyond it noise may be
-constexpr double kBeyondNoise = 3;    // deviations
 
 /// Needs torques of a robot that moves.
 bool prepare_torque_limit(const Observations& observations, Hypothesis* hypothesis) {
   if (!sees_moving_torques(observations)) {
     return false;
   }
-  const double size = size_beyond(observations, hypothesis->joint, kOneIn);
+  const double size = largest_size(observations, hypothesis->joint);
   hypothesis->set_bounds({{0.5 * size, 1.5 * size, 0.01 * size}});
   return size > 0;
 }
@@ -44,7 +39,7 @@ bool prepare_torque_limit(const Observations& observations, Hypothesis* hypothes
 std::vector<Values> seek_torque_limit(const Observations& observations,
                                       const Eigen::VectorXd& unexplained,
                                       const Hypothesis& hypothesis) {
-  const double size = size_beyond(observations, hypothesis.joint, kOneIn);
+  const double size = largest_size(observations, hypothesis.joint);
   for (Eigen::Index i = 0; i < observations.train; ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
     if (at.channel != simulation::joint_torque || at.component != hypothesis.joint - 1) {

@@ -49,7 +49,7 @@ Evidence weigh_last(const Inquiry& inquiry, const Fit& before, const Fit& after)
 Finding judge(const Inquiry& inquiry, const Fit& whole, std::size_t index);
 
 /// Are values that act in proportion known to differ from nothing, given their covariance, as the
-/// interval that is told with them says? Values of which none does so are known by their starts.
+/// interval that is told with them says? A hypothesis without such values counts as known.
 bool are_told_from_nothing(const Chosen& chosen, const Eigen::MatrixXd& covariance);
 
 /// Is the evidence enough to keep a hypothesis while findings are sought?
