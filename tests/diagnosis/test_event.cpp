@@ -1,11 +1,12 @@
 // What happened once: found with its time and place, left out, and not where it comes again.
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/event.hpp"
 #include "diagnosis/output/sentences.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp::diagnosis;
+using flexcomp::test::diagnosed;
 using flexcomp::test::DrivenRobot;
 namespace effects = flexcomp::effects;
 
@@ -36,17 +37,9 @@ Observations pushed(double every, bool rubs) {
   return robot.observed(truth);
 }
 
-Diagnosis diagnosed(Observations* observations) {
-  Settings settings;
-  settings.law_seconds = 0;
-  settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](const std::string&) {};
-  return diagnose(observations, all_hypotheses(*observations), settings);
-}
-
 void a_bump_is_told_with_its_time_and_joint() {
   Observations observations = pushed(100, false);
-  const Diagnosis found = diagnosed(&observations);
+  const Diagnosis found = diagnosed(&observations, 0);
   TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
   TEST_ASSERT_TRUE(found.choice.findings.empty());
   TEST_ASSERT_EQUAL_UINT64(1, found.events.size());
@@ -67,7 +60,7 @@ void a_bump_is_told_with_its_time_and_joint() {
 
 void an_effect_beside_a_bump_is_found() {
   Observations observations = pushed(100, true);
-  const Diagnosis found = diagnosed(&observations);
+  const Diagnosis found = diagnosed(&observations, 0);
   TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
   TEST_ASSERT_EQUAL_UINT64(1, found.events.size());
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
@@ -78,7 +71,7 @@ void an_effect_beside_a_bump_is_found() {
 
 void what_comes_again_and_again_is_no_event() {
   Observations observations = pushed(3, false);
-  TEST_ASSERT_TRUE(diagnosed(&observations).events.empty());
+  TEST_ASSERT_TRUE(diagnosed(&observations, 0).events.empty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/output/json.hpp"
 #include "effects/learned.hpp"
 #include "model/robot.hpp"
@@ -103,10 +104,8 @@ void the_vibration_of_a_flexible_joint_is_found_at_its_joint_with_its_frequency(
   simulation::Machine machine = effects::machine_of(soft.robot, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes), 0);
   const auto hypotheses = diagnosis::all_hypotheses(observations);
-  diagnosis::Settings settings;
-  settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](const std::string&) {};
-  const diagnosis::Diagnosis result = diagnosis::diagnose(&observations, hypotheses, settings);
+  const diagnosis::Diagnosis result =
+      diagnosis::diagnose(&observations, hypotheses, test::quiet_settings());
   const nlohmann::ordered_json json = diagnosis::to_json(observations, result);
   TEST_ASSERT_FALSE(json.at("findings").empty());
   const auto& first = json.at("findings").at(0);

@@ -3,7 +3,7 @@
 #include <random>
 #include <utility>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/driven_robot.hpp"
 #include "unity_main.hpp"
 
@@ -27,11 +27,8 @@ simulation::Term adding(Torques torques) {
 }
 
 Diagnosis diagnosed(Observations* observations) {
-  diagnosis::Settings settings;
-  settings.law_seconds = 600;
-  settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](const std::string&) {};
-  return diagnose(observations, all_hypotheses(*observations), settings);
+  constexpr double kLawSeconds = 600;  // no search ends for want of time
+  return flexcomp::test::diagnosed(observations, kLawSeconds);
 }
 
 /// What is found of a robot whose drives have these torques besides.

@@ -3,6 +3,7 @@
 #include <random>
 #include <set>
 
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/output/json.hpp"
 #include "diagnosis/plausible.hpp"
 #include "diagnosis/swinging_robot.hpp"
@@ -87,14 +88,6 @@ recording::Recording random_recording(const model::Robot& robot, unsigned seed) 
   return recording;
 }
 
-Settings quiet() {
-  Settings settings;
-  settings.law_seconds = 0;
-  settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](const std::string&) {};
-  return settings;
-}
-
 /// Sum of the joints' friction is no drive, masses and springs are none below nothing.
 void assert_can_be(const model::Robot& robot) {
   TEST_ASSERT_TRUE(validate(robot.elastic) == Result::ok);
@@ -117,7 +110,7 @@ void what_is_learnt_of_random_recordings_is_a_machine_that_can_be() {
         simulation::prepare(recording, recording.size(), &preparation)};
     Observations observations(effects::machine_of(robot, scenes), scenes, 0);
     const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
-    const Diagnosis found = diagnose(&observations, hypotheses, quiet());
+    const Diagnosis found = diagnose(&observations, hypotheses, flexcomp::test::quiet_settings(0));
     TEST_ASSERT_FALSE(to_json(observations, found).dump().empty());
     const ScratchFolder folder;
     const std::filesystem::path file = folder / "updated_model.yaml";
@@ -154,7 +147,7 @@ void a_tool_that_is_120_mm_longer_is_a_tool_and_no_zero_of_a_sensor() {
   const SwingingRobot swinging(1);
   Observations observations = with_longer_tool(swinging, 0.12);
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
-  const Diagnosis found = diagnose(&observations, hypotheses, quiet());
+  const Diagnosis found = diagnose(&observations, hypotheses, flexcomp::test::quiet_settings(0));
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.fit.chosen.size());
   const Chosen& tool = found.choice.fit.chosen.front();
   TEST_ASSERT_EQUAL_STRING("tcp_offset", tool.hypothesis.effect().c_str());
@@ -167,7 +160,7 @@ void an_error_beyond_what_any_tool_can_be_is_no_finding() {
   const SwingingRobot swinging(1);
   Observations observations = with_longer_tool(swinging, 2);
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
-  const Diagnosis found = diagnose(&observations, hypotheses, quiet());
+  const Diagnosis found = diagnose(&observations, hypotheses, flexcomp::test::quiet_settings(0));
   for (std::size_t i = 0; i < found.updated().chosen.size(); ++i) {
     TEST_ASSERT_EQUAL_STRING("", why_impossible(observations, found.updated(), i).c_str());
     TEST_ASSERT_TRUE(found.updated().chosen[i].hypothesis.effect() != "tcp_offset");

@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/refit.hpp"
 #include "diagnosis/retune.hpp"
@@ -67,14 +67,6 @@ Eigen::VectorXd varying_friction(const SwingingRobot& swinging) {
 
 double held_out(const Observations& observations, const Eigen::VectorXd& values) {
   return observations.rms(values, simulation::joint_torque, true);
-}
-
-diagnosis::Settings without_laws() {
-  diagnosis::Settings settings;
-  settings.law_seconds = 0;
-  settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](const std::string&) {};
-  return settings;
 }
 
 void friction_that_varies_is_stood_in_for_by_its_mean() {
@@ -157,7 +149,8 @@ void friction_everywhere_and_a_coupled_drive_are_found_together() {
   const SwingingRobot swinging(5);
   Observations observations = with_torques(swinging, coupled_friction(swinging));
   const std::vector<Hypothesis> hypotheses = all_hypotheses(observations);
-  const diagnosis::Diagnosis found = diagnose(&observations, hypotheses, without_laws());
+  const diagnosis::Diagnosis found =
+      diagnose(&observations, hypotheses, flexcomp::test::quiet_settings(0));
   std::set<int> with_friction;
   bool is_coupled = false;
   for (const diagnosis::Finding& finding : found.choice.findings) {
@@ -199,7 +192,7 @@ void a_load_keeps_its_name_among_many_numbers() {
        }});
   Observations observations = driven.observed(truth);
   const diagnosis::Diagnosis found =
-      diagnose(&observations, all_hypotheses(observations), without_laws());
+      diagnose(&observations, all_hypotheses(observations), flexcomp::test::quiet_settings(0));
   TEST_ASSERT_FALSE(found.choice.findings.empty());
   const Chosen& first = found.choice.findings.front().chosen;
   TEST_ASSERT_EQUAL_STRING("payload", first.hypothesis.effect().c_str());

@@ -1,13 +1,13 @@
 // A torque that is shown up to a limit: as clipped, as found, and not where none was reached.
-#include "diagnosis/diagnosis.hpp"
+#include <algorithm>
+
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/driven_robot.hpp"
 #include "unity_main.hpp"
 
-using flexcomp::diagnosis::Diagnosis;
 using flexcomp::diagnosis::Finding;
 using flexcomp::diagnosis::Observations;
 using flexcomp::test::DrivenRobot;
-namespace diagnosis = flexcomp::diagnosis;
 namespace effects = flexcomp::effects;
 namespace simulation = flexcomp::simulation;
 
@@ -30,7 +30,7 @@ simulation::Machine clipped(const DrivenRobot& robot, double share, simulation::
       {simulation::Term::instrument, [=](const simulation::Scene&, const simulation::Simulation&,
                                          simulation::Prediction* prediction) {
          for (double& torque : prediction->channel[simulation::joint_torque].col(kJoint - 1)) {
-           torque = torque > limit ? limit : torque < -limit ? -limit : torque;
+           torque = std::clamp(torque, -limit, limit);
          }
        }});
   return truth;
@@ -42,11 +42,7 @@ simulation::Machine clipped(const DrivenRobot& robot, double share) {
 
 std::vector<Finding> found_of(const DrivenRobot& robot, const simulation::Machine& truth) {
   Observations observations = robot.observed(truth);
-  diagnosis::Settings settings;
-  settings.law_seconds = 0;
-  settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](const std::string&) {};
-  return diagnose(&observations, all_hypotheses(observations), settings).choice.findings;
+  return flexcomp::test::diagnosed(&observations, 0).choice.findings;
 }
 
 void a_torque_is_shown_up_to_the_limit_and_others_as_they_are() {

@@ -1,5 +1,6 @@
 // A new effect is its law, its search (both in tests/effects/extra) and a line in the catalogue: it
 // is found, named and learnt then, nothing else having been touched.
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/output/json.hpp"
 #include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
@@ -16,10 +17,8 @@ void a_new_effect_is_found_named_and_learnt() {
   error.col(2) = kSlope * swinging.scene.q.col(0);
   diagnosis::Observations observations = swinging.observed(error);
   const std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
-  diagnosis::Settings settings;
-  settings.simulating = [](std::size_t, std::size_t) {};
-  settings.choosing = [](const std::string&) {};
-  const diagnosis::Diagnosis found = diagnosis::diagnose(&observations, hypotheses, settings);
+  const diagnosis::Diagnosis found =
+      diagnosis::diagnose(&observations, hypotheses, test::quiet_settings());
   TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
   const nlohmann::ordered_json first = to_json(observations, found).at("findings").at(0);
   TEST_ASSERT_EQUAL_STRING("sloping_floor", first.at("effect").get<std::string>().c_str());
