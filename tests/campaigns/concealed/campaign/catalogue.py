@@ -311,7 +311,7 @@ def _fluid(rng, joint, scale, size):
 
 def _saturation(rng, joint, scale, size):
     share = np.clip(1 - 0.25 * size, 0.3, 0.9)
-    return FOREIGN["torque_saturation"](joint, limit=share * scale.torque[joint - 1])
+    return FOREIGN["torque_limit"](joint, limit=share * scale.torque[joint - 1])
 
 
 def _load_friction(rng, joint, scale, size):
@@ -325,6 +325,6 @@ ODD = {
     "floor_vibration": Entry(("air", "circle"), _shaking, local=True),
     "tracker_jump": Entry(("circle", "air", "static"), _jump),
     "cutting_fluid": Entry(("circle",), _fluid, local=True),
-    "torque_saturation": Entry(("torque",), _saturation, (1, 2, 3), local=True),
+    "torque_limit": Entry(("torque",), _saturation, (1, 2, 3), local=True),
     "load_friction": Entry(("torque",), _load_friction, _reversing, gravity=True),
 }

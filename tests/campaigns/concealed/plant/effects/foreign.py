@@ -120,10 +120,10 @@ class CuttingFluid(Effect):
         simulation.data.xfrc_applied[self._body, :3] = force
 
 
-class TorqueSaturation(Effect):
+class TorqueLimit(Effect):
     """The current sensor of a joint reads `limit` (N·m) at most, either way."""
 
-    name = "torque_saturation"
+    name = "torque_limit"
 
     def sense(self, signals, description):
         column = signals.tau[:, self.joint - 1]
