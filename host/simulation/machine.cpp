@@ -265,6 +265,9 @@ Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wa
       at.springs.push_back(springs);
     }
   }
+  if (machine.shows_motor_torques) {
+    at.to_shown = machine.robot.transmission.inverse().transpose();
+  }
   if (moves &&
       (wanted.levers || wanted.channel[joint_torque] || wanted.channel[joint_deflection])) {
     drive(machine, scene, wanted, &at);
@@ -282,6 +285,10 @@ Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
   Prediction prediction = simulation.prediction;
   for (const Term::Stage stage :
        {Term::wrench, Term::load, Term::output, Term::instrument, Term::clock}) {
+    Eigen::MatrixXd& torque = prediction.channel[joint_torque];
+    if (stage == Term::instrument && simulation.to_shown.rows() > 0 && torque.cols() > 0) {
+      torque = (torque * simulation.to_shown.transpose()).eval();
+    }
     for (const Term& term : terms) {
       if (term.stage == stage) {
         term.add(scene, simulation, &prediction);

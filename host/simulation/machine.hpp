@@ -32,6 +32,8 @@ struct Simulation {
   std::vector<Compliance<double>> compliance;  ///< at the TCP, bent
   std::vector<Springs> springs;                ///< what they give at rest, where that was sought
   JointValues joint_compliance;                ///< rad/(N·m)
+  model::JointMatrix to_shown;                 ///< torques of the joints to those that are shown;
+                                               ///< no rows where they are the joints'
   Prediction prediction;                       ///< of everything but the terms
 };
 
@@ -60,6 +62,8 @@ struct Machine {
   /// Torques (N·m) in parallel to the drives, by the joint angles: gravity compensators.
   std::vector<std::function<JointValues(const JointValues& q)>> balancers;
   std::vector<Term> terms;
+  /// The torques shown are the motors', (transmission⁻¹)ᵀ times the joints'.
+  bool shows_motor_torques = false;
   bool needs_levers = false;  ///< a term follows where the TCP is, or the loads at rest
 };
 
@@ -98,7 +102,8 @@ struct Wanted {
 /// Jᵀ·wrench. Joint deflection: wind-up under the torque at the link, inertia included.
 Simulation simulate(const Machine& machine, const Scene& scene, const Wanted& wanted = {});
 
-/// The simulation's prediction with terms added in the order of their stages.
+/// The simulation's prediction with terms added in the order of their stages. What instruments show
+/// of torques is what is shown of them, the joints' or the motors'.
 Prediction with_terms(const std::vector<Term>& terms, const Scene& scene,
                       const Simulation& simulation);
 
