@@ -25,6 +25,8 @@
 #include "diagnosis/output/sentences.hpp"
 #include "diagnosis/search/tried_law.hpp"
 #include "effects/law.hpp"
+#include "effects/learned.hpp"
+#include "effects/temperature.hpp"
 #include "error.hpp"
 #include "files/one_line.hpp"
 #include "files/text_file.hpp"
@@ -275,11 +277,23 @@ diagnosis::Diagnosis diagnosed(const std::vector<diagnosis::Hypothesis>& hypothe
                   error.what(), units));
 }
 
+/// The robot with what was found, and with the temperature that it was reckoned from, if any was.
+model::Robot updated_robot(const model::Robot& robot, const model::Robot& known,
+                           const std::vector<effects::Placed>& found) {
+  model::Robot updated = effects::with_learned(robot, found);
+  if (std::any_of(found.begin(), found.end(),
+                  [](const effects::Placed& each) { return each.law->traits.needs_temperature; })) {
+    updated.reference_temperature = known.reference_temperature;
+  }
+  return updated;
+}
+
 /// Diagnoses recordings that were checked, and writes what was found.
 void diagnose(const DiagnoseOptions& options, diagnosis::Settings settings,
               const model::Robot& robot, std::vector<simulation::Scene> scenes,
               const diagnosis::Origin& origin) {
-  simulation::Machine machine = effects::machine_of(robot, scenes);
+  const model::Robot known = effects::with_reference_temperature(robot, scenes);
+  simulation::Machine machine = effects::machine_of(known, scenes);
   diagnosis::Observations observations(std::move(machine), std::move(scenes),
                                        options.holdouts.size());
   std::vector<diagnosis::Hypothesis> hypotheses = diagnosis::all_hypotheses(observations);
@@ -297,7 +311,7 @@ void diagnose(const DiagnoseOptions& options, diagnosis::Settings settings,
   const std::filesystem::path folder(options.out);
   const std::filesystem::path updated = folder / "updated_model.yaml";
   const std::string yaml =
-      model::robot_text(updated, effects::with_learned(robot, result.updated().placed()));
+      model::robot_text(updated, updated_robot(robot, known, result.updated().placed()));
   output_folder(options.out);
   files::write_texts(
       {{folder / "diagnosis.json", json}, {folder / "report.html", html}, {updated, yaml}});

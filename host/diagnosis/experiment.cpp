@@ -8,6 +8,7 @@
 
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/parameters.hpp"
+#include "diagnosis/select/standards.hpp"
 #include "error.hpp"
 
 namespace flexcomp::diagnosis {
@@ -174,7 +175,8 @@ std::string suggest_experiment(const Observations& observations, const Diagnosis
   }
   std::vector<Chosen> rivals = found.without.chosen;
   rivals.push_back(found.alternatives.front().chosen);
-  const Machine rival = machine_with(observations, rivals);
+  // What else is fitted was fitted without it, and would tell the two apart everywhere.
+  const Machine rival = fit(observations, rivals, kSteps).machine;
   const std::array<double, 3> noise = noises(observations);
   double most = 1;
   std::string text;

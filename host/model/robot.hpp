@@ -54,6 +54,8 @@ struct Robot {
   /// Inertia (kg·m²) of each moved link about its centre of mass, in the link frame; bodies fixed
   /// to the link are part of it.
   PerJoint<Matrix3<double>> link_inertia;
+  /// °C at which the numbers hold; without it, that at which a recording begins.
+  std::optional<double> reference_temperature;
   std::vector<LearnedEffect> effects;  ///< for simulations; the core does not know them
 
   int joints() const { return static_cast<int>(elastic.joints.size()); }

@@ -77,6 +77,15 @@ void read_payload(const YamlMap& yaml, Chain* elastic) {
   }
 }
 
+double read_temperature(const YamlMap& yaml, const std::string& key) {
+  constexpr double kAbsoluteZero = -273.15;  // °C
+  const double temperature = yaml.number(key);
+  if (temperature < kAbsoluteZero) {
+    yaml.refuse(key, fmt::format("expected °C; nothing is colder than {:g}", kAbsoluteZero));
+  }
+  return temperature;
+}
+
 JointMatrix read_transmission(const YamlMap& yaml, Eigen::Index joints) {
   JointMatrix transmission = yaml.square("transmission", joints);
   if (!is_transmission(transmission)) {
@@ -183,7 +192,7 @@ Robot load_robot(const std::filesystem::path& file, const std::optional<Tool>& t
   }
   yaml.allow_only({"schema", "name", "urdf", "base_link", "tool_link", "gravity", "joints",
                    "base_compliance", "tool_compliance", "payload", "tool", "transmission",
-                   "effects"});
+                   "reference_temperature", "effects"});
   Robot robot;
   robot.yaml = file;
   robot.name = yaml.text("name");
@@ -205,6 +214,9 @@ Robot load_robot(const std::filesystem::path& file, const std::optional<Tool>& t
   }
   if (yaml.has("transmission")) {
     robot.transmission = read_transmission(yaml, robot.elastic.size());
+  }
+  if (yaml.has("reference_temperature")) {
+    robot.reference_temperature = read_temperature(yaml, "reference_temperature");
   }
   if (yaml.has("effects")) {
     for (const YamlMap& effect : yaml.maps("effects")) {

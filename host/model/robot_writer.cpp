@@ -171,6 +171,10 @@ std::string document(const Robot& robot, const std::string& urdf) {
     write_tool(&out, *robot.tool);
   }
   write_transmission(&out, robot.transmission);
+  if (robot.reference_temperature) {
+    out << YAML::Key << "reference_temperature" << YAML::Value
+        << number(*robot.reference_temperature);
+  }
   write_effects(&out, robot.effects);
   out << YAML::EndMap << YAML::Newline;
   return out.c_str();

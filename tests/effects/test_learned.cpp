@@ -26,7 +26,7 @@ double size_of(const std::string& unit) {
       {"N", 20},      {"N·m", 30},      {"kg", 5},           {"kg·m", 1},
       {"1", 0.05},    {"m/N", 1e-8},    {"rad/(N·m)", 1e-7}, {"rad/(N·m)^3", 1e-15},
       {"Hz", 8},      {"N·m/rad", 1e6}, {"kg·m^2", 10},      {"N·m·s/rad", 20},
-      {"rad/s", 0.3}, {"m/K", 1e-5},    {"N/m", 30}};
+      {"rad/s", 0.3}, {"m/K", 1e-5},    {"N/m", 30},         {"1/K", 1e-5}};
   return sizes.at(unit);
 }
 
@@ -159,9 +159,9 @@ void a_drift_by_temperature_needs_temperatures() {
   }
 }
 
-/// By how much a law moves the TCP (n×3, m).
-Eigen::MatrixXd moved_by(const char* effect, const char* form, const effects::Values& values,
-                         int joint) {
+/// By how much an alteration of a machine moves the TCP (n×3, m).
+template <typename Alteration>
+Eigen::MatrixXd moved_by(const Alteration& alter) {
   const MovingRobot moving;
   const simulation::Scene scene = moving.scene();
   simulation::Machine machine = effects::machine_of(moving.robot, {scene});
@@ -169,8 +169,15 @@ Eigen::MatrixXd moved_by(const char* effect, const char* form, const effects::Va
     return simulation::predict(machine, {scene}).front().channel[simulation::tcp_position];
   };
   const Eigen::MatrixXd before = place();
-  effects::find_law(effect, form)->apply(values, joint, &machine);
+  alter(&machine);
   return place() - before;
+}
+
+Eigen::MatrixXd moved_by(const char* effect, const char* form, const effects::Values& values,
+                         int joint) {
+  return moved_by([&](simulation::Machine* machine) {
+    effects::find_law(effect, form)->apply(values, joint, machine);
+  });
 }
 
 /// Of the temperature since the first row, as it rises evenly.
@@ -183,6 +190,44 @@ void a_tool_that_grows_moves_the_tcp_along_itself() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0, (length - 1e-5 * rise().cwiseAbs()).cwiseAbs().maxCoeff());
   TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0,
                             along.cwiseProduct(across).rowwise().sum().cwiseAbs().maxCoeff());
+}
+
+/// The lengths beyond a link, before they are weighed anew: the springs notice a thousandth.
+void assert_grows_like(const Eigen::MatrixXd& longer, const Eigen::MatrixXd& found) {
+  const Eigen::MatrixXd expected = rise().asDiagonal() * longer;
+  TEST_ASSERT_TRUE((found - expected).norm() < 0.01 * expected.norm());
+}
+
+void a_link_that_grows_is_an_offset_of_the_next_joint_that_grows() {
+  for (int joint = 1; joint <= 5; ++joint) {
+    const Eigen::Vector3d shift(1e-5, -2e-5, 3e-5);
+    const auto lengthen = [&](simulation::Machine* machine) {
+      machine->robot.elastic.joints[static_cast<std::size_t>(joint)].origin.position += shift;
+    };
+    assert_grows_like(moved_by(lengthen),
+                      moved_by("thermal_drift", "link", {shift[0], shift[1], shift[2]}, joint));
+  }
+}
+
+void an_arm_that_grows_alike_has_longer_links() {
+  const auto lengthen = [](simulation::Machine* machine) {
+    for (auto& joint : machine->robot.elastic.joints) {
+      joint.origin.position *= 1 + 1e-5;
+    }
+  };
+  assert_grows_like(moved_by(lengthen), moved_by("thermal_drift", "arm", {1e-5}, 0));
+}
+
+void a_model_that_holds_at_a_temperature_drifts_from_there() {
+  const auto drift = [](std::optional<double> reference) {
+    return moved_by([&](simulation::Machine* machine) {
+      machine->robot.reference_temperature = reference;
+      effects::find_law("thermal_drift", "temperature")->apply({1e-5, 0, 0}, 0, machine);
+    });
+  };
+  const Eigen::VectorXd difference = (drift(15.0) - drift(std::nullopt)).col(0);
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5e-5, difference.minCoeff());
+  TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5e-5, difference.maxCoeff());
 }
 
 void a_zero_that_drifts_is_an_offset_that_grows() {
@@ -224,6 +269,9 @@ int main() {
   RUN_TEST(every_mistake_in_the_list_is_refused_without_a_recording);
   RUN_TEST(a_drift_by_temperature_needs_temperatures);
   RUN_TEST(a_tool_that_grows_moves_the_tcp_along_itself);
+  RUN_TEST(a_link_that_grows_is_an_offset_of_the_next_joint_that_grows);
+  RUN_TEST(an_arm_that_grows_alike_has_longer_links);
+  RUN_TEST(a_model_that_holds_at_a_temperature_drifts_from_there);
   RUN_TEST(a_zero_that_drifts_is_an_offset_that_grows);
   RUN_TEST(play_by_the_key_follows_the_load_where_there_is_any_and_else_the_motion);
   return UNITY_END();

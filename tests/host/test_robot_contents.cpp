@@ -46,6 +46,7 @@ Robot full_robot(const ScratchFolder& folder) {
   robot.elastic.payload_mass = 123.456;
   robot.elastic.payload_center << 0.1, 0.2, 1.0 / 3;
   robot.transmission(5, 4) = 1.0 / 3;
+  robot.reference_temperature = 20 + 1.0 / 3;
   return robot;
 }
 
@@ -59,6 +60,7 @@ void assert_same_yaml(const Robot& expected, const Robot& actual) {
   TEST_ASSERT_TRUE(expected.elastic.payload_mass == actual.elastic.payload_mass);
   TEST_ASSERT_TRUE(expected.elastic.payload_center == actual.elastic.payload_center);
   TEST_ASSERT_TRUE(expected.transmission == actual.transmission);
+  TEST_ASSERT_TRUE(expected.reference_temperature == actual.reference_temperature);
   for (std::size_t i = 0; i < 6; ++i) {
     const flexcomp::model::ChainJoint& spring = expected.elastic.joints[i];
     const flexcomp::model::ChainJoint& read = actual.elastic.joints[i];

@@ -73,6 +73,8 @@ void a_yaml_file_that_is_wrong_is_refused_with_its_line_and_key() {
         "0, 0],"
         " [0, 0, 0, 0, 1, 1], [0, 0, 0, 0, 1, 1]]\nname:"},
        "robot.yaml:2: 'transmission': the motors must tell the joints' angles"},
+      {{"name:", "reference_temperature: -300\nname:"},
+       "robot.yaml:2: 'reference_temperature': expected °C; nothing is colder than -273.15"},
       {{"gravity: [0, 0, -9.81]\n", ""}, "robot.yaml:1: 'gravity': missing"},
       {{"-9.81]", "-9.81, 0]"},
        "robot.yaml:6: 'gravity': expected a list of 3 numbers, found a list of 4"},

@@ -6,17 +6,21 @@ namespace flexcomp::diagnosis {
 namespace {
 
 /// Needs the TCP, or for a joint's zero whatever shows its angle. Time stands in for the
-/// temperature where none was recorded.
+/// temperature where none was recorded. The growth of each link by itself takes more than the few
+/// poses of a load test: with three numbers a link nothing would be left to tell the noise by.
 bool prepare_thermal_drift(const Observations& observations, Hypothesis* hypothesis) {
   const Scene& first = observations.scenes.front();
   const bool has_temperature = first.temperature.size() > 0;
-  const bool is_of_zero = hypothesis->joint > 0;
+  const bool is_of_zero = hypothesis->parameters.front().name == "zero";
+  const bool is_of_link = hypothesis->joint > 0 && !is_of_zero;
+  const bool is_share = hypothesis->parameters.front().name == "growth";
   const bool shows =
       is_of_zero ? sees_angles(observations) : observations.has(simulation::tcp_position);
-  if (!shows || hypothesis->law->traits.needs_temperature != has_temperature) {
+  if (!shows || (is_of_link && observations.is_static) ||
+      hypothesis->law->traits.needs_temperature != has_temperature) {
     return false;
   }
-  const double step = (has_temperature ? 1e-5 : 1e-4) * (is_of_zero ? 0.1 : 1);
+  const double step = (has_temperature ? 1e-5 : 1e-4) * (is_of_zero || is_share ? 0.1 : 1);
   std::vector<Bounds> bounds(hypothesis->linear, {-0.1, 0.1, step});
   if (!has_temperature) {
     constexpr double kQuickest = 10;  // s, in which anything of an arm warms

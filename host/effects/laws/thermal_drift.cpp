@@ -1,48 +1,37 @@
-#include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "effects/laws/laws.hpp"
+#include "effects/temperature.hpp"
 
 namespace flexcomp::effects {
 namespace {
 
 constexpr double kAluminium = 23e-6;  // 1/K, growth of the lightest material of arms
 
-/// Temperature (°C) at the beginning: where a straight line through the first rows begins, which is
-/// less noisy than one value, and no warmer than the beginning as their mean would be.
-double first_temperature(const Scene& scene) {
-  constexpr Eigen::Index kOneIn = 33;  // rows
-  constexpr Eigen::Index kLeast = 3;   // rows that make a line
-  const Eigen::Index first = std::max<Eigen::Index>(scene.temperature.size() / kOneIn, 1);
-  const double mean = scene.temperature.head(first).mean();
-  const Eigen::VectorXd time = scene.time.head(first).array() - scene.time.head(first).mean();
-  const double square = time.squaredNorm();
-  if (first < kLeast || !(square > 0)) {
-    return mean;
-  }
-  return mean + time.dot(scene.temperature.head(first)) / square * time[0];
-}
-
-/// Rise of the temperature (K) since the beginning.
-Eigen::VectorXd warming(const Scene& scene) {
-  return scene.temperature.array() - first_temperature(scene);
-}
-
 Eigen::VectorXd approach(const Eigen::VectorXd& time, double constant) {
   return 1 - (-(time.array() - time[0]) / constant).exp();
 }
 
-/// How far the structure has grown at every row of a scene.
-using Growth = Eigen::VectorXd (*)(const Scene&, const Values&);
+/// °C at which a model's numbers hold, if it says so.
+using Reference = std::optional<double>;
 
-Eigen::VectorXd by_temperature(const Scene& scene, const Values& /*values*/) {
-  return warming(scene);
+/// How far the structure has grown at every row of a scene.
+using Growth = Eigen::VectorXd (*)(const Scene&, const Values&, Reference);
+
+/// Rise of the temperature (K) since the beginning, or beyond the reference. A recording that is
+/// yet to be made has none.
+Eigen::VectorXd by_temperature(const Scene& scene, const Values& /*values*/, Reference reference) {
+  if (scene.temperature.size() == 0) {
+    return Eigen::VectorXd::Zero(scene.rows());
+  }
+  return scene.temperature.array() - (reference ? *reference : first_temperature(scene));
 }
 
-Eigen::VectorXd by_time(const Scene& scene, const Values& values) {
+Eigen::VectorXd by_time(const Scene& scene, const Values& values, Reference /*reference*/) {
   return approach(scene.time, values.back());
 }
 
@@ -58,14 +47,13 @@ Law drift_law(const char* form, std::size_t amplitudes, Growth growth, Drift dri
   law.traits.needs_temperature = growth == by_temperature;
   law.traits.is_gradual = growth == by_time;
   law.statement = says("the structure grows as it warms");
-  add_term(
-      [growth, drift](const Values& values, int joint) {
-        return Term{Term::output,
-                    [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
-                      drift(growth(scene, values), values, joint, at, prediction);
-                    }};
-      },
-      &law);
+  law.apply = [growth, drift](const Values& values, int joint, Machine* machine) {
+    const Reference reference = machine->robot.reference_temperature;
+    machine->terms.push_back(
+        {Term::output, [=](const Scene& scene, const Simulation& at, Prediction* prediction) {
+           drift(growth(scene, values, reference), values, joint, at, prediction);
+         }});
+  };
   return law;
 }
 
@@ -103,6 +91,28 @@ void drift_along_tool(const Eigen::VectorXd& grown, const Values& values, int /*
   }
 }
 
+/// Along directions of the frame of the link that a joint moves.
+void drift_along_link(const Eigen::VectorXd& grown, const Values& values, int joint,
+                      const Simulation& at, Prediction* prediction) {
+  Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
+  for (Eigen::Index row = 0; row < position.rows(); ++row) {
+    const auto& links = at.bent[static_cast<std::size_t>(row)].links;
+    const Vector3<double> direction =
+        links[index_of(joint)].rotation * Vector3<double>(values[0], values[1], values[2]);
+    position.row(row) += grown[row] * direction.transpose();
+  }
+}
+
+/// By a share of the way from the base to the last link: all that is between has grown alike.
+void drift_of_arm(const Eigen::VectorXd& grown, const Values& values, int /*joint*/,
+                  const Simulation& at, Prediction* prediction) {
+  Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
+  for (Eigen::Index row = 0; row < position.rows(); ++row) {
+    const auto& links = at.bent[static_cast<std::size_t>(row)].links;
+    position.row(row) += values[0] * grown[row] * links.back().position.transpose();
+  }
+}
+
 void drift_of_zero(const Eigen::VectorXd& grown, const Values& values, int joint,
                    const Simulation& at, Prediction* prediction) {
   add_joint_angle(at, joint, values[0] * grown, prediction);
@@ -120,6 +130,21 @@ Law tool_law(const char* form, Growth growth) {
   return law;
 }
 
+Law link_law(const char* form, Growth growth) {
+  Law law = drift_law(form, 3, growth, drift_along_link);
+  law.joints = all_but_the_last;  // the last one's grows like a tool
+  law.parameters = constant(parameters_of({"x", "y", "z"}, "m", growth == by_time));
+  law.statement = says("the link that joint {} moves grows as it warms");
+  return law;
+}
+
+Law arm_law(const char* form, Growth growth) {
+  Law law = drift_law(form, 1, growth, drift_of_arm);
+  law.parameters = constant(parameters_of({"growth"}, "1", growth == by_time));
+  law.statement = says("all links grow alike as they warm");
+  return law;
+}
+
 Law zero_law(const char* form, Growth growth) {
   Law law = drift_law(form, 1, growth, drift_of_zero);
   law.joints = every_joint;
@@ -130,10 +155,11 @@ Law zero_law(const char* form, Growth growth) {
 
 }  // namespace
 
-// The structure grows as it warms, in proportion to the rise of temperature, or towards a limit
-// with time where no temperature was recorded (ISO 230-3). The TCP moves in a fixed direction of
-// the base frame, as where the column grows, or of the tool frame, as where the spindle does; or a
-// joint's zero creeps.
+// The structure grows as it warms, in proportion to the rise of temperature beyond that at which
+// the model's numbers hold (without it, beyond that at which a recording begins), or towards a
+// limit with time where no temperature was recorded (ISO 230-3). The TCP moves in a fixed direction
+// of the base frame, as where the column grows, of a link, or of the tool frame, as where the
+// spindle does; all links grow by the same share; or a joint's zero creeps.
 Forms laws::thermal_drift() {
   constexpr const char* kColumn =
       "aluminium grows by 23e-6 a kelvin; up and forward, and five times as warm as the sensor";
@@ -141,11 +167,17 @@ Forms laws::thermal_drift() {
       "aluminium grows by 23e-6 a kelvin; up and forward, by 50 K (ISO 230-3)";
   constexpr const char* kTool =
       "aluminium grows by 23e-6 a kelvin; no tool is longer than half of the arm's reach";
+  constexpr const char* kLink =
+      "aluminium grows by 23e-6 a kelvin; no link is longer than the arm's reach";
+  constexpr const char* kArm =
+      "aluminium grows by 23e-6 a kelvin, five times as warm as the sensor";
   constexpr const char* kZero =
       "what holds an encoder grows by no more than 23e-6 of its size a kelvin, one side alone";
   return {
       {base_law("temperature", by_temperature), base_law("time", by_time),
        tool_law("tool", by_temperature), tool_law("tool_time", by_time),
+       link_law("link", by_temperature), link_law("link_time", by_time),
+       arm_law("arm", by_temperature), arm_law("arm_time", by_time),
        zero_law("zero", by_temperature), zero_law("zero_time", by_time)},
       {},
       {{"temperature", " x y z ",
@@ -156,6 +188,12 @@ Forms laws::thermal_drift() {
         [](const Subject& of) { return within(5 * kAluminium * of.size.reach); }, kTool},
        {"tool_time", " tool_x tool_y tool_z ",
         [](const Subject& of) { return within(50 * kAluminium * of.size.reach); }, kTool},
+       {"link", " x y z ", [](const Subject& of) { return within(5 * kAluminium * of.size.reach); },
+        kLink},
+       {"link_time", " x y z ",
+        [](const Subject& of) { return within(50 * kAluminium * of.size.reach); }, kLink},
+       {"arm", " growth ", [](const Subject&) { return within(5 * kAluminium); }, kArm},
+       {"arm_time", " growth ", [](const Subject&) { return within(50 * kAluminium); }, kArm},
        {"zero", " zero ", [](const Subject&) { return within(10 * kAluminium); }, kZero},
        {"zero_time", " zero ", [](const Subject&) { return within(100 * kAluminium); }, kZero},
        {"", " time_constant ",
