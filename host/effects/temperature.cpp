@@ -17,6 +17,13 @@ double first_temperature(const Scene& scene) {
   return mean + time.dot(scene.temperature.head(first)) / square * time[0];
 }
 
+Eigen::VectorXd warming(const Scene& scene, const std::optional<double>& reference) {
+  if (scene.temperature.size() == 0) {
+    return Eigen::VectorXd::Zero(scene.rows());
+  }
+  return scene.temperature.array() - (reference ? *reference : first_temperature(scene));
+}
+
 model::Robot with_reference_temperature(model::Robot robot, const std::vector<Scene>& scenes) {
   if (!robot.reference_temperature && scenes.front().temperature.size() > 0) {
     robot.reference_temperature = first_temperature(scenes.front());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "simulation/machine.hpp"
@@ -12,6 +13,10 @@ using simulation::Scene;
 /// Temperature (°C) at a scene's beginning: where a straight line through its first rows begins,
 /// which is less noisy than one value, and no warmer than the beginning as their mean would be.
 double first_temperature(const Scene& scene);
+
+/// Rise of the temperature (K) at every row, beyond the reference (°C) or, without one, since the
+/// beginning. A recording that is yet to be made has no temperature, and no rise.
+Eigen::VectorXd warming(const Scene& scene, const std::optional<double>& reference);
 
 /// The robot holding its numbers for good where the first of the scenes begins, if it does not say
 /// where they hold and the scene has temperatures: other recordings may begin warmer.

@@ -26,7 +26,7 @@ double size_of(const std::string& unit) {
       {"N", 20},      {"N·m", 30},      {"kg", 5},           {"kg·m", 1},
       {"1", 0.05},    {"m/N", 1e-8},    {"rad/(N·m)", 1e-7}, {"rad/(N·m)^3", 1e-15},
       {"Hz", 8},      {"N·m/rad", 1e6}, {"kg·m^2", 10},      {"N·m·s/rad", 20},
-      {"rad/s", 0.3}, {"m/K", 1e-5},    {"N/m", 30},         {"1/K", 1e-5}};
+      {"rad/s", 0.3}, {"m/K", 1e-5},    {"N/m", 30},         {"1/K", 1e-3}};
   return sizes.at(unit);
 }
 

@@ -3,10 +3,14 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-/// Needs torques of a robot that moves.
+/// Needs torques of a robot that moves, and temperatures for a gain by these.
 bool prepare_torque_gain(const Observations& observations, Hypothesis* hypothesis) {
-  hypothesis->set_bounds({{-0.5, 1, 0.02}});
-  return sees_moving_torques(observations);
+  if (!hypothesis->traits().needs_temperature) {
+    hypothesis->set_bounds({{-0.5, 1, 0.02}});
+    return sees_moving_torques(observations);
+  }
+  hypothesis->set_bounds({{-0.02, 0.02, 1e-4}});
+  return sees_moving_torques(observations) && observations.scenes.front().temperature.size() > 0;
 }
 
 }  // namespace

@@ -22,13 +22,8 @@ using Reference = std::optional<double>;
 /// How far the structure has grown at every row of a scene.
 using Growth = Eigen::VectorXd (*)(const Scene&, const Values&, Reference);
 
-/// Rise of the temperature (K) since the beginning, or beyond the reference. A recording that is
-/// yet to be made has none.
 Eigen::VectorXd by_temperature(const Scene& scene, const Values& /*values*/, Reference reference) {
-  if (scene.temperature.size() == 0) {
-    return Eigen::VectorXd::Zero(scene.rows());
-  }
-  return scene.temperature.array() - (reference ? *reference : first_temperature(scene));
+  return warming(scene, reference);
 }
 
 Eigen::VectorXd by_time(const Scene& scene, const Values& values, Reference /*reference*/) {
