@@ -8,7 +8,6 @@ Law coupled(const char* form, const char* statement) {
   law.form = form;
   law.joints = all_but_the_first;
   law.traits.is_curved = true;
-  law.traits.couples_drives = true;
   law.parameters = constant({{"ratio", "1"}});
   law.words = "coupling of the drives";
   law.statement = says(statement);
@@ -21,6 +20,7 @@ void couple(const Values& values, int joint, model::Robot* robot) {
 
 Law with_torques_of_joints() {
   Law law = coupled("", "the motor of joint {} turns with the joint before it as well");
+  law.traits.couples_drives = true;
   alter_keys(couple, &law);
   return law;
 }
