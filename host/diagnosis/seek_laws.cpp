@@ -100,13 +100,18 @@ void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diag
   const Observations& observations = inquiry.observations;
   grammar::Budget budget(settings.law_seconds);
   const bool is_of_families = !diagnosis->choice.begun.chosen.empty();
-  Diagnosis afresh =
-      with_laws(inquiry, *diagnosis,
-                grammar::choose_laws(inquiry, inquiry.given, &budget, settings.choosing));
+  const auto chosen = [&](const Fit& begun, grammar::First first) {
+    return grammar::choose_laws(inquiry, begun, first, &budget, settings.choosing);
+  };
+  Diagnosis afresh = with_laws(inquiry, *diagnosis, chosen(inquiry.given, grammar::First::any));
+  if (is_open(afresh)) {
+    Diagnosis other = with_laws(inquiry, *diagnosis, chosen(inquiry.given, grammar::First::law));
+    if (!is_open(other)) {
+      afresh = std::move(other);
+    }
+  }
   if (is_open(afresh) && !is_of_families && !diagnosis->choice.findings.empty()) {
-    *diagnosis =
-        with_laws(inquiry, *diagnosis,
-                  grammar::choose_laws(inquiry, diagnosis->choice.fit, &budget, settings.choosing));
+    *diagnosis = with_laws(inquiry, *diagnosis, chosen(diagnosis->choice.fit, grammar::First::any));
   }
   if (!is_of_families || !is_open(afresh)) {
     *diagnosis = grammar::has_law(diagnosis->choice)

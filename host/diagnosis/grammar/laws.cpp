@@ -183,13 +183,15 @@ bool has_law(const Choice& choice) {
                      [](const Finding& each) { return each.chosen.hypothesis.is_law(); });
 }
 
-Choice choose_laws(const Inquiry& inquiry, const Fit& begun, Budget* budget,
+Choice choose_laws(const Inquiry& inquiry, const Fit& begun, First first, Budget* budget,
                    const TellStage& tell) {
   const Material material(inquiry.observations);
   std::vector<Fit> stages = {begun};
   while (stages.size() <= kMostLaws && !budget->is_spent()) {
     tell("composing laws");
-    Fit next = with_one(inquiry, material, stages.back());
+    const bool is_law = first == First::law && stages.size() == 1;
+    Fit next = is_law ? with_law(inquiry, material, begun).fit
+                      : with_one(inquiry, material, stages.back());
     if (next.chosen.empty()) {
       break;
     }
