@@ -104,12 +104,6 @@ void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diag
     return grammar::choose_laws(inquiry, begun, first, &budget, settings.choosing);
   };
   Diagnosis afresh = with_laws(inquiry, *diagnosis, chosen(inquiry.given, grammar::First::any));
-  if (is_open(afresh)) {
-    Diagnosis other = with_laws(inquiry, *diagnosis, chosen(inquiry.given, grammar::First::law));
-    if (!is_open(other)) {
-      afresh = std::move(other);
-    }
-  }
   if (is_open(afresh) && !is_of_families && !diagnosis->choice.findings.empty()) {
     *diagnosis = with_laws(inquiry, *diagnosis, chosen(diagnosis->choice.fit, grammar::First::any));
   }
@@ -117,6 +111,12 @@ void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diag
     *diagnosis = grammar::has_law(diagnosis->choice)
                      ? better_of(observations, *diagnosis, std::move(afresh))
                      : std::move(afresh);
+  }
+  if (is_open(*diagnosis)) {
+    Diagnosis other = with_laws(inquiry, *diagnosis, chosen(inquiry.given, grammar::First::law));
+    if (!is_open(other)) {
+      *diagnosis = std::move(other);
+    }
   }
   diagnosis->laws_stopped = budget.has_stopped();
 }
