@@ -8,7 +8,6 @@
 #include "statistics/quantile.hpp"
 
 namespace flexcomp::check {
-namespace {}  // namespace
 
 bool moves_smoothly(const recording::Samples& q) {
   constexpr Eigen::Index kMost = 1500;  // rows that are looked at

@@ -23,6 +23,16 @@ void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction
   }
 }
 
+void alter_shown_torque(int joint, const std::function<void(Eigen::Ref<Eigen::VectorXd>)>& alter,
+                        Prediction* prediction) {
+  Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
+  for (Eigen::Index column = 0; column < torque.cols(); ++column) {
+    if (joint == 0 || joint == column + 1) {
+      alter(torque.col(column));
+    }
+  }
+}
+
 Eigen::ArrayXd directions(const Simulation& simulation, int joint) {
   return simulation.velocity.col(joint - 1).array().unaryExpr(
       [](double speed) { return static_cast<double>(simulation::direction_of_motion(speed)); });

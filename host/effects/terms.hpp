@@ -28,6 +28,10 @@ constexpr double kLeastFlankLoad = 1;
 /// Adds a torque (n, N·m) to a joint's drive.
 void add_torque(int joint, const Eigen::VectorXd& torque, Prediction* prediction);
 
+/// Alters what is shown of a joint's torque (n, N·m), or of every joint's (joint 0).
+void alter_shown_torque(int joint, const std::function<void(Eigen::Ref<Eigen::VectorXd>)>& alter,
+                        Prediction* prediction);
+
 /// Direction in which a joint moves (n): 1, −1, or 0 where it stands.
 Eigen::ArrayXd directions(const Simulation& simulation, int joint);
 

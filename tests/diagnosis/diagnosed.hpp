@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "diagnosis/diagnosis.hpp"
 
@@ -24,6 +25,11 @@ inline diagnosis::Settings quiet_settings(double law_seconds) {
 /// A whole diagnosis, with so much processor time (s) for laws.
 inline diagnosis::Diagnosis diagnosed(diagnosis::Observations* observations, double law_seconds) {
   return diagnose(observations, all_hypotheses(*observations), quiet_settings(law_seconds));
+}
+
+/// The findings of a whole diagnosis without laws.
+inline std::vector<diagnosis::Finding> findings_of(diagnosis::Observations observations) {
+  return diagnosed(&observations, 0).choice.findings;
 }
 
 }  // namespace flexcomp::test

@@ -66,6 +66,12 @@ struct DrivenRobot {
   }
 };
 
+/// Torques that a machine shows in a scene (n×joints, N·m).
+inline Eigen::MatrixXd shown_torques(const simulation::Machine& machine,
+                                     const simulation::Scene& scene) {
+  return simulation::predict(machine, {scene}).front().channel[simulation::joint_torque];
+}
+
 /// A torque (N·m) by the time (s), per unit of a parameter.
 using Course = double (*)(double time);
 

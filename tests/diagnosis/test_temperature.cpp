@@ -7,8 +7,8 @@
 #include "unity_main.hpp"
 
 using flexcomp::diagnosis::Finding;
-using flexcomp::diagnosis::Observations;
 using flexcomp::test::DrivenRobot;
+using flexcomp::test::findings_of;
 namespace simulation = flexcomp::simulation;
 
 namespace {
@@ -53,8 +53,7 @@ simulation::Machine altered(const DrivenRobot& robot, simulation::Term::Stage st
 
 void assert_found(const DrivenRobot& robot, const simulation::Machine& truth, const char* effect,
                   const char* form, int joint, double rate) {
-  Observations observations = robot.observed(truth);
-  const std::vector<Finding> found = flexcomp::test::diagnosed(&observations, 0).choice.findings;
+  const std::vector<Finding> found = findings_of(robot.observed(truth));
   TEST_ASSERT_EQUAL_UINT64(1, found.size());
   TEST_ASSERT_EQUAL_STRING(effect, found[0].chosen.hypothesis.effect().c_str());
   TEST_ASSERT_EQUAL_STRING(form, found[0].chosen.hypothesis.law->form.c_str());
@@ -90,8 +89,7 @@ void drives_that_warm_alike_are_one_finding() {
 
 void an_arm_that_only_warms_is_left_alone() {
   const DrivenRobot robot = warming();
-  Observations observations = robot.observed(robot.machine());
-  TEST_ASSERT_TRUE(flexcomp::test::diagnosed(&observations, 0).choice.findings.empty());
+  TEST_ASSERT_TRUE(findings_of(robot.observed(robot.machine())).empty());
 }
 
 }  // namespace

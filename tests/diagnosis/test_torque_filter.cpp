@@ -6,18 +6,15 @@
 #include "unity_main.hpp"
 
 using flexcomp::diagnosis::Finding;
-using flexcomp::diagnosis::Observations;
 using flexcomp::test::DrivenRobot;
+using flexcomp::test::findings_of;
+using flexcomp::test::shown_torques;
 namespace effects = flexcomp::effects;
 namespace simulation = flexcomp::simulation;
 
 namespace {
 
 constexpr double kConstant = 0.03;  // s
-
-Eigen::MatrixXd torques(const simulation::Machine& machine, const simulation::Scene& scene) {
-  return simulation::predict(machine, {scene}).front().channel[simulation::joint_torque];
-}
 
 /// T y' + y = x by Euler's implicit rule in twenty steps a row, x straight between the rows.
 Eigen::VectorXd filtered(const Eigen::VectorXd& time, const Eigen::VectorXd& input) {
@@ -51,11 +48,6 @@ simulation::Machine behind_a_filter(const DrivenRobot& robot, int joint = 0) {
   return truth;
 }
 
-std::vector<Finding> found_of(const DrivenRobot& robot, const simulation::Machine& truth) {
-  Observations observations = robot.observed(truth);
-  return flexcomp::test::diagnosed(&observations, 0).choice.findings;
-}
-
 void assert_found(const std::vector<Finding>& found, int joint) {
   TEST_ASSERT_EQUAL_UINT64(1, found.size());
   TEST_ASSERT_EQUAL_STRING("torque_filter", found[0].chosen.hypothesis.effect().c_str());
@@ -66,10 +58,10 @@ void assert_found(const std::vector<Finding>& found, int joint) {
 void torques_are_shown_as_the_filter_lets_them_through() {
   const DrivenRobot robot;
   simulation::Machine machine = robot.machine();
-  const Eigen::MatrixXd plain = torques(machine, robot.scene);
+  const Eigen::MatrixXd plain = shown_torques(machine, robot.scene);
   effects::find_law("torque_filter", "")->apply({kConstant}, 0, &machine);
-  const Eigen::MatrixXd shown = torques(machine, robot.scene);
-  const Eigen::MatrixXd expected = torques(behind_a_filter(robot), robot.scene);
+  const Eigen::MatrixXd shown = shown_torques(machine, robot.scene);
+  const Eigen::MatrixXd expected = shown_torques(behind_a_filter(robot), robot.scene);
   const Eigen::Index settled = plain.rows() / 4;  // each begins in its own way
   const auto last = [&](const Eigen::MatrixXd& all) {
     return Eigen::MatrixXd(all.bottomRows(plain.rows() - settled));
@@ -80,19 +72,19 @@ void torques_are_shown_as_the_filter_lets_them_through() {
 
 void a_filter_of_all_torques_is_found() {
   const DrivenRobot robot;
-  assert_found(found_of(robot, behind_a_filter(robot)), 0);
+  assert_found(findings_of(robot.observed(behind_a_filter(robot))), 0);
 }
 
 void a_filter_of_one_torque_is_found() {
   const DrivenRobot robot;
-  assert_found(found_of(robot, behind_a_filter(robot, 2)), 2);
+  assert_found(findings_of(robot.observed(behind_a_filter(robot, 2))), 2);
 }
 
 void torques_that_are_late_are_not_filtered() {
   const DrivenRobot robot;
   simulation::Machine late = robot.machine();
   effects::find_law("time_offset", "joint_torque")->apply({kConstant}, 0, &late);
-  const std::vector<Finding> found = found_of(robot, late);
+  const std::vector<Finding> found = findings_of(robot.observed(late));
   TEST_ASSERT_EQUAL_UINT64(1, found.size());
   TEST_ASSERT_EQUAL_STRING("time_offset", found[0].chosen.hypothesis.effect().c_str());
 }

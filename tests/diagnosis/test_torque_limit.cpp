@@ -6,8 +6,9 @@
 #include "unity_main.hpp"
 
 using flexcomp::diagnosis::Finding;
-using flexcomp::diagnosis::Observations;
 using flexcomp::test::DrivenRobot;
+using flexcomp::test::findings_of;
+using flexcomp::test::shown_torques;
 namespace effects = flexcomp::effects;
 namespace simulation = flexcomp::simulation;
 
@@ -15,12 +16,8 @@ namespace {
 
 constexpr int kJoint = 3;
 
-Eigen::MatrixXd torques(const simulation::Machine& machine, const simulation::Scene& scene) {
-  return simulation::predict(machine, {scene}).front().channel[simulation::joint_torque];
-}
-
 double largest(const DrivenRobot& robot) {
-  return torques(robot.machine(), robot.scene).col(kJoint - 1).cwiseAbs().maxCoeff();
+  return shown_torques(robot.machine(), robot.scene).col(kJoint - 1).cwiseAbs().maxCoeff();
 }
 
 /// A machine whose sensor goes to a share of the largest torque of the model's joint.
@@ -40,23 +37,18 @@ simulation::Machine clipped(const DrivenRobot& robot, double share) {
   return clipped(robot, share, robot.machine());
 }
 
-std::vector<Finding> found_of(const DrivenRobot& robot, const simulation::Machine& truth) {
-  Observations observations = robot.observed(truth);
-  return flexcomp::test::diagnosed(&observations, 0).choice.findings;
-}
-
 void a_torque_is_shown_up_to_the_limit_and_others_as_they_are() {
   const DrivenRobot robot;
   simulation::Machine machine = robot.machine();
   effects::find_law("torque_limit", "")->apply({0.5 * largest(robot)}, kJoint, &machine);
-  const Eigen::MatrixXd shown = torques(machine, robot.scene);
-  const Eigen::MatrixXd expected = torques(clipped(robot, 0.5), robot.scene);
+  const Eigen::MatrixXd shown = shown_torques(machine, robot.scene);
+  const Eigen::MatrixXd expected = shown_torques(clipped(robot, 0.5), robot.scene);
   TEST_ASSERT_TRUE((shown - expected).cwiseAbs().maxCoeff() < 1e-9);
 }
 
 void a_limit_that_was_reached_is_found() {
   const DrivenRobot robot;
-  const std::vector<Finding> found = found_of(robot, clipped(robot, 0.8));
+  const std::vector<Finding> found = findings_of(robot.observed(clipped(robot, 0.8)));
   TEST_ASSERT_EQUAL_UINT64(1, found.size());
   TEST_ASSERT_EQUAL_STRING("torque_limit", found[0].chosen.hypothesis.effect().c_str());
   TEST_ASSERT_EQUAL(kJoint, found[0].chosen.hypothesis.joint);
@@ -66,7 +58,7 @@ void a_limit_that_was_reached_is_found() {
 
 void a_limit_that_was_not_reached_is_not_found() {
   const DrivenRobot robot;
-  TEST_ASSERT_TRUE(found_of(robot, clipped(robot, 1.2)).empty());
+  TEST_ASSERT_TRUE(findings_of(robot.observed(clipped(robot, 1.2))).empty());
 }
 
 /// The model as it was does not get there.
@@ -77,7 +69,7 @@ void a_limit_that_a_load_reaches_is_found_beside_it() {
   effects::Values values(load->parameters(robot.robot, 0).size(), 0.0);
   values[0] = 150;  // kg
   load->apply(values, 0, &truth);
-  const std::vector<Finding> found = found_of(robot, clipped(robot, 1.05, truth));
+  const std::vector<Finding> found = findings_of(robot.observed(clipped(robot, 1.05, truth)));
   TEST_ASSERT_EQUAL_UINT64(2, found.size());
   TEST_ASSERT_EQUAL_STRING("torque_limit", found[1].chosen.hypothesis.effect().c_str());
   const double limit = 1.05 * largest(robot);

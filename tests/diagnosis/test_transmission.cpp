@@ -4,8 +4,9 @@
 #include "unity_main.hpp"
 
 using flexcomp::diagnosis::Finding;
-using flexcomp::diagnosis::Observations;
 using flexcomp::test::DrivenRobot;
+using flexcomp::test::findings_of;
+using flexcomp::test::shown_torques;
 namespace effects = flexcomp::effects;
 namespace simulation = flexcomp::simulation;
 
@@ -19,10 +20,6 @@ DrivenRobot rubbing() {
   DrivenRobot robot;
   robot.robot.dynamics[kMotor - 1].viscous = 300;  // N·m·s/rad
   return robot;
-}
-
-Eigen::MatrixXd torques(const simulation::Machine& machine, const simulation::Scene& scene) {
-  return simulation::predict(machine, {scene}).front().channel[simulation::joint_torque];
 }
 
 simulation::Machine coupled(const DrivenRobot& robot) {
@@ -44,8 +41,7 @@ simulation::Machine shown_by_motors(const DrivenRobot& robot) {
 }
 
 void assert_found(const DrivenRobot& robot, const simulation::Machine& truth, const char* form) {
-  Observations observations = robot.observed(truth);
-  const std::vector<Finding> found = flexcomp::test::diagnosed(&observations, 0).choice.findings;
+  const std::vector<Finding> found = findings_of(robot.observed(truth));
   TEST_ASSERT_EQUAL_UINT64(1, found.size());
   TEST_ASSERT_EQUAL_STRING("transmission", found[0].chosen.hypothesis.effect().c_str());
   TEST_ASSERT_EQUAL_STRING(form, found[0].chosen.hypothesis.law->form.c_str());
@@ -61,9 +57,9 @@ void motors_have_the_power_of_the_joints() {
     const effects::LawPointer law = effects::find_law("transmission", "motor_torques");
     law->apply({-0.4}, first, &machine);
     law->apply({kRatio}, 2 * kMotor + 1 - first, &machine);
-    const Eigen::MatrixXd of_motors = torques(machine, robot.scene);
+    const Eigen::MatrixXd of_motors = shown_torques(machine, robot.scene);
     machine.shows_motor_torques = false;
-    const Eigen::MatrixXd of_joints = torques(machine, robot.scene);
+    const Eigen::MatrixXd of_joints = shown_torques(machine, robot.scene);
     const Eigen::MatrixXd speed = simulation::simulate(machine, robot.scene).velocity;
     const Eigen::MatrixXd motor_speed = speed * machine.robot.transmission.transpose();
     const Eigen::VectorXd by_joints = of_joints.cwiseProduct(speed).rowwise().sum();

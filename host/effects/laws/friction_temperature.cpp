@@ -27,9 +27,7 @@ Law by_temperature(const char* form, bool has_dry, const char* of_all, const cha
   law.traits.is_friction = true;
   law.traits.needs_temperature = true;
   law.parameters = constant({{"rate", "1/K"}});
-  law.statement = [=](int joint) {
-    return joint == 0 ? std::string(of_all) : fmt::format(fmt::runtime(of_one), joint);
-  };
+  law.statement = says(of_all, of_one);
   law.apply = [has_dry](const Values& values, int joint, Machine* machine) {
     machine->terms.push_back(
         {Term::output, [=, robot = machine->robot](const Scene& scene, const Simulation& at,

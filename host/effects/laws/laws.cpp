@@ -74,6 +74,12 @@ std::function<std::string(int)> says(const char* clause) {
   return [clause](int joint) { return fmt::format(fmt::runtime(clause), joint); };
 }
 
+std::function<std::string(int)> says(const char* of_all, const char* of_one) {
+  return [of_all, one = says(of_one)](int joint) {
+    return joint == 0 ? std::string(of_all) : one(joint);
+  };
+}
+
 void alter_robot(Alteration alteration, Law* law) {
   law->traits.alters_model = true;
   law->apply = [alteration = std::move(alteration)](const Values& values, int joint,

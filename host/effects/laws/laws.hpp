@@ -46,6 +46,9 @@ std::function<std::vector<Derived>(const model::Robot&, int joint, const Values&
 /// A clause about a joint, its number in the place of {}.
 std::function<std::string(int joint)> says(const char* clause);
 
+/// The same for a law of the whole machine (joint 0) or of one joint.
+std::function<std::string(int joint)> says(const char* of_all, const char* of_one);
+
 /// A law that alters the robot.
 using Alteration = std::function<void(const Values&, int joint, model::Robot*)>;
 

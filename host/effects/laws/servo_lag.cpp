@@ -39,10 +39,7 @@ Forms laws::servo_lag() {
   law.traits.alters_model = true;
   law.traits.is_curved = true;
   law.parameters = constant({{"time_constant", "s"}});
-  law.statement = [](int joint) -> std::string {
-    return joint == 0 ? "the joints follow their command late"
-                      : fmt::format("joint {} follows its command late", joint);
-  };
+  law.statement = says("the joints follow their command late", "joint {} follows its command late");
   law.apply = [](const Values& values, int joint, Machine* machine) {
     const int count = last_of(joint, machine->lag.size()) - first_of(joint) + 1;
     machine->lag.segment(first_of(joint) - 1, count).array() += values[0];

@@ -75,27 +75,31 @@ void drift_in_base(const Eigen::VectorXd& grown, const Values& values, int /*joi
   }
 }
 
-/// Along directions of the tool frame.
-void drift_along_tool(const Eigen::VectorXd& grown, const Values& values, int /*joint*/,
-                      const Simulation& at, Prediction* prediction) {
+/// Along directions of a frame, which `turned` gives of the arm as it stands.
+template <typename Rotation>
+void drift_along_frame(const Eigen::VectorXd& grown, const Values& values, const Simulation& at,
+                       const Rotation& turned, Prediction* prediction) {
   Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
   for (Eigen::Index row = 0; row < position.rows(); ++row) {
-    const Vector3<double> direction = at.bent[static_cast<std::size_t>(row)].tcp.rotation *
+    const Vector3<double> direction = turned(at.bent[static_cast<std::size_t>(row)]) *
                                       Vector3<double>(values[0], values[1], values[2]);
     position.row(row) += grown[row] * direction.transpose();
   }
 }
 
+void drift_along_tool(const Eigen::VectorXd& grown, const Values& values, int /*joint*/,
+                      const Simulation& at, Prediction* prediction) {
+  const auto turned = [](const model::ChainKinematics& arm) { return arm.tcp.rotation; };
+  drift_along_frame(grown, values, at, turned, prediction);
+}
+
 /// Along directions of the frame of the link that a joint moves.
 void drift_along_link(const Eigen::VectorXd& grown, const Values& values, int joint,
                       const Simulation& at, Prediction* prediction) {
-  Eigen::MatrixXd& position = prediction->channel[simulation::tcp_position];
-  for (Eigen::Index row = 0; row < position.rows(); ++row) {
-    const auto& links = at.bent[static_cast<std::size_t>(row)].links;
-    const Vector3<double> direction =
-        links[index_of(joint)].rotation * Vector3<double>(values[0], values[1], values[2]);
-    position.row(row) += grown[row] * direction.transpose();
-  }
+  const auto turned = [joint](const model::ChainKinematics& arm) {
+    return arm.links[index_of(joint)].rotation;
+  };
+  drift_along_frame(grown, values, at, turned, prediction);
 }
 
 /// By a share of the way from the base to the last link: all that is between has grown alike.

@@ -13,24 +13,21 @@ Forms laws::torque_filter() {
   law.traits.can_be_undone = false;
   law.parameters = constant({{"time_constant", "s"}});
   law.words = "low-pass of the torque";
-  law.statement = [](int joint) -> std::string {
-    return joint == 0 ? "the torques are shown behind a low-pass"
-                      : fmt::format("the torque of joint {} is shown behind a low-pass", joint);
-  };
+  law.statement = says("the torques are shown behind a low-pass",
+                       "the torque of joint {} is shown behind a low-pass");
   add_term(
-      [](const Values& values, int which) {
-        return Term{
-            Term::instrument, [=](const Scene& scene, const Simulation&, Prediction* prediction) {
-              Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
-              if (scene.is_static) {
-                return;
-              }
-              for (Eigen::Index column = 0; column < torque.cols(); ++column) {
-                if (which == 0 || which == column + 1) {
-                  torque.col(column) = simulation::lag(scene.time, torque.col(column), values[0]);
-                }
-              }
-            }};
+      [](const Values& values, int joint) {
+        return Term{Term::instrument,
+                    [=](const Scene& scene, const Simulation&, Prediction* prediction) {
+                      if (!scene.is_static) {
+                        alter_shown_torque(
+                            joint,
+                            [&](Eigen::Ref<Eigen::VectorXd> torque) {
+                              torque = simulation::lag(scene.time, torque, values[0]);
+                            },
+                            prediction);
+                      }
+                    }};
       },
       &law);
   return {{law},

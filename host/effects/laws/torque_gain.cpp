@@ -16,10 +16,10 @@ Law constant_gain() {
   add_term(
       [](const Values& values, int joint) {
         return Term{Term::instrument, [=](const Scene&, const Simulation&, Prediction* prediction) {
-                      Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
-                      if (torque.cols() > 0) {
-                        torque.col(joint - 1) *= 1 + values[0];
-                      }
+                      alter_shown_torque(
+                          joint,
+                          [&](Eigen::Ref<Eigen::VectorXd> torque) { torque *= 1 + values[0]; },
+                          prediction);
                     }};
       },
       &law);
@@ -35,24 +35,17 @@ Law by_temperature_gain() {
   law.traits.can_be_undone = false;
   law.traits.needs_temperature = true;
   law.parameters = constant({{"rate", "1/K"}});
-  law.statement = [](int joint) -> std::string {
-    return joint == 0
-               ? "the torques are measured with a gain that changes as the drives warm"
-               : fmt::format(
-                     "the torque of joint {} is measured with a gain that changes as it warms",
-                     joint);
-  };
+  law.statement = says("the torques are measured with a gain that changes as the drives warm",
+                       "the torque of joint {} is measured with a gain that changes as it warms");
   law.apply = [](const Values& values, int joint, Machine* machine) {
     const std::optional<double> reference = machine->robot.reference_temperature;
     machine->terms.push_back(
         {Term::instrument, [=](const Scene& scene, const Simulation&, Prediction* prediction) {
-           Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
            const Eigen::VectorXd gain = 1 + values[0] * warming(scene, reference).array();
-           for (Eigen::Index i = 0; i < torque.cols(); ++i) {
-             if (joint == 0 || joint == i + 1) {
-               torque.col(i) = torque.col(i).cwiseProduct(gain);
-             }
-           }
+           alter_shown_torque(
+               joint,
+               [&](Eigen::Ref<Eigen::VectorXd> torque) { torque = torque.cwiseProduct(gain); },
+               prediction);
          }});
   };
   return law;

@@ -17,11 +17,12 @@ Forms laws::torque_limit() {
   add_term(
       [](const Values& values, int joint) {
         return Term{Term::instrument, [=](const Scene&, const Simulation&, Prediction* prediction) {
-                      Eigen::MatrixXd& torque = prediction->channel[simulation::joint_torque];
-                      if (torque.cols() > 0) {
-                        auto shown = torque.col(joint - 1);
-                        shown = shown.cwiseMax(-values[0]).cwiseMin(values[0]);
-                      }
+                      alter_shown_torque(
+                          joint,
+                          [&](Eigen::Ref<Eigen::VectorXd> torque) {
+                            torque = torque.cwiseMax(-values[0]).cwiseMin(values[0]);
+                          },
+                          prediction);
                     }};
       },
       &law);
