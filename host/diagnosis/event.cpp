@@ -14,9 +14,9 @@ namespace {
 constexpr Eigen::Index kBlocks = 400;   // of a recording: what is told in time
 constexpr Eigen::Index kLongest = 8;    // blocks of one event: a fiftieth of the recording
 constexpr std::size_t kMostEvents = 3;  // events: more of them are no exceptions
-constexpr double kFarFromNoise = 9;     // of squares over the noise's, on average over an event
-constexpr double kEdge = 2;             // the same, of a block that belongs to it
-constexpr double kLeastShare = 0.8;     // of what is left beyond the noise
+constexpr double kEventPower = 9;       // of squares over the noise's, on average over an event
+constexpr double kEdgePower = 2;        // the same, of a block that belongs to it
+constexpr double kLeastInEvents = 0.8;  // of what is left beyond the noise
 constexpr double kLeastInOne = 0.1;     // of the largest excursion's squares, to be named
 
 /// Squares of what is left over the noise, and how many samples they are of.
@@ -74,10 +74,10 @@ class Blocks {
     }
     std::vector<Power>& power = power_[event->scene];
     std::size_t last = first + 1;
-    while (first > 0 && power[first - 1].mean() > kEdge) {
+    while (first > 0 && power[first - 1].mean() > kEdgePower) {
       --first;
     }
-    while (last < power.size() && power[last].mean() > kEdge) {
+    while (last < power.size() && power[last].mean() > kEdgePower) {
       ++last;
     }
     const Eigen::Index rows = observations_.scenes[event->scene].rows();
@@ -144,13 +144,13 @@ std::vector<Event> find_events(const Observations& observations, const Eigen::Ve
   while (events.size() < kMostEvents) {
     Event event;
     const Power power = blocks.take(&event);
-    if (power.mean() < kFarFromNoise) {
+    if (power.mean() < kEventPower) {
       return {};
     }
     taken = taken + power;
     blocks.describe(&event);
     events.push_back(std::move(event));
-    if (taken.beyond_noise() >= kLeastShare * beyond &&
+    if (taken.beyond_noise() >= kLeastInEvents * beyond &&
         std::sqrt(blocks.all().mean()) < kLikeNoise) {
       return events;
     }

@@ -15,7 +15,7 @@ namespace {
 /// Deviations: of normally distributed samples 0.3 % weigh less than one.
 constexpr double kHuber = 3;
 /// Such a change moves the BIC of 10,000 samples by 0.001.
-constexpr double kLeastChange = 1e-7;
+constexpr double kSettledChange = 1e-7;
 
 /// The weighted remainder of the samples to fit to, simulated anew for every step.
 class WeightedRemainder : public HeldRemainder {
@@ -51,7 +51,7 @@ class WeightedRemainder : public HeldRemainder {
 void solve(const Eigen::VectorXd& measured, const Eigen::VectorXd& weight, int most_steps,
            Evaluator* evaluator) {
   WeightedRemainder cost(measured, weight, evaluator);
-  minimise(&cost, {most_steps, kLeastChange}, evaluator);
+  minimise(&cost, {most_steps, kSettledChange}, evaluator);
 }
 
 /// The prediction at the start, which is moved to where the machine comes to rest. An amplitude

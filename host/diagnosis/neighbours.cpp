@@ -9,10 +9,10 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr std::size_t kFewest = 20;     // poses
-constexpr std::size_t kMost = 1500;     // poses: the search takes the square of the time
-constexpr std::size_t kNeighbours = 4;  // of each
-constexpr int kDeals = 200;             // at random: their spread is known to 5 % then
+constexpr std::size_t kFewestPoses = 20;  // poses
+constexpr std::size_t kMostPoses = 1500;  // poses: the search takes the square of the time
+constexpr std::size_t kNeighbours = 4;    // of each
+constexpr int kDeals = 200;               // at random: their spread is known to 5 % then
 
 using Rows = std::vector<std::vector<std::size_t>>;  ///< of each pose, its neighbours
 
@@ -49,8 +49,8 @@ Poses poses_of(const Observations& observations, const Eigen::VectorXd& remainde
 
 /// Some rows of a matrix, evenly taken.
 Eigen::MatrixXd thinned(const Eigen::MatrixXd& all) {
-  const auto each =
-      (all.rows() + static_cast<Eigen::Index>(kMost) - 1) / static_cast<Eigen::Index>(kMost);
+  const auto each = (all.rows() + static_cast<Eigen::Index>(kMostPoses) - 1) /
+                    static_cast<Eigen::Index>(kMostPoses);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index row = 0; row < all.rows(); row += std::max<Eigen::Index>(each, 1)) {
     rows.push_back(row);
@@ -110,7 +110,7 @@ double likeness_of_neighbours(const Observations& observations, const Eigen::Vec
   const Eigen::MatrixXd places = over_spread(thinned(poses.places));
   const Eigen::MatrixXd by_pose = over_spread(thinned(poses.remainders)).transpose();
   const auto count = static_cast<std::size_t>(by_pose.cols());
-  if (count < kFewest) {
+  if (count < kFewestPoses) {
     return 0;
   }
   const Rows neighbours = nearest(places);

@@ -15,7 +15,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// JCGM 100:2008, 4.3): the law itself, and the motion's differentiation, are no more exact. An
 /// engine of other makers, with the same physics and no noise to speak of, gave numbers that differ
 /// by 0.1 to 1 % (tools/concealed, seed 771203).
-constexpr double kExactness = 0.005;
+constexpr double kLawExactness = 0.005;
 
 /// Standard deviation of a parameter; none where it is beyond all that the parameter may be, so
 /// that nothing is told.
@@ -25,7 +25,7 @@ double deviation_at(const Hypothesis& hypothesis, const Values& values,
   const Parameter& parameter = hypothesis.parameters[at];
   const double deviation = std::sqrt(std::max(covariance(i, i), 0.0));
   const bool is_told = deviation > 0 && deviation < parameter.upper - parameter.lower;
-  return is_told ? std::hypot(deviation, kExactness * values[at]) : kUnknown;
+  return is_told ? std::hypot(deviation, kLawExactness * values[at]) : kUnknown;
 }
 
 /// Can one of the parameters that act in proportion be told from zero? Otherwise the covariance
@@ -54,7 +54,7 @@ void add_wave(const Values& values, const std::string& unit, const Eigen::Matrix
                                values[0] / (amplitude * amplitude));
   const Eigen::Matrix2d inner = covariance.topLeftCorner<2, 2>();
   all->push_back({"amplitude", unit, amplitude,
-                  std::hypot(std::sqrt(along.dot(inner * along)), kExactness * amplitude), 0});
+                  std::hypot(std::sqrt(along.dot(inner * along)), kLawExactness * amplitude), 0});
   all->push_back(
       {"phase", "rad", std::atan2(values[1], values[0]), std::sqrt(across.dot(inner * across)), 1});
 }

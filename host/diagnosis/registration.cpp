@@ -13,7 +13,7 @@ namespace {
 constexpr double kFarShift = 5e-3;  // m: a search that is linear in a frame is off by its square
 constexpr double kFarTurn = 5e-3;   // rad, the same
 constexpr double kMostLeft = 0.25;  // of the squares: a frame that leaves more is not the cause
-constexpr int kRounds = 10;         // of weights, which settle where outliers are few
+constexpr int kReweightings = 10;   // of weights, which settle where outliers are few
 constexpr int kFrameSteps = 20;     // of the fit by simulation, from a coarse start
 
 /// Measured and predicted positions, 3 × n, rows to fit to that have all three.
@@ -65,7 +65,7 @@ Eigen::Isometry3d nearest(const Points& points, const Eigen::VectorXd& weight) {
 Eigen::Isometry3d registered(const Points& points) {
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(points.measured.cols());
   Eigen::Isometry3d motion = nearest(points, weight);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kReweightings; ++round) {
     const Eigen::VectorXd distance =
         (points.measured - motion * points.predicted).colwise().norm().transpose();
     const double spread = std::sqrt(weight.dot(distance.cwiseAbs2()) / weight.sum());

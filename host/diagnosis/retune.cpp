@@ -12,8 +12,8 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr double kKnown = 2;      // deviations from what the model has
-constexpr double kTiny = 1e-300;  // against a division by zero
+constexpr double kKnown = 2;               // deviations from what the model has
+constexpr double kTinyDeviation = 1e-300;  // against a division by zero
 
 /// Findings, and behind them the numbers that they do not alter, as they are.
 std::vector<Chosen> with_numbers(const Fit& findings, const std::vector<Hypothesis>& hypotheses,
@@ -53,12 +53,13 @@ std::vector<Chosen> known_of(const Fit& fit, std::size_t findings) {
   while (value.size() > 0) {
     Eigen::Index weakest = 0;
     const Eigen::ArrayXd deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    const double least =
-        (deviation > 0).select(value.array().abs() / deviation.max(kTiny), 0).minCoeff(&weakest);
+    const double least = (deviation > 0)
+                             .select(value.array().abs() / deviation.max(kTinyDeviation), 0)
+                             .minCoeff(&weakest);
     if (least >= kKnown) {
       break;
     }
-    const double variance = std::max(covariance(weakest, weakest), kTiny);
+    const double variance = std::max(covariance(weakest, weakest), kTinyDeviation);
     const Eigen::VectorXd share = covariance.col(weakest) / variance;
     value -= share * value[weakest];
     covariance -= variance * share * share.transpose();

@@ -43,15 +43,16 @@ class InverseDynamics {
  private:
   /// A link, its frame turned so that z is its joint's axis.
   struct Link {
-    Matrix3<Scalar> rotation;  ///< in the frame before, at a joint angle of zero
-    Vector3<Scalar> position;  ///< m, in the frame before
-    Scalar mass;               ///< kg
-    Vector3<Scalar> moment;    ///< kg·m, first moment
-    Matrix3<Scalar> inertia;   ///< kg·m², about the origin
-    Matrix3<Scalar> second;    ///< kg·m², second moment P about the origin
+    /// In the frame before, at a joint angle of zero.
+    Matrix3<Scalar> rotation = Matrix3<Scalar>::Identity();
+    Vector3<Scalar> position = Vector3<Scalar>::Zero();  ///< m, in the frame before
+    Scalar mass = 0;                                     ///< kg
+    Vector3<Scalar> moment = Vector3<Scalar>::Zero();    ///< kg·m, first moment
+    Matrix3<Scalar> inertia = Matrix3<Scalar>::Zero();   ///< kg·m², about the origin
+    Matrix3<Scalar> second = Matrix3<Scalar>::Zero();    ///< kg·m², second moment P, the same
   };
 
-  std::array<Link, static_cast<std::size_t>(Joints)> links_{};
+  std::array<Link, static_cast<std::size_t>(Joints)> links_;
   Vector3<Scalar> gravity_ = Vector3<Scalar>::Zero();
 };
 

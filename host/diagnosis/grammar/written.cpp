@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "diagnosis/grammar/causes.hpp"
+#include "diagnosis/grammar/compose.hpp"
 #include "effects/formula_law.hpp"
 
 namespace flexcomp::diagnosis::grammar {

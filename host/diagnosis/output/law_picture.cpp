@@ -17,8 +17,8 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr Eigen::Index kBins = 30;  // points along a driver
-constexpr double kFewest = 4;       // samples of a mean that is drawn
+constexpr Eigen::Index kBins = 30;   // points along a driver
+constexpr double kFewestInMean = 4;  // samples of a mean that is drawn
 constexpr std::array<const char*, 3> kDots = {"#c0392b", "#1f6fb4", "#222222"};
 
 /// A text between gnuplot's single quotes, where an apostrophe is written twice.
@@ -137,7 +137,7 @@ class Portrait {
   std::string block(const std::string& name, const Means& means, double scale) const {
     std::string text = fmt::format("${} << EOD\n", name);
     for (Eigen::Index k = 0; k < kBins; ++k) {
-      if (means.count[k] >= kFewest) {
+      if (means.count[k] >= kFewestInMean) {
         const double at = low() + (static_cast<double>(k) + 0.5) * (high() - low()) / kBins;
         text += fmt::format("{:.6g} {:.6g}\n", at, scale * means.product[k] / means.weight[k]);
       }
@@ -153,7 +153,7 @@ class Portrait {
       const std::string name =
           fmt::format("{}{}{}", courses[i].first, held_out ? "Held" : "Fitted", side);
       const Means means = means_of(courses[i].second, held_out, side);
-      if (means.count.maxCoeff() < kFewest) {
+      if (means.count.maxCoeff() < kFewestInMean) {
         continue;
       }
       *data += block(name, means, scale);

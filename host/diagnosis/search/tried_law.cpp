@@ -17,13 +17,13 @@ using model::YamlMap;
 
 constexpr std::array<int, 12> kPrimes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
 
-struct Sought {
+struct SoughtRange {
   double lower = 0;
   double upper = 0;
 };
 
-std::map<std::string, Sought> read_ranges(const YamlMap& yaml) {
-  std::map<std::string, Sought> ranges;
+std::map<std::string, SoughtRange> read_ranges(const YamlMap& yaml) {
+  std::map<std::string, SoughtRange> ranges;
   if (!yaml.has("ranges")) {
     return ranges;
   }
@@ -51,7 +51,7 @@ double halton(int index, int base) {
 }
 
 /// Evenly within the bounds, or over their powers of ten where they span several above zero.
-double between(const Sought& range, double share) {
+double between(const SoughtRange& range, double share) {
   constexpr double kDecades = 100;  // times: over two decades even steps leave out the lower one
   return range.lower > 0 && range.upper > kDecades * range.lower
              ? range.lower * std::pow(range.upper / range.lower, share)
@@ -59,7 +59,7 @@ double between(const Sought& range, double share) {
 }
 
 /// Starts all over the ranges of those parameters that do not act in proportion.
-std::vector<Values> starts_within(const std::vector<Sought>& ranges) {
+std::vector<Values> starts_within(const std::vector<SoughtRange>& ranges) {
   constexpr std::array<int, 4> kStarts = {1, 16, 48, 96};
   const int count = kStarts[std::min(ranges.size(), kStarts.size() - 1)];
   std::vector<Values> starts;
@@ -73,14 +73,14 @@ std::vector<Values> starts_within(const std::vector<Sought>& ranges) {
   return starts;
 }
 
-void seek_within(const YamlMap& yaml, std::map<std::string, Sought> ranges,
+void seek_within(const YamlMap& yaml, std::map<std::string, SoughtRange> ranges,
                  Hypothesis* hypothesis) {
   constexpr double kStep = 0.01;  // of a range
   std::vector<Bounds> bounds;
-  std::vector<Sought> shapes;
+  std::vector<SoughtRange> shapes;
   for (std::size_t i = 0; i < hypothesis->parameters.size(); ++i) {
     const std::string& name = hypothesis->parameters[i].name;
-    const Sought range = ranges.at(name);
+    const SoughtRange range = ranges.at(name);
     if (i < hypothesis->linear && !(range.lower <= 0 && range.upper >= 0)) {
       yaml.refuse("ranges", fmt::format("{} acts in proportion; expected a range that holds 0",
                                         files::one_line(name)));
@@ -113,7 +113,7 @@ Hypothesis read_tried_law(const std::filesystem::path& file, const Observations&
   }
   const model::Robot& robot = observations.machine.robot;
   const int joint = model::read_joint_number(yaml, robot.joints());
-  const std::map<std::string, Sought> ranges = read_ranges(yaml);
+  const std::map<std::string, SoughtRange> ranges = read_ranges(yaml);
   std::vector<std::string> names;
   for (const auto& [name, range] : ranges) {
     names.push_back(name);

@@ -32,9 +32,9 @@ Eigen::MatrixXd derivative_of(const Dictionary& dictionary, const Fit& fit) {
 }
 
 /// The tangent of the findings' fit: how its numbers shift by what else changes the samples.
-class Tangent {
+class FindingsTangent {
  public:
-  Tangent(const Observations& observations, const Dictionary& dictionary, const Fit& fit)
+  FindingsTangent(const Observations& observations, const Dictionary& dictionary, const Fit& fit)
       : root_(huber_weights(fit.remainder.head(observations.train)).cwiseSqrt()),
         derivative_(weighted(derivative_of(dictionary, fit))),
         factors_(derivative_),
@@ -82,7 +82,7 @@ struct Doubt {
 std::vector<Doubt> doubts(const Inquiry& inquiry, const Fit& fit) {
   const Observations& observations = inquiry.observations;
   const Dictionary& dictionary = inquiry.dictionary;
-  const Tangent tangent(observations, dictionary, fit);
+  const FindingsTangent tangent(observations, dictionary, fit);
   const double largest = kLargestPart * tangent.size_of(observations.residual - fit.remainder);
   std::vector<Doubt> all;
   for (const Entry& entry : dictionary.entries) {

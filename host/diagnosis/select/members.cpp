@@ -11,7 +11,7 @@ namespace flexcomp::diagnosis {
 namespace {
 
 /// Squares of a channel's samples, over the noise of the measurement alone.
-struct Squares {
+struct ChannelSquares {
   double before = 0, after = 0, count = 0;
 };
 
@@ -19,10 +19,10 @@ struct Squares {
 /// to, or held out) where it is least. One where no channel shows a mismatch.
 double explained_everywhere(const Observations& observations, const Fit& whole) {
   constexpr double kMostNoise = 2;  // of the noise's power: below it a channel shows no mismatch
-  std::map<std::pair<Channel, bool>, Squares> parts;
+  std::map<std::pair<Channel, bool>, ChannelSquares> parts;
   for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Channel channel = observations.samples[static_cast<std::size_t>(i)].channel;
-    Squares& part = parts[{channel, i >= observations.train}];
+    ChannelSquares& part = parts[{channel, i >= observations.train}];
     part.before += std::pow(observations.over_floor(i, observations.residual[i]), 2);
     part.after += std::pow(observations.over_floor(i, whole.remainder[i]), 2);
     part.count += 1;

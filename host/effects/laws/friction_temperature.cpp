@@ -18,7 +18,8 @@ Eigen::MatrixXd friction_at_reference(const model::Robot& robot, const Eigen::Ma
   return friction;
 }
 
-Law by_temperature(const char* form, bool has_dry, const char* of_all, const char* of_one) {
+Law friction_by_temperature(const char* form, bool has_dry, const char* of_all,
+                            const char* of_one) {
   Law law;
   law.form = form;
   law.joints = machine_or_joint;
@@ -57,14 +58,14 @@ Law by_temperature(const char* form, bool has_dry, const char* of_all, const cha
 // grease falls as it warms (Bittencourt and Axehill 2012, "Static friction in a robot joint").
 // Forms: the viscous part alone, or the dry one as well.
 Forms laws::friction_temperature() {
-  return {
-      {by_temperature("", true, "the friction of the joints changes as they warm",
-                      "the friction of joint {} changes as it warms"),
-       by_temperature("viscous", false, "the viscous friction of the joints changes as they warm",
-                      "the viscous friction of joint {} changes as it warms")},
-      {},
-      {{"", " rate ", [](const Subject&) { return within(0.2); },
-        "greases halve their viscosity in 10 to 20 K: none changes by a fifth in one"}}};
+  return {{friction_by_temperature("", true, "the friction of the joints changes as they warm",
+                                   "the friction of joint {} changes as it warms"),
+           friction_by_temperature("viscous", false,
+                                   "the viscous friction of the joints changes as they warm",
+                                   "the viscous friction of joint {} changes as it warms")},
+          {},
+          {{"", " rate ", [](const Subject&) { return within(0.2); },
+            "greases halve their viscosity in 10 to 20 K: none changes by a fifth in one"}}};
 }
 
 }  // namespace flexcomp::effects
