@@ -104,11 +104,14 @@ struct ScreenedPair {
   double sum = 0;  ///< of squares that both would leave
 };
 
-/// The best pairs for the observations' residual, of different effects or joints, one start each,
-/// the smallest criterion (BIC) first: each of the most promising entries with every other.
+/// The best pairs beside columns that are fitted already (as in `screen`), of different effects or
+/// joints, one start each, the smallest criterion (BIC) first: each of the most promising entries
+/// with every other.
 std::vector<ScreenedPair> screen_pairs(const Observations& observations,
                                        const std::vector<Hypothesis>& hypotheses,
-                                       const Dictionary& dictionary, std::size_t most);
+                                       const Dictionary& dictionary,
+                                       const Eigen::VectorXd& remainder,
+                                       const Eigen::MatrixXd& fitted, std::size_t most);
 
 /// The remainder of a fit of all linear entries at once to what is unexplained (all samples, over
 /// the noise): the fullest fit there is.

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "diagnosis/dictionary.hpp"
+#include "linear_algebra/span.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -13,12 +14,18 @@ constexpr std::size_t kMostPromising = 80;  // singles, each paired with all: ti
 class PairSolver {
  public:
   PairSolver(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
-             const Dictionary& dictionary)
+             const Dictionary& dictionary, const Eigen::VectorXd& remainder,
+             const Eigen::MatrixXd& fitted)
       : hypotheses_(hypotheses), dictionary_(dictionary) {
-    const auto target = observations.residual.head(observations.train);
-    sum_ = target.squaredNorm();
-    product_ = dictionary.columns.topRows(observations.train).transpose() * target;
-    samples_ = static_cast<double>(observations.train);
+    const Eigen::Index n = observations.train;
+    const auto columns = dictionary.columns.topRows(n);
+    const Eigen::MatrixXd orthonormal = linear_algebra::orthonormal_basis(fitted.topRows(n));
+    Eigen::VectorXd left = remainder.head(n);
+    left -= orthonormal * (orthonormal.transpose() * left);
+    sum_ = left.squaredNorm();
+    product_ = columns.transpose() * left;
+    shared_ = orthonormal.transpose() * columns;
+    samples_ = static_cast<double>(n);
   }
 
   /// The smaller the better; infinite where an amplitude leaves its bounds.
@@ -28,17 +35,19 @@ class PairSolver {
     const Eigen::Index m = first.count;
     const Eigen::Index n = m + second.count;
     Eigen::MatrixXd inner(n, n);
-    const Eigen::MatrixXd& gram = dictionary_.gram;
-    inner.topLeftCorner(m, m) = gram.block(first.first, first.first, m, m);
-    inner.bottomRightCorner(n - m, n - m) = gram.block(second.first, second.first, n - m, n - m);
-    inner.topRightCorner(m, n - m) = gram.block(first.first, second.first, m, n - m);
+    inner.topLeftCorner(m, m) = whole_product(first, first);
+    inner.bottomRightCorner(n - m, n - m) = whole_product(second, second);
+    inner.topRightCorner(m, n - m) = whole_product(first, second);
     inner.bottomLeftCorner(n - m, m) = inner.topRightCorner(m, n - m).transpose();
+    const Eigen::VectorXd scale = inner.diagonal().cwiseSqrt();
+    Eigen::MatrixXd common(shared_.rows(), n);
+    common << shared_.middleCols(first.first, m), shared_.middleCols(second.first, n - m);
+    inner -= common.transpose() * common;
     Eigen::VectorXd moment(n);
     moment << product_.segment(first.first, m), product_.segment(second.first, n - m);
     const Hypothesis& one = hypotheses_[first.hypothesis];
     const Hypothesis& other = hypotheses_[second.hypothesis];
-    const LeastSquares solved =
-        solve_within_bounds({&one, &other}, inner, moment, inner.diagonal().cwiseSqrt());
+    const LeastSquares solved = solve_within_bounds({&one, &other}, inner, moment, scale);
     const Eigen::VectorXd& amplitude = solved.amplitude;
     pair->sum = std::max(sum_ - solved.gain, 1e-9);
     pair->first = {a, pair->sum, amplitude.head(m)};
@@ -53,25 +62,30 @@ class PairSolver {
   }
 
  private:
+  Eigen::MatrixXd whole_product(const Entry& one, const Entry& other) const {
+    return dictionary_.gram.block(one.first, other.first, one.count, other.count);
+  }
+
   const std::vector<Hypothesis>& hypotheses_;
   const Dictionary& dictionary_;
-  double sum_ = 0;
+  double sum_ = 0;  // of squares, less what the fitted columns may take
   double samples_ = 0;
   Eigen::VectorXd product_;
+  Eigen::MatrixXd shared_;  // of the dictionary's columns with those fitted already
 };
 
 }  // namespace
 
 std::vector<ScreenedPair> screen_pairs(const Observations& observations,
                                        const std::vector<Hypothesis>& hypotheses,
-                                       const Dictionary& dictionary, std::size_t most) {
-  std::vector<Screened> singles =
-      screen(observations, hypotheses, dictionary, observations.residual,
-             Eigen::MatrixXd(observations.size(), 0));
+                                       const Dictionary& dictionary,
+                                       const Eigen::VectorXd& remainder,
+                                       const Eigen::MatrixXd& fitted, std::size_t most) {
+  std::vector<Screened> singles = screen(observations, hypotheses, dictionary, remainder, fitted);
   std::sort(singles.begin(), singles.end(),
             [](const Screened& a, const Screened& b) { return a.sum < b.sum; });
   singles.resize(std::min(singles.size(), kMostPromising));
-  const PairSolver solver(observations, hypotheses, dictionary);
+  const PairSolver solver(observations, hypotheses, dictionary, remainder, fitted);
   std::vector<std::pair<double, ScreenedPair>> found;
   for (const Screened& single : singles) {
     const std::size_t own = dictionary.entries[single.entry].hypothesis;

@@ -10,15 +10,18 @@ namespace flexcomp::diagnosis {
 namespace {
 
 /// Is so little left that two effects could not share it better?
-bool is_settled(const Observations& observations, const Fit& fit) {
-  return fit.parameters() <= 2 && largest_ratio(observations, fit.remainder) < kSettled;
+bool is_settled(const Inquiry& inquiry, const Fit& fit) {
+  return fit.parameters() <= inquiry.given.parameters() + 2 &&
+         largest_ratio(inquiry.observations, fit.remainder) < kSettled;
 }
 
-/// A fit that grows from a pair of hypotheses may end better than one that grows from a single. In
-/// a load test, whose fits are quick, the best pair grows even if it is not better yet.
-Attempt best_of_pairs(const Inquiry& inquiry, Attempt best, const TellStage& tell) {
+/// A fit that grows from a pair of hypotheses beside others may end better than one that grows from
+/// a single. In a load test, whose fits are quick, the best pair grows even if it is not better
+/// yet.
+Attempt best_of_pairs(const Inquiry& inquiry, const Fit& before, Attempt best,
+                      const TellStage& tell) {
   tell("trying pairs of causes");
-  const std::vector<Fit> pairs = propose_pairs(inquiry);
+  const std::vector<Fit> pairs = propose_pairs(inquiry, before);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (is_better(inquiry, pairs[i], best.fit) || (inquiry.observations.is_static && i == 0)) {
       Attempt rival = grow(inquiry, {pairs[i], seek(inquiry, pairs[i])}, tell);
@@ -26,6 +29,18 @@ Attempt best_of_pairs(const Inquiry& inquiry, Attempt best, const TellStage& tel
     }
   }
   return best;
+}
+
+/// Pairs beside what is given, and then beside the first finding as well: where it is far larger,
+/// it hides which two of the others belong together.
+Attempt with_pairs(const Inquiry& inquiry, Attempt best, const TellStage& tell) {
+  const std::size_t first = inquiry.given.chosen.size();
+  best = best_of_pairs(inquiry, inquiry.given, std::move(best), tell);
+  if (best.fit.chosen.size() < first + 2) {
+    return best;
+  }
+  const Fit before = fit_with(inquiry, inquiry.given, best.fit.chosen[first], kSteps);
+  return best_of_pairs(inquiry, before, std::move(best), tell);
 }
 
 void strongest_first(std::vector<Finding>* findings) {
@@ -97,16 +112,16 @@ Choice conclude(const Inquiry& inquiry, const Attempt& grown) {
 }
 
 Choice choose(const Inquiry& inquiry, const TellStage& tell) {
-  const Observations& observations = inquiry.observations;
   const bool is_fresh = inquiry.given.chosen.empty();
   Attempt best{inquiry.given, is_fresh ? nullptr : seek(inquiry, inquiry.given)};
   Choice choice;
   choice.ranking = rank(propose(inquiry, best));
   best = grow(inquiry, std::move(best), tell);
+  if (!is_settled(inquiry, best.fit)) {
+    best = with_pairs(inquiry, std::move(best), tell);
+  }
   if (best.is_of_families) {
     choice.begun = best.fit;
-  } else if (is_fresh && !is_settled(observations, best.fit)) {
-    best = best_of_pairs(inquiry, std::move(best), tell);
   }
   Choice last = conclude(inquiry, best);
   last.ranking = std::move(choice.ranking);

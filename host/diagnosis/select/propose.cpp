@@ -91,14 +91,17 @@ std::vector<Ranked> rank(const std::vector<Candidate>& candidates) {
   return all;
 }
 
-std::vector<Fit> propose_pairs(const Inquiry& inquiry) {
+std::vector<Fit> propose_pairs(const Inquiry& inquiry, const Fit& before) {
   const Dictionary& dictionary = inquiry.dictionary;
   std::vector<Fit> fits;
   for (const ScreenedPair& pair :
-       screen_pairs(inquiry.observations, dictionary.hypotheses, dictionary, kPairs)) {
-    Fit tried = fit(inquiry.observations,
-                    {chosen_of(dictionary, pair.first), chosen_of(dictionary, pair.second)}, kSteps,
-                    &dictionary);
+       screen_pairs(inquiry.observations, dictionary.hypotheses, dictionary, before.remainder,
+                    before.derivative, kPairs)) {
+    std::vector<Chosen> chosen = before.chosen;
+    for (const Screened& each : {pair.first, pair.second}) {
+      chosen.push_back(chosen_of(dictionary, each));
+    }
+    Fit tried = fit(inquiry.observations, std::move(chosen), kSteps, &dictionary);
     if (cancellation(inquiry.observations, tried) < kMostCancellation) {
       fits.push_back(std::move(tried));
     }

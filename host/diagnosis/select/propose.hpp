@@ -49,8 +49,8 @@ std::vector<Candidate> propose(const Inquiry& inquiry, const Attempt& before);
 /// Effects at places, each in its best form, by their gain alone.
 std::vector<Ranked> rank(const std::vector<Candidate>& candidates);
 
-/// The fits of the best pairs whose parts do not cancel each other.
-std::vector<Fit> propose_pairs(const Inquiry& inquiry);
+/// A fit with one of the best pairs beside it, for each pair whose parts do not cancel each other.
+std::vector<Fit> propose_pairs(const Inquiry& inquiry, const Fit& before);
 
 /// Directions in which a candidate, or one choice of a fit, changes the samples to fit to: a column
 /// of length one for each parameter.
