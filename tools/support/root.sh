@@ -5,13 +5,13 @@
 # make_root RELEASE FOLDER PACKAGE...: a Debian of its own in FOLDER, new each time, with these packages beside
 # the essential ones.
 make_root() {
-  local release=$1 folder=$2 packages
+  local release=$1 folder=$2 included
   shift 2
-  packages=$(IFS=,; printf '%s' "$*")
+  included=$(IFS=,; printf '%s' "$*")
   remove_root "$folder"
   mkdir -p "$(dirname "$folder")"
   run_step "make a root of Debian $release" root-make \
-    as_root mmdebstrap --variant=apt --include="$packages" "$release" "$folder"
+    as_root mmdebstrap --variant=apt --include="$included" "$release" "$folder"
   # As this machine reaches the mirror.
   as_root cp /etc/resolv.conf /etc/hosts "$folder/etc/"
   run_step "refresh its package lists" root-update in_root "$folder" apt-get update
