@@ -230,7 +230,7 @@ void write_recording(const std::filesystem::path& path, const Recording& recordi
 }
 
 const Samples& require(const Recording& recording, const std::optional<Samples>& group,
-                       const std::string& columns) {
+                       std::string_view columns) {
   if (!group) {
     throw InputError(fmt::format("{}: columns {} are needed", recording.file, columns));
   }

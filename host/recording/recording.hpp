@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "recording/csv.hpp"
@@ -58,6 +59,6 @@ void write_recording(const std::filesystem::path& path, const Recording& recordi
 /// The group a command cannot do without; throws InputError, naming its columns, where the
 /// recording lacks it or a sample in it is missing.
 const Samples& require(const Recording& recording, const std::optional<Samples>& group,
-                       const std::string& columns);
+                       std::string_view columns);
 
 }  // namespace flexcomp::recording

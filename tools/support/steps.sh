@@ -29,10 +29,11 @@ seconds_as_text() {
   printf '%d min %02d s' $(($1 / 60)) $(($1 % 60))
 }
 
-# Says every half minute how far a long step is, from Ninja's or CTest's last "[12/34]" or "12/34".
+# Says every half minute how far a long step is, from Ninja's or CTest's last "[12/34]" or "12/34". Its sleep
+# outlives it: who reads what this prints from a pipe must not wait for that.
 report_progress() {
   local title=$1 log=$2 elapsed=0 place
-  while sleep 30; do
+  while sleep 30 >/dev/null 2>&1; do
     elapsed=$((elapsed + 30))
     place=$(grep -oE '^(\[[0-9]+/[0-9]+\]|[ ]*[0-9]+/[0-9]+)' "$log" 2>/dev/null | tail -n 1 | tr -d ' []')
     printf '    %s: %s%s\n' "$title" "$(seconds_as_text "$elapsed")" "${place:+, $place}"
@@ -40,7 +41,8 @@ report_progress() {
 }
 
 # run_step TITLE LOG COMMAND...: runs the command with its output in build/logs/LOG.log; one line when
-# it is done, the end of the log if it failed. Returns the command's exit code.
+# it is done, the end of the log if it failed. Returns the command's exit code. In a function as the command
+# `set -e` does not hold, since its code is asked for: its steps are chained by &&.
 run_step() {
   local title=$1 log=$log_dir/$2.log start=$SECONDS code=0 reporter
   shift 2

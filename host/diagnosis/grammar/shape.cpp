@@ -212,7 +212,7 @@ const std::vector<Shape>& shapes() {
   return kShapes;
 }
 
-const Shape& shape_named(const std::string& name) {
+const Shape& shape_named(std::string_view name) {
   return *std::find_if(shapes().begin(), shapes().end(),
                        [&](const Shape& each) { return each.name == name; });
 }

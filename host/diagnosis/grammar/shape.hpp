@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/grammar/driver.hpp"
@@ -52,7 +53,7 @@ struct Shape {
 const std::vector<Shape>& shapes();
 
 /// The first of them that has this name. One must.
-const Shape& shape_named(const std::string& name);
+const Shape& shape_named(std::string_view name);
 
 /// Shapes of a second driver: each term of a law may be multiplied with each term of one of them.
 const std::vector<Shape>& modulations();

@@ -68,7 +68,6 @@ class Workshop:
         unity = SOURCE / "build" / "third_party" / "unity"
         ready = run(["cmake", "-S", self.folder, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
                      "-DCMAKE_CXX_FLAGS_DEBUG=-O1", "-DFLEXCOMP_BUILD_HOST=OFF", "-DFLEXCOMP_BUILD_TESTS=ON",
-                     "-DFLEXCOMP_WARNINGS_AS_ERRORS=OFF",
                      *([f"-DFETCHCONTENT_SOURCE_DIR_UNITY={unity}"] if unity.exists() else [])])
         if not (ready and self.compiles() and self.passes()):
             sys.exit(f"tools/mutate: the core does not pass its own tests in {self.folder}")
