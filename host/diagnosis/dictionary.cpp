@@ -199,30 +199,32 @@ LeastSquares solve_within_bounds(const std::vector<const Hypothesis*>& hypothese
   return {Eigen::VectorXd::Zero(moment.size()), 0};
 }
 
-std::vector<Screened> screen(const Observations& observations,
-                             const std::vector<Hypothesis>& hypotheses,
-                             const Dictionary& dictionary, const Eigen::VectorXd& remainder,
-                             const Eigen::MatrixXd& fitted) {
+BesideFitted::BesideFitted(const Observations& observations, const Dictionary& dictionary,
+                           const Eigen::VectorXd& remainder, const Eigen::MatrixXd& fitted) {
   const Eigen::Index n = observations.train;
   Eigen::VectorXd left = remainder.head(n);
   const auto columns = dictionary.columns.topRows(n);
   const Eigen::MatrixXd orthonormal = linear_algebra::orthonormal_basis(fitted.topRows(n));
   left -= orthonormal * (orthonormal.transpose() * left);
-  const Eigen::MatrixXd shared = orthonormal.transpose() * columns;
-  const Eigen::VectorXd product = columns.transpose() * left;
-  const double sum = left.squaredNorm();
+  shared = orthonormal.transpose() * columns;
+  product = columns.transpose() * left;
+  sum = left.squaredNorm();
+}
+
+std::vector<Screened> screen(const std::vector<Hypothesis>& hypotheses,
+                             const Dictionary& dictionary, const BesideFitted& beside) {
   std::vector<Screened> all;
   for (std::size_t i = 0; i < dictionary.entries.size(); ++i) {
     const Entry& entry = dictionary.entries[i];
-    const auto common = shared.middleCols(entry.first, entry.count);
+    const auto common = beside.shared.middleCols(entry.first, entry.count);
     const Eigen::MatrixXd own =
         dictionary.gram.block(entry.first, entry.first, entry.count, entry.count);
-    const LeastSquares solved =
-        solve_within_bounds({&hypotheses[entry.hypothesis]}, own - common.transpose() * common,
-                            product.segment(entry.first, entry.count), own.diagonal().cwiseSqrt());
+    const LeastSquares solved = solve_within_bounds(
+        {&hypotheses[entry.hypothesis]}, own - common.transpose() * common,
+        beside.product.segment(entry.first, entry.count), own.diagonal().cwiseSqrt());
     if (solved.gain > 0 && solved.amplitude.allFinite() &&
         within_bounds(hypotheses[entry.hypothesis], solved.amplitude)) {
-      all.push_back({i, std::max(sum - solved.gain, 0.0), solved.amplitude});
+      all.push_back({i, std::max(beside.sum - solved.gain, 0.0), solved.amplitude});
     }
   }
   return all;

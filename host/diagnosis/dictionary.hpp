@@ -89,13 +89,21 @@ struct Screened {
   Eigen::VectorXd amplitude;  ///< of its columns
 };
 
-/// Every entry beside columns that are fitted already (samples × p, the parameters' derivatives);
-/// parameters out of bounds are held at zero, and entries of which nothing is left are left out.
-/// Unsorted.
-std::vector<Screened> screen(const Observations& observations,
-                             const std::vector<Hypothesis>& hypotheses,
-                             const Dictionary& dictionary, const Eigen::VectorXd& remainder,
-                             const Eigen::MatrixXd& fitted);
+/// What a dictionary may explain of a remainder, beside columns that are fitted already (samples ×
+/// p, the parameters' derivatives).
+struct BesideFitted {
+  BesideFitted(const Observations& observations, const Dictionary& dictionary,
+               const Eigen::VectorXd& remainder, const Eigen::MatrixXd& fitted);
+
+  double sum = 0;           ///< of the remainder's squares, less what the fitted columns may take
+  Eigen::VectorXd product;  ///< of the dictionary's columns with that remainder
+  Eigen::MatrixXd shared;   ///< of an orthonormal basis of the fitted columns with the dictionary's
+};
+
+/// Every entry; parameters out of bounds are held at zero, and entries of which nothing is left are
+/// left out. Unsorted.
+std::vector<Screened> screen(const std::vector<Hypothesis>& hypotheses,
+                             const Dictionary& dictionary, const BesideFitted& beside);
 
 /// Two entries that explain a residual together.
 struct ScreenedPair {
@@ -104,14 +112,12 @@ struct ScreenedPair {
   double sum = 0;  ///< of squares that both would leave
 };
 
-/// The best pairs beside columns that are fitted already (as in `screen`), of different effects or
-/// joints, one start each, the smallest criterion (BIC) first: each of the most promising entries
-/// with every other.
+/// The best pairs, of different effects or joints, one start each, the smallest criterion (BIC)
+/// first: each of the most promising entries with every other.
 std::vector<ScreenedPair> screen_pairs(const Observations& observations,
                                        const std::vector<Hypothesis>& hypotheses,
-                                       const Dictionary& dictionary,
-                                       const Eigen::VectorXd& remainder,
-                                       const Eigen::MatrixXd& fitted, std::size_t most);
+                                       const Dictionary& dictionary, const BesideFitted& beside,
+                                       std::size_t most);
 
 /// The remainder of a fit of all linear entries at once to what is unexplained (all samples, over
 /// the noise): the fullest fit there is.

@@ -13,8 +13,7 @@ namespace {
 
 constexpr double kUseless = 0.5;   // of a joint's compliance: not even a guess
 constexpr double kBlurred = 2e-3;  // rad, beyond any error of an encoder's zero
-constexpr double kReversalBeyondNoise =
-    4;  // deviations: noise alone reverses in one of 16,000 rows
+constexpr double kSureSpeed = 4;   // deviations: noise alone reverses in one of 16,000 rows
 constexpr double kUnknownSize = std::numeric_limits<double>::infinity();
 
 int reversals_of(const Observations& observations, int joint) {
@@ -23,8 +22,7 @@ int reversals_of(const Observations& observations, int joint) {
     int direction = 0;
     for (Eigen::Index row = 0; row < scene.rows() && !scene.is_static; ++row) {
       const double speed = scene.velocity(row, joint - 1);
-      const bool is_noise =
-          std::abs(speed) < kReversalBeyondNoise * scene.velocity_noise[joint - 1];
+      const bool is_noise = std::abs(speed) < kSureSpeed * scene.velocity_noise[joint - 1];
       const int now = is_noise ? 0 : simulation::direction_of_motion(speed);
       count += now * direction < 0 ? 1 : 0;
       direction = now != 0 ? now : direction;

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "diagnosis/dictionary.hpp"
-#include "linear_algebra/span.hpp"
 
 namespace flexcomp::diagnosis {
 namespace {
@@ -14,19 +13,11 @@ constexpr std::size_t kMostPromising = 80;  // singles, each paired with all: ti
 class PairSolver {
  public:
   PairSolver(const Observations& observations, const std::vector<Hypothesis>& hypotheses,
-             const Dictionary& dictionary, const Eigen::VectorXd& remainder,
-             const Eigen::MatrixXd& fitted)
-      : hypotheses_(hypotheses), dictionary_(dictionary) {
-    const Eigen::Index n = observations.train;
-    const auto columns = dictionary.columns.topRows(n);
-    const Eigen::MatrixXd orthonormal = linear_algebra::orthonormal_basis(fitted.topRows(n));
-    Eigen::VectorXd left = remainder.head(n);
-    left -= orthonormal * (orthonormal.transpose() * left);
-    sum_ = left.squaredNorm();
-    product_ = columns.transpose() * left;
-    shared_ = orthonormal.transpose() * columns;
-    samples_ = static_cast<double>(n);
-  }
+             const Dictionary& dictionary, const BesideFitted& beside)
+      : hypotheses_(hypotheses),
+        dictionary_(dictionary),
+        beside_(beside),
+        samples_(static_cast<double>(observations.train)) {}
 
   /// The smaller the better; infinite where an amplitude leaves its bounds.
   double criterion(std::size_t a, std::size_t b, ScreenedPair* pair) const {
@@ -40,16 +31,17 @@ class PairSolver {
     inner.topRightCorner(m, n - m) = whole_product(first, second);
     inner.bottomLeftCorner(n - m, m) = inner.topRightCorner(m, n - m).transpose();
     const Eigen::VectorXd scale = inner.diagonal().cwiseSqrt();
-    Eigen::MatrixXd common(shared_.rows(), n);
-    common << shared_.middleCols(first.first, m), shared_.middleCols(second.first, n - m);
+    Eigen::MatrixXd common(beside_.shared.rows(), n);
+    common << beside_.shared.middleCols(first.first, m),
+        beside_.shared.middleCols(second.first, n - m);
     inner -= common.transpose() * common;
     Eigen::VectorXd moment(n);
-    moment << product_.segment(first.first, m), product_.segment(second.first, n - m);
+    moment << beside_.product.segment(first.first, m), beside_.product.segment(second.first, n - m);
     const Hypothesis& one = hypotheses_[first.hypothesis];
     const Hypothesis& other = hypotheses_[second.hypothesis];
     const LeastSquares solved = solve_within_bounds({&one, &other}, inner, moment, scale);
     const Eigen::VectorXd& amplitude = solved.amplitude;
-    pair->sum = std::max(sum_ - solved.gain, 1e-9);
+    pair->sum = std::max(beside_.sum - solved.gain, 1e-9);
     pair->first = {a, pair->sum, amplitude.head(m)};
     pair->second = {b, pair->sum, amplitude.tail(n - m)};
     if (!amplitude.allFinite() || !within_bounds(one, amplitude.head(m)) ||
@@ -68,24 +60,21 @@ class PairSolver {
 
   const std::vector<Hypothesis>& hypotheses_;
   const Dictionary& dictionary_;
-  double sum_ = 0;  // of squares, less what the fitted columns may take
-  double samples_ = 0;
-  Eigen::VectorXd product_;
-  Eigen::MatrixXd shared_;  // of the dictionary's columns with those fitted already
+  const BesideFitted& beside_;
+  double samples_;
 };
 
 }  // namespace
 
 std::vector<ScreenedPair> screen_pairs(const Observations& observations,
                                        const std::vector<Hypothesis>& hypotheses,
-                                       const Dictionary& dictionary,
-                                       const Eigen::VectorXd& remainder,
-                                       const Eigen::MatrixXd& fitted, std::size_t most) {
-  std::vector<Screened> singles = screen(observations, hypotheses, dictionary, remainder, fitted);
+                                       const Dictionary& dictionary, const BesideFitted& beside,
+                                       std::size_t most) {
+  std::vector<Screened> singles = screen(hypotheses, dictionary, beside);
   std::sort(singles.begin(), singles.end(),
             [](const Screened& a, const Screened& b) { return a.sum < b.sum; });
   singles.resize(std::min(singles.size(), kMostPromising));
-  const PairSolver solver(observations, hypotheses, dictionary, remainder, fitted);
+  const PairSolver solver(observations, hypotheses, dictionary, beside);
   std::vector<std::pair<double, ScreenedPair>> found;
   for (const Screened& single : singles) {
     const std::size_t own = dictionary.entries[single.entry].hypothesis;

@@ -1,7 +1,6 @@
 // The choice among several attempts, and what stays with it.
 #include <Eigen/Geometry>
 #include <Eigen/QR>
-#include <algorithm>
 #include <numeric>
 #include <set>
 
@@ -115,8 +114,9 @@ void a_pair_is_screened_beside_what_is_fitted() {
                               [](std::size_t, std::size_t) {});
   const Eigen::Index n = observations.train;
   const Eigen::MatrixXd fitted = dictionary.columns.leftCols(3);
-  const std::vector<ScreenedPair> pairs = screen_pairs(
-      observations, dictionary.hypotheses, dictionary, observations.residual, fitted, 3);
+  const BesideFitted beside(observations, dictionary, observations.residual, fitted);
+  const std::vector<ScreenedPair> pairs =
+      screen_pairs(observations, dictionary.hypotheses, dictionary, beside, 3);
   TEST_ASSERT_FALSE(pairs.empty());
   for (const ScreenedPair& pair : pairs) {
     const Entry& first = dictionary.entries[pair.first.entry];

@@ -22,7 +22,7 @@ void add_candidates(const Observations& observations, const Fit& fit, const Dict
                     bool is_sought, std::vector<Candidate>* all) {
   const std::vector<Hypothesis>& hypotheses = dictionary.hypotheses;
   const std::vector<Screened> screened =
-      screen(observations, hypotheses, dictionary, fit.remainder, fit.derivative);
+      screen(hypotheses, dictionary, {observations, dictionary, fit.remainder, fit.derivative});
   std::vector<const Screened*> best(hypotheses.size(), nullptr);
   for (const Screened& each : screened) {
     const std::size_t hypothesis = dictionary.entries[each.entry].hypothesis;
@@ -93,10 +93,10 @@ std::vector<Ranked> rank(const std::vector<Candidate>& candidates) {
 
 std::vector<Fit> propose_pairs(const Inquiry& inquiry, const Fit& before) {
   const Dictionary& dictionary = inquiry.dictionary;
+  const BesideFitted beside(inquiry.observations, dictionary, before.remainder, before.derivative);
   std::vector<Fit> fits;
   for (const ScreenedPair& pair :
-       screen_pairs(inquiry.observations, dictionary.hypotheses, dictionary, before.remainder,
-                    before.derivative, kPairs)) {
+       screen_pairs(inquiry.observations, dictionary.hypotheses, dictionary, beside, kPairs)) {
     std::vector<Chosen> chosen = before.chosen;
     for (const Screened& each : {pair.first, pair.second}) {
       chosen.push_back(chosen_of(dictionary, each));
