@@ -309,8 +309,8 @@ class Feeder:
         return received
 
     def run_until(self, done, before=(), longest=5):
-        """Feeds until `done` holds of the frames received `before` and since, for the longest time at most; those
-        since."""
+        """Feeds until `done` holds of the frames received `before` and since, for the longest time (s) at most;
+        those since."""
         received = []
         end = time.monotonic() + longest
         while not received or not done([*before, *received]) and time.monotonic() < end:
@@ -350,6 +350,9 @@ def of_names(received, *names):
     return decoded(frame for frame in received if frame.arbitration_id in identifiers)
 
 
+TRANSFERRED_WITHIN = 60  # s after the last frame was handed over: beside other tests 5 s were too few
+
+
 def transfer(feeder, frames):
     """Sends them between setpoints; what was received, and the replies to begin and end in it. Goes on until
     the node has said after them which table it uses: a slow line is still busy with the frames when the
@@ -359,7 +362,7 @@ def transfer(feeder, frames):
         return len(replies_in(told)) >= 2 and told[-1][0] == "Heartbeat"
 
     received = feeder.run(1.0, frames)
-    received += feeder.run_until(has_told, received)
+    received += feeder.run_until(has_told, received, TRANSFERRED_WITHIN)
     return received, replies_in(of_names(received, "TransferReply"))
 
 
