@@ -311,7 +311,7 @@ void diagnose(const DiagnoseOptions& options, diagnosis::Settings settings,
   const std::filesystem::path folder(options.out);
   const std::filesystem::path updated = folder / "updated_model.yaml";
   const std::string yaml =
-      model::robot_text(updated, updated_robot(robot, known, result.updated().placed()));
+      model::robot_text(updated, updated_robot(robot, known, result.updated().placed(observations)));
   output_folder(options.out);
   files::write_texts(
       {{folder / "diagnosis.json", json}, {folder / "report.html", html}, {updated, yaml}});

@@ -9,6 +9,7 @@
 #include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/refit.hpp"
 #include "diagnosis/registration.hpp"
+#include "diagnosis/seek_changes.hpp"
 #include "diagnosis/seek_laws.hpp"
 #include "diagnosis/select/confounders.hpp"
 #include "diagnosis/select/forms.hpp"
@@ -119,7 +120,7 @@ void refit_open(const Inquiry& inquiry, const std::vector<Hypothesis>& hypothese
 }
 
 /// Suggests what to record next: what tells a finding from its nearest alternative, else what shows
-/// the cause of a law in time.
+/// the cause of a law in time, or of what came and went.
 void suggest(const Observations& observations, Diagnosis* diagnosis) {
   for (std::size_t i = 0; i < diagnosis->choice.findings.size(); ++i) {
     const std::vector<Alternative>& others = diagnosis->choice.findings[i].alternatives;
@@ -130,7 +131,11 @@ void suggest(const Observations& observations, Diagnosis* diagnosis) {
   }
   for (const Finding& finding : diagnosis->choice.findings) {
     if (diagnosis->suggested_experiment.empty()) {
-      diagnosis->suggested_experiment = grammar::next_recording(finding.chosen);
+      diagnosis->suggested_experiment =
+          finding.chosen.hypothesis.when
+              ? "the same motion again, once as before the change and once as after it: both alone "
+                "tell the numbers of each, and whether it comes again"
+              : grammar::next_recording(finding.chosen);
     }
   }
 }
@@ -204,6 +209,7 @@ Diagnosis diagnose(Observations* observations, const std::vector<Hypothesis>& hy
   if (const auto events = events_left(*observations, diagnosis); !events.empty()) {
     return diagnose_without(events, observations, hypotheses, settings);
   }
+  seek_changes(inquiry, settings.choosing, &diagnosis);
   refit_open(inquiry, hypotheses, settings.choosing, &diagnosis);
   if (!diagnosis.is_weighed_whole) {
     settle_forms(inquiry, &diagnosis.choice);

@@ -169,6 +169,38 @@ Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis>
   gram = linear_algebra::gram_of(columns.topRows(observations.train));
 }
 
+Dictionary Dictionary::with_spells(const Observations& observations,
+                                   const std::vector<std::size_t>& of,
+                                   const std::shared_ptr<const Spells>& when) const {
+  const Eigen::Index n = observations.train;
+  const Eigen::VectorXd acts = when->by_sample(observations, observations.size());
+  Dictionary both = *this;
+  Eigen::Index first = columns.cols();
+  Eigen::Index count = first;
+  for (const std::size_t at : of) {
+    count += entries[at].count;
+  }
+  both.columns.conservativeResize(Eigen::NoChange, count);
+  for (const std::size_t at : of) {
+    Entry entry = entries[at];
+    both.columns.middleCols(first, entry.count) =
+        acts.asDiagonal() * columns.middleCols(entry.first, entry.count);
+    both.hypotheses.push_back(hypotheses[entry.hypothesis]);
+    both.hypotheses.back().when = when;
+    both.hypotheses.back().starts = {entry.start};
+    both.hypotheses.back().seek = nullptr;
+    entry.hypothesis = both.hypotheses.size() - 1;
+    entry.first = first;
+    both.entries.push_back(std::move(entry));
+    first += entries[at].count;
+  }
+  const auto added = both.columns.topRows(n).rightCols(count - columns.cols());
+  both.gram.conservativeResize(count, count);
+  both.gram.rightCols(added.cols()) = both.columns.topRows(n).transpose() * added;
+  both.gram.bottomRows(added.cols()) = both.gram.rightCols(added.cols()).transpose();
+  return both;
+}
+
 const Entry* Dictionary::find(const Hypothesis& hypothesis) const {
   for (const Entry& entry : entries) {
     const Hypothesis& own = hypotheses[entry.hypothesis];

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "diagnosis/search/hypothesis.hpp"
@@ -52,6 +53,10 @@ class Dictionary {
   /// The dictionary of a machine that is the observations' model with what is known of it already.
   Dictionary(const Observations& observations, std::vector<Hypothesis> all, const Machine& around,
              const std::function<void(std::size_t, std::size_t)>& progress);
+
+  /// The same, and behind it hypotheses of some entries that act at those times only.
+  Dictionary with_spells(const Observations& observations, const std::vector<std::size_t>& of,
+                         const std::shared_ptr<const Spells>& when) const;
 
   /// The first entry of a hypothesis; null where it does not show.
   const Entry* find(const Hypothesis& hypothesis) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/gains.hpp"
 #include "error.hpp"
@@ -34,6 +35,18 @@ Evaluator::Evaluator(const Observations& observations, std::vector<Chosen> chose
       alters_.push_back(alters);
       known_.push_back(entry != nullptr ? entry->first + static_cast<Eigen::Index>(i) : -1);
     }
+    when_ = each.hypothesis.when ? each.hypothesis.when : when_;
+  }
+  if (when_) {
+    std::vector<Chosen> acting = chosen_;
+    std::vector<Chosen> idle;
+    for (Chosen& each : acting) {
+      if (!std::exchange(each.hypothesis.when, nullptr)) {
+        idle.push_back(each);
+      }
+    }
+    acting_ = std::make_unique<Evaluator>(observations, std::move(acting), dictionary);
+    idle_ = std::make_unique<Evaluator>(observations, std::move(idle), dictionary);
   }
 }
 
@@ -85,6 +98,15 @@ void Evaluator::keep_within_bounds() {
     for (std::size_t i = 0; i < each.values.size(); ++i) {
       const Parameter& bounds = each.hypothesis.parameters[i];
       each.values[i] = std::clamp(each.values[i], bounds.lower, bounds.upper);
+    }
+  }
+}
+
+void Evaluator::simulate_all() {
+  train_scenes_ = observations_.scenes.size();
+  for (Evaluator* each : {acting_.get(), idle_.get()}) {
+    if (each != nullptr) {
+      each->simulate_all();
     }
   }
 }
@@ -192,11 +214,55 @@ Eigen::VectorXd Evaluator::stepped(const Scenes& scenes, const Values& values, s
              : prediction(scenes, changed, simulations);
 }
 
+/// The machine while some act in the rows in which they do, and the machine without them in all
+/// others. All that come and go do so together.
+Eigen::VectorXd Evaluator::evaluate_by_turns(bool all, const Values& values,
+                                             Eigen::MatrixXd* derivative) {
+  set(values);
+  const auto evaluate_one = [&](Evaluator* one, Eigen::MatrixXd* slope) {
+    return all ? one->evaluate(one->values(), slope) : one->evaluate_to_fit(one->values(), slope);
+  };
+  acting_->set(values);
+  Values of_others;
+  for (const Chosen& each : chosen_) {
+    if (!each.hypothesis.when) {
+      of_others.insert(of_others.end(), each.values.begin(), each.values.end());
+    }
+  }
+  idle_->set(of_others);
+  Eigen::MatrixXd idle_slope;
+  Eigen::VectorXd predicted = evaluate_one(acting_.get(), derivative);
+  const Eigen::VectorXd idle =
+      evaluate_one(idle_.get(), derivative != nullptr ? &idle_slope : nullptr);
+  const Eigen::VectorXd acts = when_->by_sample(observations_, predicted.size());
+  predicted = idle + acts.cwiseProduct(predicted - idle);
+  if (derivative != nullptr) {
+    Eigen::Index of_all = 0;
+    Eigen::Index of_idle = 0;
+    for (const Chosen& each : chosen_) {
+      for (std::size_t i = 0; i < each.values.size(); ++i, ++of_all) {
+        auto column = derivative->col(of_all);
+        column = column.cwiseProduct(acts).eval();
+        if (!each.hypothesis.when) {
+          column += (1 - acts.array()).matrix().cwiseProduct(idle_slope.col(of_idle++));
+        }
+      }
+    }
+  }
+  return predicted;
+}
+
 Eigen::VectorXd Evaluator::evaluate_to_fit(const Values& values, Eigen::MatrixXd* derivative) {
+  if (when_) {
+    return evaluate_by_turns(false, values, derivative);
+  }
   return evaluate_in({observations_.scenes, train_scenes_}, values, derivative);
 }
 
 Eigen::VectorXd Evaluator::evaluate(const Values& values, Eigen::MatrixXd* derivative) {
+  if (when_) {
+    return evaluate_by_turns(true, values, derivative);
+  }
   return evaluate_in(observations_.scenes, values, derivative);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "diagnosis/bodies.hpp"
@@ -30,7 +31,7 @@ class Evaluator {
   /// Moves what is beyond a parameter's bounds to them.
   void keep_within_bounds();
   /// Simulates also scenes that are held out whole, when the samples to fit to are wanted.
-  void simulate_all() { train_scenes_ = observations_.scenes.size(); }
+  void simulate_all();
   /// Halves what acts in proportion.
   void halve_amplitudes();
 
@@ -48,6 +49,7 @@ class Evaluator {
  private:
   Eigen::VectorXd evaluate_in(const Scenes& scenes, const Values& values,
                               Eigen::MatrixXd* derivative);
+  Eigen::VectorXd evaluate_by_turns(bool all, const Values& values, Eigen::MatrixXd* derivative);
   Eigen::VectorXd gains_over_dictionary(Eigen::Index count) const;
   /// The chosen hypotheses at other values, and the machine with them.
   std::vector<effects::Placed> placed_at(const Values& values) const;
@@ -73,6 +75,9 @@ class Evaluator {
   std::vector<simulation::RigidTorque> rigid_;  ///< of the machine evaluated last
   Values simulated_at_;                         ///< values that alter the model, and what it does
   std::vector<Simulation> simulations_;         ///< with them; none yet at first
+  /// Where some come and go: the machine while they act, the machine while they do not, and when.
+  std::unique_ptr<Evaluator> acting_, idle_;
+  std::shared_ptr<const Spells> when_;
 };
 
 }  // namespace flexcomp::diagnosis

@@ -238,11 +238,22 @@ Eigen::MatrixXd Fit::covariance_of(std::size_t index) const {
   return covariance.block(first, first, count, count);
 }
 
-std::vector<effects::Placed> Fit::placed() const { return placed_of(chosen); }
+std::vector<effects::Placed> Fit::placed(const Observations& observations) const {
+  return placed_of(as_left(observations, chosen));
+}
+
+std::vector<Chosen> as_left(const Observations& observations, std::vector<Chosen> chosen) {
+  const auto has_ceased = [&](const Chosen& each) {
+    const auto& when = each.hypothesis.when;
+    return when && !when->lasts(observations);
+  };
+  chosen.erase(std::remove_if(chosen.begin(), chosen.end(), has_ceased), chosen.end());
+  return chosen;
+}
 
 Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen) {
   Machine machine = observations.machine;
-  effects::add_effects(placed_of(chosen), &machine);
+  effects::add_effects(placed_of(as_left(observations, chosen)), &machine);
   return machine;
 }
 
@@ -288,10 +299,9 @@ double cancellation(const Observations& observations, const Fit& fit) {
   const Eigen::VectorXd base = observations.stacked(observations.predictions);
   double parts = 0;
   for (const Chosen& chosen : fit.chosen) {
-    const Machine alone = machine_with(observations, {chosen});
+    Evaluator alone(observations, {chosen}, nullptr);
     try {
-      parts +=
-          (observations.stacked(predict(alone, observations.scenes)) - base).head(n).squaredNorm();
+      parts += (alone.evaluate_to_fit(alone.values(), nullptr) - base).head(n).squaredNorm();
     } catch (const InputError&) {
       return std::numeric_limits<double>::infinity();  // no rest without the others
     }

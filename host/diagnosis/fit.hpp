@@ -24,7 +24,7 @@ bool is_chosen(const std::vector<Chosen>& chosen, const Hypothesis& hypothesis);
 /// Hypotheses fitted together to the samples to fit to.
 struct Fit {
   std::vector<Chosen> chosen;
-  Machine machine;             ///< the model with them
+  Machine machine;             ///< the model with them, as it was left (`as_left`)
   Eigen::VectorXd remainder;   ///< all samples: measured less predicted, over the noise
   Eigen::MatrixXd derivative;  ///< samples × parameters, of the prediction over the noise
   /// Parameters × parameters; zero where nothing depends on one. Wider than for independent errors
@@ -38,8 +38,8 @@ struct Fit {
   Eigen::Index first_parameter(std::size_t index) const;
   /// Covariance of the values of one that was chosen.
   Eigen::MatrixXd covariance_of(std::size_t index) const;
-  /// The chosen hypotheses as laws of the machine.
-  std::vector<effects::Placed> placed() const;
+  /// The chosen hypotheses as laws of the machine, as it was left.
+  std::vector<effects::Placed> placed(const Observations& observations) const;
 };
 
 /// Weights by Huber's function of a remainder over the noise: one within three deviations of what
@@ -55,7 +55,10 @@ constexpr double kFarOff = 6;
 /// A remainder over the noise, with outliers cut down to the largest value that is none.
 Eigen::VectorXd clipped(const Eigen::VectorXd& remainder);
 
-/// The machine with hypotheses added to the observations' model.
+/// Those of them that act when the recordings end: what comes and goes may not.
+std::vector<Chosen> as_left(const Observations& observations, std::vector<Chosen> chosen);
+
+/// The machine with hypotheses added to the observations' model, as it was left.
 Machine machine_with(const Observations& observations, const std::vector<Chosen>& chosen);
 
 /// Fits parameters within their bounds (least_squares.hpp) from given values on, with weights by

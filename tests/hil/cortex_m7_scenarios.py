@@ -12,7 +12,7 @@ import tempfile
 import time
 import unittest
 
-from bench_on_a_bus import (BIN, BUS, STATES, Feeder, HilTest, Job, corrections, decoded, flexcomp,
+from bench_on_a_bus import (BIN, BUS, STATES, Feeder, HilTest, Job, corrections, decoded, flexcomp, of_names,
                             other_table, state_of, states, table_frames, transfer)
 from circle_on_a_bus import LARGEST_SHARE, mill
 
@@ -120,7 +120,8 @@ class InRealTime(Fed):
     def test_it_speaks_as_flexcompd_does_with_its_table_in_flash(self):
         received = self.bring_up()
         self.peer.command("report")
-        received += self.feeder.run(1.0)
+        received += self.feeder.run_until(lambda since: len(of_names(since, "Statistic")) >= STATISTICS,
+                                          longest=LONGEST)
         names = {name for name, _ in decoded(received)}
         self.assertLessEqual({"CorrectedA", "UncorrectedC", "Status", "Latched", "Heartbeat", "TableLow",
                               "TableHigh", "Statistic", "CommandReply"}, names)

@@ -107,6 +107,20 @@ Json places(const std::vector<Place>& all) {
   return json;
 }
 
+/// When a finding acts that comes and goes; null where it always does.
+Json when_json(const Observations& observations, const std::shared_ptr<const Spells>& when) {
+  if (!when) {
+    return nullptr;
+  }
+  Json json = Json::array();
+  for (const Spell& spell : when->all()) {
+    const Scene& scene = observations.scenes[spell.scene];
+    json.push_back({{"file", scene.file},
+                    {"time", {scene.time[spell.rows.first], scene.time[spell.rows.end - 1]}}});
+  }
+  return json;
+}
+
 Json finding_json(const Observations& observations, const Diagnosis& diagnosis, std::size_t index) {
   const Choice& choice = diagnosis.choice;
   const Finding& finding = choice.findings[index];
@@ -121,7 +135,8 @@ Json finding_json(const Observations& observations, const Diagnosis& diagnosis, 
   const Channel channel = main_channel(observations, finding.without, diagnosis.weighed());
   Json json = {{"effect", hypothesis.effect()},
                {"form", form_or_null(hypothesis)},
-               {"joint", joint_or_null(hypothesis.joint)}};
+               {"joint", joint_or_null(hypothesis.joint)},
+               {"when", when_json(observations, hypothesis.when)}};
   if (hypothesis.law->written) {
     json.update(formula_json(*hypothesis.law->written));
   }

@@ -87,6 +87,44 @@ Fit as_given(const Observations& observations) {
   return nothing;
 }
 
+std::string file_name(const Observations& observations, std::size_t scene) {
+  return std::filesystem::path(observations.scenes[scene].file).filename().string();
+}
+
+/// "from 3.34 to 6.66 s, from 29.90 s on"
+std::string in_time(const Observations& observations, std::size_t scene,
+                    const std::vector<Spell>& spells) {
+  const Eigen::VectorXd& time = observations.scenes[scene].time;
+  std::vector<std::string> times;
+  for (const Spell& spell : spells) {
+    if (spell.scene != scene) {
+      continue;
+    }
+    const bool begins = spell.rows.first > 0;
+    const bool ends = spell.rows.end < time.size();
+    const double end = time[spell.rows.end - 1];
+    times.push_back(begins && ends
+                        ? fmt::format("from {:.2f} to {:.2f} s", time[spell.rows.first], end)
+                    : begins ? fmt::format("from {:.2f} s on", time[spell.rows.first])
+                    : ends   ? fmt::format("until {:.2f} s", end)
+                             : "all along");
+  }
+  return times.empty() ? "never" : first_few(times);
+}
+
+/// One sentence about when a finding acts that comes and goes, and one about the model.
+std::string statement_of_spells(const Observations& observations, const Spells& spells) {
+  const std::vector<Spell> all = spells.all();
+  std::vector<std::string> recordings;
+  for (std::size_t scene = 0; scene < observations.scenes.size(); ++scene) {
+    recordings.push_back(
+        fmt::format("in {} {}", file_name(observations, scene), in_time(observations, scene, all)));
+  }
+  return fmt::format(
+      " It does not always act: {}. updated_model.yaml has it {}.", first_few(recordings),
+      spells.lasts(observations) ? "as the last of them left it" : "not, since it had ceased");
+}
+
 }  // namespace
 
 std::string statement(const Observations& observations, const Diagnosis& diagnosis,
@@ -96,8 +134,10 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   clause.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(clause.front())));
   const std::string number =
       in_brackets(told_of(estimates(observations, found.chosen, found.covariance)));
-  return fmt::format("{}{}, which the model lacks: {}.", clause, number,
-                     fall(observations, found.without, diagnosis.weighed()));
+  const auto& when = found.chosen.hypothesis.when;
+  return fmt::format("{}{}, which the model lacks: {}.{}", clause, number,
+                     fall(observations, found.without, diagnosis.weighed()),
+                     when ? statement_of_spells(observations, *when) : "");
 }
 
 std::string statement_of_trial(const Observations& observations, const Trial& trial) {
@@ -170,9 +210,7 @@ std::string statement_of_event(const Observations& observations, const Event& ev
   }
   return fmt::format(
       "Something happened once, from {:.2f} to {:.2f} s of {}: {}. It is left out of all else.",
-      event.begin, event.end,
-      std::filesystem::path(observations.scenes[event.scene].file).filename().string(),
-      first_few(places));
+      event.begin, event.end, file_name(observations, event.scene), first_few(places));
 }
 
 std::string statement_of_left(const Diagnosis& diagnosis) {

@@ -29,7 +29,8 @@ bool are_the_same(const Hypothesis& a, const Hypothesis& b) {
                ? of.law->written->place + of.law->written->axis + of.law->written->formula
                : std::string();
   };
-  return a.effect() == b.effect() && a.joint == b.joint && written(a) == written(b);
+  return a.effect() == b.effect() && a.joint == b.joint && a.when == b.when &&
+         written(a) == written(b);
 }
 
 std::vector<Hypothesis> sought_anew(const Observations& observations,

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "diagnosis/observations.hpp"
+#include "diagnosis/spells.hpp"
 #include "effects/law.hpp"
 
 namespace flexcomp::diagnosis {
@@ -58,6 +60,8 @@ struct Hypothesis {
   /// (families/regression.hpp).
   bool is_regression = false;
   bool is_sketched = false;  ///< the law's sketch is near enough for a first look
+  /// When it acts, if it comes and goes; null where it always does.
+  std::shared_ptr<const Spells> when;
 
   const std::string& effect() const { return law->effect; }
   const effects::Traits& traits() const { return law->traits; }
@@ -71,7 +75,8 @@ struct Hypothesis {
   void set_bounds(const std::vector<Bounds>& bounds);
 };
 
-/// Are they the same effect at the same place, in whatever form, or the same formula there?
+/// Are they the same effect at the same place and the same times, in whatever form, or the same
+/// formula there?
 bool are_the_same(const Hypothesis& a, const Hypothesis& b);
 
 /// All hypotheses of all effects that could show in the observations, within what the machine can

@@ -1,0 +1,171 @@
+#include "diagnosis/seek_changes.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "diagnosis/evaluator.hpp"
+#include "diagnosis/find_spells.hpp"
+#include "diagnosis/select/standards.hpp"
+#include "diagnosis/verdict.hpp"
+
+namespace flexcomp::diagnosis {
+namespace {
+
+constexpr Eigen::Index kFewestToldRows = 400;  // of a recording: what is told in time
+constexpr double kLeastByTurns = 0.3;          // of the squares beyond the noise, to be looked into
+constexpr double kNearlyBest = 0.5;            // of the best gain, for spells to begin with
+constexpr std::size_t kMostLeads = 3;          // spells to begin with
+constexpr std::size_t kMostRivals = 30;        // that may act by those of a lead
+constexpr int kTurnRounds = 3;                 // of a fit and its spells: the third changes little
+
+bool has_short_one(const Observations& observations) {
+  return std::any_of(observations.scenes.begin(), observations.scenes.end(),
+                     [](const Scene& scene) { return scene.rows() < kFewestToldRows; });
+}
+
+/// What of a fit always acts.
+std::vector<Chosen> steady(const Fit& fit) {
+  std::vector<Chosen> all;
+  for (const Chosen& each : fit.chosen) {
+    if (!each.hypothesis.when) {
+      all.push_back(each);
+    }
+  }
+  return all;
+}
+
+/// A fit with a hypothesis more that comes and goes: its moments by rows, its values by these.
+Fit fit_by_turns(const Inquiry& inquiry, const Fit& begun, const Spelled& spelled) {
+  const Observations& observations = inquiry.observations;
+  const Dictionary& dictionary = inquiry.dictionary;
+  const Entry& entry = dictionary.entries[spelled.entry];
+  Hypothesis hypothesis = dictionary.hypotheses[entry.hypothesis];
+  hypothesis.when = std::make_shared<const Spells>(spelled.spells);
+  Values start(hypothesis.linear, 0.0);
+  start.insert(start.end(), entry.start.begin(), entry.start.end());
+  Chosen chosen{std::move(hypothesis), std::move(start)};
+  Fit grown;
+  for (int round = 0; round < kTurnRounds; ++round) {
+    grown = fit_with(inquiry, begun, chosen, kSteps);
+    std::vector<Chosen> idle = grown.chosen;
+    std::vector<Chosen> acting = grown.chosen;
+    idle.pop_back();
+    acting.back().hypothesis.when = nullptr;
+    const Fit without = fit(observations, std::move(idle), 0);
+    const Fit always = fit(observations, std::move(acting), 0);
+    Spells spells =
+        spells_of(observations, without.remainder, without.remainder - always.remainder);
+    if (spells.acts == grown.chosen.back().hypothesis.when->acts) {
+      break;
+    }
+    chosen = grown.chosen.back();
+    chosen.hypothesis.when = std::make_shared<const Spells>(std::move(spells));
+  }
+  return grown;
+}
+
+/// Those to begin with: of so many moments each the best, the fewest moments first.
+std::vector<const Spelled*> leads_of(const Observations& observations, const Fit& beside,
+                                     const std::vector<Spelled>& all) {
+  const double beyond = clipped(beside.remainder.head(observations.train)).squaredNorm() -
+                        static_cast<double>(observations.train);
+  std::map<std::size_t, const Spelled*> by_moments;
+  for (const Spelled& each : all) {
+    if (each.gain > std::max(kNearlyBest * all.front().gain, kLeastByTurns * beyond)) {
+      by_moments.emplace(each.spells.changes(), &each);
+    }
+  }
+  std::vector<const Spelled*> leads;
+  for (const auto& [moments, lead] : by_moments) {
+    if (leads.size() < kMostLeads) {
+      leads.push_back(lead);
+    }
+  }
+  return leads;
+}
+
+/// What is chosen if effects may act at the times of one only, beside all others; no findings where
+/// none does.
+Choice chosen_by_turns(const Inquiry& inquiry, const Fit& begun, const std::vector<Spelled>& all,
+                       const Spelled& lead, const TellStage& tell) {
+  const Fit grown = fit_by_turns(inquiry, begun, lead);
+  std::vector<std::size_t> rivals;
+  for (const Spelled& each : all) {
+    if (rivals.size() < kMostRivals) {
+      rivals.push_back(each.entry);
+    }
+  }
+  const Dictionary both = inquiry.dictionary.with_spells(inquiry.observations, rivals,
+                                                         grown.chosen.back().hypothesis.when);
+  const Inquiry changed{inquiry.observations, both, inquiry.false_discovery, inquiry.given};
+  Choice choice = conclude(changed, grow(changed, {begun, seek(changed, begun)}, tell));
+  return steady(choice.fit).size() < choice.fit.chosen.size() ? choice : Choice{};
+}
+
+/// The diagnosis by what is chosen, if no more than noise is left; else nothing.
+std::optional<Diagnosis> explained_by(const Observations& observations, const Diagnosis& before,
+                                      Choice choice) {
+  if (choice.findings.empty()) {
+    return std::nullopt;
+  }
+  Diagnosis changed = before;
+  choice.ranking = changed.choice.ranking;
+  changed.choice = std::move(choice);
+  changed.nearest.clear();
+  changed.indistinguishable.clear();
+  changed.proposal.clear();
+  judge(observations, &changed);
+  return is_open(changed) ? std::nullopt : std::make_optional(std::move(changed));
+}
+
+/// The diagnosis with what comes and goes beside a fit, if that explains all.
+std::optional<Diagnosis> explained_beside(const Inquiry& inquiry, const Fit& begun,
+                                          const Diagnosis& before, const TellStage& tell) {
+  const Observations& observations = inquiry.observations;
+  const std::vector<Spelled> all = find_spells(observations, inquiry.dictionary, begun);
+  for (const Spelled* lead : leads_of(observations, begun, all)) {
+    Choice choice = chosen_by_turns(inquiry, begun, all, *lead, tell);
+    if (std::optional<Diagnosis> found = explained_by(observations, before, std::move(choice))) {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The same, and once more beside what of it always acts: until that was known, what comes and goes
+/// had to say some of it.
+std::optional<Diagnosis> explained_twice(const Inquiry& inquiry, const Fit& begun,
+                                         const Diagnosis& before, const TellStage& tell) {
+  std::optional<Diagnosis> first = explained_beside(inquiry, begun, before, tell);
+  if (!first || steady(first->choice.fit).size() == begun.chosen.size()) {
+    return first;
+  }
+  const Fit known = fit(inquiry.observations, steady(first->choice.fit), kSteps);
+  std::optional<Diagnosis> second = explained_beside(inquiry, known, before, tell);
+  const bool is_better =
+      second && criterion(inquiry.observations, second->choice.fit) <
+                    criterion(inquiry.observations, first->choice.fit) + kIndifferent;
+  return is_better ? second : first;
+}
+
+}  // namespace
+
+void seek_changes(const Inquiry& inquiry, const TellStage& tell, Diagnosis* diagnosis) {
+  const Observations& observations = inquiry.observations;
+  if (!is_open(*diagnosis) || observations.is_static || has_short_one(observations)) {
+    return;
+  }
+  tell("seeking what changed meanwhile");
+  const Fit found = diagnosis->choice.fit;
+  std::optional<Diagnosis> changed = explained_twice(inquiry, found, *diagnosis, tell);
+  if (!changed && found.chosen.size() > inquiry.given.chosen.size()) {
+    changed = explained_twice(inquiry, inquiry.given, *diagnosis, tell);
+  }
+  if (changed) {
+    *diagnosis = std::move(*changed);
+  }
+}
+
+}  // namespace flexcomp::diagnosis
