@@ -1,5 +1,6 @@
 #include "diagnosis/fit.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -156,35 +157,34 @@ Eigen::VectorXd fit_and_predict(const Eigen::VectorXd& to_fit, int most_steps, b
   return evaluator->evaluate(evaluator->values(), derivative);
 }
 
-/// Moves the prediction of one scene along an effect to where it fits best.
+/// Moves the prediction of one scene along columns to where it fits best.
 void fit_scene(const Observations& observations, std::size_t scene, const Eigen::VectorXd& measured,
-               const Eigen::VectorXd& effect, Eigen::VectorXd* predicted) {
+               const Eigen::MatrixXd& columns, Eigen::VectorXd* predicted) {
   std::vector<Eigen::Index> own;
-  double product = 0;
-  double square = 0;
   for (Eigen::Index i = observations.train; i < observations.size(); ++i) {
     if (observations.samples[static_cast<std::size_t>(i)].scene == scene) {
       own.push_back(i);
-      product += effect[i] * std::clamp(measured[i] - (*predicted)[i], -kGross, kGross);
-      square += effect[i] * effect[i];
     }
   }
-  for (const Eigen::Index i : own) {
-    (*predicted)[i] += square > 0 ? effect[i] * product / square : 0;
-  }
+  const Eigen::MatrixXd change = columns(own, Eigen::all);
+  const Eigen::VectorXd left = (measured - *predicted)(own).cwiseMax(-kGross).cwiseMin(kGross);
+  (*predicted)(own) += change * change.completeOrthogonalDecomposition().solve(left);
 }
 
-/// A recording that is held out began elsewhere: what lags begins there as fits it, which says
-/// nothing of the machine.
+/// A recording that is held out began elsewhere: what lags begins there as fits it, and a tone has
+/// another phase. Neither says anything of the machine.
 void begin_held_out_anew(const Observations& observations, const Evaluator& evaluator,
                          const Eigen::VectorXd& measured, const Eigen::MatrixXd& derivative,
                          Eigen::VectorXd* predicted) {
+  std::vector<Eigen::Index> anew;
   for (std::size_t at = 0; at < evaluator.size(); ++at) {
-    for (std::size_t scene = observations.train_scenes;
-         evaluator.parameter(at).is_of_recording && scene < observations.scenes.size(); ++scene) {
-      fit_scene(observations, scene, measured, derivative.col(static_cast<Eigen::Index>(at)),
-                predicted);
+    if (evaluator.parameter(at).is_of_recording || evaluator.parameter(at).is_of_each) {
+      anew.push_back(static_cast<Eigen::Index>(at));
     }
+  }
+  for (std::size_t scene = observations.train_scenes;
+       !anew.empty() && scene < observations.scenes.size(); ++scene) {
+    fit_scene(observations, scene, measured, derivative(Eigen::all, anew), predicted);
   }
 }
 

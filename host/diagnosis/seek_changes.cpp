@@ -13,7 +13,7 @@
 namespace flexcomp::diagnosis {
 namespace {
 
-constexpr Eigen::Index kFewestToldRows = 400;  // of a recording: what is told in time
+constexpr Eigen::Index kFewestToldRows = 200;  // of a recording: what is told in time
 constexpr double kLeastByTurns = 0.3;          // of the squares beyond the noise, to be looked into
 constexpr double kNearlyBest = 0.5;            // of the best gain, for spells to begin with
 constexpr std::size_t kMostLeads = 3;          // spells to begin with

@@ -69,14 +69,28 @@ class Periodogram {
   std::vector<std::complex<double>> turn_;
 };
 
+/// Time between samples, in most cases: recordings that follow each other begin at times of their
+/// own.
+double time_step(const Driver& time) {
+  std::vector<double> steps;
+  for (Eigen::Index row = 1; row < time.course.size(); ++row) {
+    const double step = time.course[row] - time.course[row - 1];
+    if (step > 0) {
+      steps.push_back(step);
+    }
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
 /// The wave of any order that gains most.
 template <int Terms, typename SizeOf>
 Wave best_of_orders(const Seat& seat, const Driver& driver, SizeOf size_of) {
   const double first = 2 * M_PI * kLeastPeriods / driver.span();
   const double spacing = kSpacing / driver.span();
-  const auto rows = static_cast<double>(seat.weight.size());
-  const double last =
-      driver.kind == effects::SignalKind::time ? M_PI * rows / driver.span() : kMostOrder;
+  const bool is_time = driver.kind == effects::SignalKind::time;
+  const double last = is_time ? M_PI / time_step(driver) : kMostOrder;
   Wave best;
   Periodogram<Terms> along(seat, driver, first, spacing, size_of);
   for (double order = first; order < last; order += spacing) {

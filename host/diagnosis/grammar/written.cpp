@@ -131,6 +131,9 @@ Chosen chosen_of(const Observations& observations, const Composed& composed) {
     begun.push_back(values[static_cast<std::size_t>(at)]);
   }
   hypothesis.set_bounds(ordered);
+  for (std::size_t i = 0; i < hypothesis.linear; ++i) {
+    hypothesis.parameters[i].is_of_each = composed.form.shape->trait == ShapeTrait::tone;
+  }
   hypothesis.starts = {
       Values(begun.begin() + static_cast<std::ptrdiff_t>(hypothesis.linear), begun.end())};
   return {std::move(hypothesis), std::move(begun)};

@@ -39,6 +39,9 @@ struct Parameter {
   /// Times as uncertain as among what is fitted: numbers that were left out could do the same.
   double widening = 1;
   bool is_of_recording = false;  ///< no number of the machine (effects/law.hpp)
+  /// Another in every recording, as a tone's phase: what is held out is predicted by one of its
+  /// own.
+  bool is_of_each = false;
 };
 
 /// A law at one place, and where to begin with it in these observations.

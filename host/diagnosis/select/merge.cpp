@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "diagnosis/select/grow.hpp"
 #include "diagnosis/select/prune.hpp"
@@ -75,8 +77,7 @@ bool is_far_plainer(const Alternative& one, const Finding& finding) {
 /// - it has as many, acts on the whole machine instead of one joint (the payload, not the last
 ///   link's mass), and no strong evidence speaks for the finding;
 /// - it has as many at the same joint, does the same in numbers, and changes less (the rotor half
-/// as
-///   heavy again, not the link ten times as heavy).
+///   as heavy again, not the link ten times as heavy), and is no rarer.
 bool is_plainer(const Alternative& one, const Finding& finding) {
   const Chosen& other = finding.chosen;
   if (one.chosen.hypothesis.traits().is_curve_only) {
@@ -86,7 +87,8 @@ bool is_plainer(const Alternative& one, const Finding& finding) {
   const bool has_as_many = one.chosen.values.size() == other.values.size();
   const bool is_of_whole = has_as_many && one.delta_bic < same_evidence(one.chosen, finding) &&
                            one.joint == 0 && other.hypothesis.joint != 0;
-  const bool changes_less = has_as_many && one.delta_bic < kIdentical &&
+  const bool is_rarer = is_unusual(one.chosen.hypothesis) && !is_unusual(other.hypothesis);
+  const bool changes_less = has_as_many && !is_rarer && one.delta_bic < kIdentical &&
                             one.joint == other.hypothesis.joint &&
                             change(one.chosen) < change(other);
   return (has_fewer && one.delta_bic <= 0) || is_of_whole || changes_less;
@@ -158,10 +160,23 @@ std::optional<Selection> plainer(const Inquiry& inquiry, const Selection& select
   return std::nullopt;
 }
 
+using Kinds = std::vector<std::pair<effects::LawPointer, int>>;  // laws, each at its joint
+
+Kinds kinds_of(const Selection& selection) {
+  Kinds kinds;
+  for (const Chosen& each : selection.fit.chosen) {
+    kinds.emplace_back(each.hypothesis.law, each.hypothesis.joint);
+  }
+  std::sort(kinds.begin(), kinds.end());
+  return kinds;
+}
+
 }  // namespace
 
 Selection simplify(const Inquiry& inquiry, const Sought& sought, Selection selection) {
+  std::set<Kinds> seen;  // what takes each other's place in turn would never end
   while (true) {
+    seen.insert(kinds_of(selection));
     std::optional<Selection> next = merged(inquiry, sought, selection);
     if (!next) {
       for (std::size_t i = 0; i < selection.findings.size(); ++i) {
@@ -170,7 +185,7 @@ Selection simplify(const Inquiry& inquiry, const Sought& sought, Selection selec
       }
       next = plainer(inquiry, selection);
     }
-    if (!next) {
+    if (!next || seen.count(kinds_of(*next)) > 0) {
       return selection;
     }
     selection = std::move(*next);

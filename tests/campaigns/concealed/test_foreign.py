@@ -310,6 +310,14 @@ class Judging(InFolder):
             row = self.row({"effect": "torque_ripple", "joint": joint}, truth=truth)
             self.assertEqual(len(row["wrong"]), wrong)
 
+    def test_kin_of_what_begins_must_say_when(self):
+        truth = self.truth | {"foreign": self.truth["foreign"] | {"kin": ["joint_offset"], "begins": True,
+                                                                  "exists": False}}
+        for when, told in ((None, 0), ([{"file": "train.csv", "time": [20, 60]}], 1)):
+            row = self.row({"effect": "joint_offset", "joint": 5, "when": when}, truth=truth)
+            self.assertEqual(len(row["wrong"]), 1 - told)
+            self.assertEqual(judge.figures([row])["no_law_and_told"]["count"], told)
+
     def test_a_law_on_a_clean_machine_is_counted(self):
         truth = self.truth | {"family": "clean", "foreign": None, "known": None}
         found = judge.figures([self.row(self.law, truth=truth)])

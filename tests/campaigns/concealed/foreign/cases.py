@@ -163,7 +163,7 @@ def _truth(work, concealed):
     foreign = None
     if case.foreign:
         law, foreign = told.pop(0)
-        foreign |= {"exists": law.exists, "undone": law.undone, "kin": list(law.kin),
+        foreign |= {"exists": law.exists, "undone": law.undone, "kin": list(law.kin), "begins": law.begins,
                     "places": [list(place) for place in law.places()], "laws": law.laws()}
     return {"family": case.family, "kind": case.kind, "robot": work.robot,
             "gravity": bool(work.description.gravity.any()), "seed": list(case.seed),

@@ -59,7 +59,8 @@ def _is_known(finding, truth):
 def _is_kin(finding, truth):
     foreign = truth["foreign"]
     return (bool(foreign) and finding["effect"] in foreign["kin"]
-            and finding.get("joint") == foreign["joint"])
+            and finding.get("joint") == foreign["joint"]
+            and bool(finding.get("when")) == foreign.get("begins", False))
 
 
 def _is_right_law(finding, truth):
@@ -158,6 +159,7 @@ def figures(rows):
         "known_found": _share(row["known_found"] for row in beside),
         "wrong_known_name": _share(bool(row["wrong"]) for row in rows),
         "no_law_and_wrong_name": _share(bool(row["wrong"]) for row in unseen),
+        "no_law_and_told": _share(row["right_law"] or row["kin"] for row in unseen),
         "made_worse": {method: _share(bool(row["worse"][method]) for row in rows)
                        for method in ("flexcomp", "refit")},
         "circles": _share(milled.left(circle) <= milled.GOAL for circle in circles),

@@ -29,11 +29,13 @@ class Foreign(Effect):
     exists  whether it is a law of signals that are recorded
     undone  whether a command can undo what it does to the tool
     kin     catalogue effects that say the same at the same joint, and are no wrong name
+    begins  whether it begins within a recording: its kin must say when
     """
 
     exists = True
     undone = False
     kin = ()
+    begins = False
 
     def driven(self, motion):
         """The Motion that a commanded one becomes: servos follow what their encoders show."""

@@ -74,6 +74,7 @@ def show(rows, found):
           "circles that a command can mend", found["circles"], milled.SHARE)
     _goal("a wrong known name", found["wrong_known_name"], MOST_WRONG, at_least=False)
     print(f"       of these where no law exists: {_of(found['no_law_and_wrong_name'])}")
+    print(f"no law exists: told in time, at the right place: {_of(found['no_law_and_told'])}")
     _goal("clean: a law all the same", found["laws_on_clean"], 0.01, at_least=False)
     print(f"       any finding: {_of(found['findings_on_clean'])}")
     print("       worse than the nominal model, held out or in the untrained region: "

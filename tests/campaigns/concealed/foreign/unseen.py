@@ -32,6 +32,8 @@ class SlippedPart(Foreign):
 
     name = "slipped_part"
     exists = False
+    kin = ("joint_offset",)
+    begins = True
 
     def begin(self, rng, course):
         self._moment = rng.uniform(0.35, 0.7)
