@@ -169,36 +169,50 @@ Dictionary::Dictionary(const Observations& observations, std::vector<Hypothesis>
   gram = linear_algebra::gram_of(columns.topRows(observations.train));
 }
 
-Dictionary Dictionary::with_spells(const Observations& observations,
-                                   const std::vector<std::size_t>& of,
-                                   const std::shared_ptr<const Spells>& when) const {
-  const Eigen::Index n = observations.train;
-  const Eigen::VectorXd acts = when->by_sample(observations, observations.size());
+Dictionary Dictionary::with(const Dictionary& others, const Observations& observations) const {
+  const Eigen::Index own = columns.cols();
+  const Eigen::Index count = own + others.columns.cols();
   Dictionary both = *this;
-  Eigen::Index first = columns.cols();
-  Eigen::Index count = first;
+  both.columns.conservativeResize(Eigen::NoChange, count);
+  both.columns.rightCols(others.columns.cols()) = others.columns;
+  both.gram.conservativeResize(count, count);
+  both.gram.topRightCorner(own, others.gram.cols()) =
+      columns.topRows(observations.train).transpose() * others.columns.topRows(observations.train);
+  both.gram.bottomLeftCorner(others.gram.cols(), own) =
+      both.gram.topRightCorner(own, others.gram.cols()).transpose();
+  both.gram.bottomRightCorner(others.gram.rows(), others.gram.cols()) = others.gram;
+  for (Entry entry : others.entries) {
+    entry.hypothesis += hypotheses.size();
+    entry.first += own;
+    both.entries.push_back(std::move(entry));
+  }
+  both.hypotheses.insert(both.hypotheses.end(), others.hypotheses.begin(), others.hypotheses.end());
+  return both;
+}
+
+Dictionary Dictionary::by_turns(const std::vector<std::size_t>& of,
+                                const std::shared_ptr<const Spells>& when,
+                                const Observations& observations) const {
+  const Eigen::VectorXd acts = when->by_sample(observations, observations.size());
+  Dictionary some;
+  Eigen::Index count = 0;
   for (const std::size_t at : of) {
+    Hypothesis hypothesis = hypotheses[entries[at].hypothesis];
+    hypothesis.when = when;
+    hypothesis.starts = {entries[at].start};
+    hypothesis.seek = nullptr;
+    some.hypotheses.push_back(std::move(hypothesis));
+    some.entries.push_back(
+        {some.hypotheses.size() - 1, entries[at].start, count, entries[at].count});
     count += entries[at].count;
   }
-  both.columns.conservativeResize(Eigen::NoChange, count);
-  for (const std::size_t at : of) {
-    Entry entry = entries[at];
-    both.columns.middleCols(first, entry.count) =
-        acts.asDiagonal() * columns.middleCols(entry.first, entry.count);
-    both.hypotheses.push_back(hypotheses[entry.hypothesis]);
-    both.hypotheses.back().when = when;
-    both.hypotheses.back().starts = {entry.start};
-    both.hypotheses.back().seek = nullptr;
-    entry.hypothesis = both.hypotheses.size() - 1;
-    entry.first = first;
-    both.entries.push_back(std::move(entry));
-    first += entries[at].count;
+  some.columns.resize(observations.size(), count);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    some.columns.middleCols(some.entries[i].first, some.entries[i].count) =
+        acts.asDiagonal() * columns.middleCols(entries[of[i]].first, entries[of[i]].count);
   }
-  const auto added = both.columns.topRows(n).rightCols(count - columns.cols());
-  both.gram.conservativeResize(count, count);
-  both.gram.rightCols(added.cols()) = both.columns.topRows(n).transpose() * added;
-  both.gram.bottomRows(added.cols()) = both.gram.rightCols(added.cols()).transpose();
-  return both;
+  some.gram = linear_algebra::gram_of(some.columns.topRows(observations.train));
+  return some;
 }
 
 const Entry* Dictionary::find(const Hypothesis& hypothesis) const {

@@ -54,9 +54,11 @@ class Dictionary {
   Dictionary(const Observations& observations, std::vector<Hypothesis> all, const Machine& around,
              const std::function<void(std::size_t, std::size_t)>& progress);
 
-  /// The same, and behind it hypotheses of some entries that act at those times only.
-  Dictionary with_spells(const Observations& observations, const std::vector<std::size_t>& of,
-                         const std::shared_ptr<const Spells>& when) const;
+  /// The same, and behind it the entries of another.
+  Dictionary with(const Dictionary& others, const Observations& observations) const;
+  /// Some entries' hypotheses, which act at those times only.
+  Dictionary by_turns(const std::vector<std::size_t>& of, const std::shared_ptr<const Spells>& when,
+                      const Observations& observations) const;
 
   /// The first entry of a hypothesis; null where it does not show.
   const Entry* find(const Hypothesis& hypothesis) const;
@@ -69,6 +71,7 @@ class Dictionary {
   Eigen::VectorXd gains;
 
  private:
+  Dictionary() = default;
   Dictionary(const Observations& observations, std::vector<Hypothesis> all, const Changes& changes,
              const std::function<void(std::size_t, std::size_t)>& progress);
 };

@@ -15,7 +15,7 @@ namespace {
 /// Squares over the noise that a beginning or an end must explain. A moment that is sought among
 /// thousands of rows is worth 18 by BIC; errors that hang together over time are worth more.
 constexpr double kWorthOfMoment = 50;
-constexpr std::size_t kMostMoments = 40;    // in all recordings: more are a course, not spells
+constexpr std::size_t kMostMoments = 40;    // of a recording: more are a course, not spells
 constexpr Eigen::Index kSpellBlocks = 400;  // of a recording, in which moments are sought first
 constexpr int kFirstMoments = 8;            // moments of a recording from which spells are sought
 constexpr int kSpellRounds = 8;             // of sizes and spells: few take more than four
@@ -252,8 +252,8 @@ std::vector<Spelled> find_spells(const Observations& observations, const Diction
           }
           const std::size_t moments = moments_in(acts);
           const double gain = sizes.gain - always - kWorthOfMoment * static_cast<double>(moments);
-          if (changes(acts, observations.train_scenes) && moments <= kMostMoments &&
-              sizes.amplitude.allFinite() &&
+          if (changes(acts, observations.train_scenes) &&
+              moments <= kMostMoments * blocks.scenes() && sizes.amplitude.allFinite() &&
               within_bounds(hypothesis, sizes.amplitude.tail(entry.count)) &&
               gain > (found[at] ? found[at]->gain : 0)) {
             found[at] = Spelled{at, in_rows(observations, acts), gain};

@@ -7,6 +7,7 @@
 
 #include "diagnosis/evaluator.hpp"
 #include "diagnosis/find_spells.hpp"
+#include "diagnosis/grammar/laws.hpp"
 #include "diagnosis/select/standards.hpp"
 #include "diagnosis/verdict.hpp"
 
@@ -66,7 +67,8 @@ Fit fit_by_turns(const Inquiry& inquiry, const Fit& begun, const Spelled& spelle
   return grown;
 }
 
-/// Those to begin with: of so many moments each the best, the fewest moments first.
+/// Those to begin with: of so many moments each the best, the fewest moments first; and the best of
+/// all.
 std::vector<const Spelled*> leads_of(const Observations& observations, const Fit& beside,
                                      const std::vector<Spelled>& all) {
   const double beyond = clipped(beside.remainder.head(observations.train)).squaredNorm() -
@@ -79,17 +81,18 @@ std::vector<const Spelled*> leads_of(const Observations& observations, const Fit
   }
   std::vector<const Spelled*> leads;
   for (const auto& [moments, lead] : by_moments) {
-    if (leads.size() < kMostLeads) {
+    if (leads.size() + 1 < kMostLeads || lead == &all.front()) {
       leads.push_back(lead);
     }
   }
   return leads;
 }
 
-/// What is chosen if effects may act at the times of one only, beside all others; no findings where
-/// none does.
+/// What is chosen if effects may act at the times of one only, beside all others; no findings
+/// unless one of them does. Several that come and go together imitate much.
 Choice chosen_by_turns(const Inquiry& inquiry, const Fit& begun, const std::vector<Spelled>& all,
                        const Spelled& lead, const TellStage& tell) {
+  const Observations& observations = inquiry.observations;
   const Fit grown = fit_by_turns(inquiry, begun, lead);
   std::vector<std::size_t> rivals;
   for (const Spelled& each : all) {
@@ -97,11 +100,12 @@ Choice chosen_by_turns(const Inquiry& inquiry, const Fit& begun, const std::vect
       rivals.push_back(each.entry);
     }
   }
-  const Dictionary both = inquiry.dictionary.with_spells(inquiry.observations, rivals,
-                                                         grown.chosen.back().hypothesis.when);
-  const Inquiry changed{inquiry.observations, both, inquiry.false_discovery, inquiry.given};
+  const Dictionary both = inquiry.dictionary.with(
+      inquiry.dictionary.by_turns(rivals, grown.chosen.back().hypothesis.when, observations),
+      observations);
+  const Inquiry changed{observations, both, inquiry.false_discovery, inquiry.given};
   Choice choice = conclude(changed, grow(changed, {begun, seek(changed, begun)}, tell));
-  return steady(choice.fit).size() < choice.fit.chosen.size() ? choice : Choice{};
+  return steady(choice.fit).size() + 1 == choice.fit.chosen.size() ? choice : Choice{};
 }
 
 /// The diagnosis by what is chosen, if no more than noise is left; else nothing.
@@ -159,7 +163,10 @@ void seek_changes(const Inquiry& inquiry, const TellStage& tell, Diagnosis* diag
   }
   tell("seeking what changed meanwhile");
   const Fit found = diagnosis->choice.fit;
-  std::optional<Diagnosis> changed = explained_twice(inquiry, found, *diagnosis, tell);
+  std::optional<Diagnosis> changed;
+  if (!grammar::has_law(diagnosis->choice)) {  // a law beside what comes and goes imitates much
+    changed = explained_twice(inquiry, found, *diagnosis, tell);
+  }
   if (!changed && found.chosen.size() > inquiry.given.chosen.size()) {
     changed = explained_twice(inquiry, inquiry.given, *diagnosis, tell);
   }
