@@ -195,6 +195,33 @@ void a_law_is_told_where_a_rare_effect_needs_more_numbers() {
   TEST_ASSERT_EQUAL_STRING("a*(d - q2)*step(d - q2)", law_at(found, 2).c_str());
 }
 
+/// The torque of the third joint with a tone of 2 Hz, in a recording of its own.
+simulation::Scene humming(const DrivenRobot& robot, double phase) {
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back(
+      {simulation::Term::output, [=](const simulation::Scene& scene, const simulation::Simulation&,
+                                     simulation::Prediction* prediction) {
+         prediction->channel[simulation::joint_torque].col(2).array() +=
+             6 * DrivenRobot::kNoise * (4 * M_PI * scene.time.array() + phase).sin();
+       }});
+  return robot.observed(truth).scenes.front();
+}
+
+/// Two recordings have twice as many rows in the same time, and are sampled no faster for it.
+void a_tone_is_told_where_another_recording_has_another_phase() {
+  const DrivenRobot robot;
+  Observations observations(robot.machine(), {humming(robot, 0.3), humming(robot, 2.2)}, 1);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_EQUAL_STRING("a*sin(k*t) + b*cos(k*t)", law_at(found, 3).c_str());
+  const diagnosis::Chosen& tone = found.choice.findings.front().chosen;
+  for (std::size_t i = 0; i < tone.values.size(); ++i) {
+    if (tone.hypothesis.parameters[i].name == "k") {
+      TEST_ASSERT_DOUBLE_WITHIN(0.01 * 4 * M_PI, 4 * M_PI, tone.values[i]);
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -208,5 +235,6 @@ int main() {
   RUN_TEST(the_constant_of_a_law_keeps_its_name);
   RUN_TEST(an_effect_gives_way_to_a_law_that_another_joint_hid);
   RUN_TEST(a_law_is_told_where_a_rare_effect_needs_more_numbers);
+  RUN_TEST(a_tone_is_told_where_another_recording_has_another_phase);
   return UNITY_END();
 }

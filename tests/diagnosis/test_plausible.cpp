@@ -114,7 +114,7 @@ void what_is_learnt_of_random_recordings_is_a_machine_that_can_be() {
     TEST_ASSERT_FALSE(to_json(observations, found).dump().empty());
     const ScratchFolder folder;
     const std::filesystem::path file = folder / "updated_model.yaml";
-    model::write_robot(file, effects::with_learned(robot, found.updated().placed()));
+    model::write_robot(file, effects::with_learned(robot, found.updated().placed(observations)));
     const model::Robot learnt = model::load_robot(file);
     assert_can_be(learnt);
     assert_can_be(effects::machine_of(learnt, scenes).robot);

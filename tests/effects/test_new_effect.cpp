@@ -24,7 +24,8 @@ void a_new_effect_is_found_named_and_learnt() {
   TEST_ASSERT_EQUAL_STRING("sloping_floor", first.at("effect").get<std::string>().c_str());
   const double slope = first.at("parameters").at("slope").at("value");
   TEST_ASSERT_DOUBLE_WITHIN(0.02 * kSlope, kSlope, slope);
-  const model::Robot updated = effects::with_learned(swinging.robot, found.updated().placed());
+  const model::Robot updated =
+      effects::with_learned(swinging.robot, found.updated().placed(observations));
   TEST_ASSERT_EQUAL_STRING("sloping_floor", updated.effects.at(0).effect.c_str());
   const simulation::Machine machine = effects::machine_of(updated, {swinging.scene});
   const Eigen::MatrixXd shown =
