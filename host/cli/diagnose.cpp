@@ -310,8 +310,8 @@ void diagnose(const DiagnoseOptions& options, diagnosis::Settings settings,
   const std::string html = diagnosis::to_html(observations, result, origin);
   const std::filesystem::path folder(options.out);
   const std::filesystem::path updated = folder / "updated_model.yaml";
-  const std::string yaml =
-      model::robot_text(updated, updated_robot(robot, known, result.updated().placed(observations)));
+  const std::string yaml = model::robot_text(
+      updated, updated_robot(robot, known, result.updated().placed(observations)));
   output_folder(options.out);
   files::write_texts(
       {{folder / "diagnosis.json", json}, {folder / "report.html", html}, {updated, yaml}});

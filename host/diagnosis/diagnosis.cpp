@@ -133,8 +133,8 @@ void suggest(const Observations& observations, Diagnosis* diagnosis) {
     if (diagnosis->suggested_experiment.empty()) {
       diagnosis->suggested_experiment =
           finding.chosen.hypothesis.when
-              ? "the same motion again, once as before the change and once as after it: both alone "
-                "tell the numbers of each, and whether it comes again"
+              ? "Record the same motion twice, as the machine was before the change and as it was "
+                "after it: each alone tells its numbers."
               : grammar::next_recording(finding.chosen);
     }
   }

@@ -15,9 +15,9 @@ struct Spelled {
 /// a fit; the best first. Only of those that change while the recordings to fit to are made.
 ///
 /// Two steps are repeated until nothing changes: sizes by least squares for given spells, and for
-/// given sizes the spells of which the samples speak, where each beginning and each end must be
-/// worth more than `kWorthOfMoment` (dynamic programming along time). What was held out has no part
-/// in the sizes, and has spells of its own.
+/// given sizes the spells of which the samples speak (dynamic programming along time). Each
+/// beginning and each end must explain 50 squares over the noise. What was held out has no part in
+/// the sizes, and has spells of its own.
 std::vector<Spelled> find_spells(const Observations& observations, const Dictionary& dictionary,
                                  const Fit& beside);
 
