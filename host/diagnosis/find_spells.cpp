@@ -278,7 +278,7 @@ Spells spells_of(const Observations& observations, const Eigen::VectorXd& left_w
                  const Eigen::VectorXd& change) {
   std::vector<Eigen::VectorXd> by_row;
   for (const Scene& scene : observations.scenes) {
-    by_row.push_back(Eigen::VectorXd::Zero(scene.rows()));
+    by_row.emplace_back(Eigen::VectorXd::Zero(scene.rows()));
   }
   for (Eigen::Index i = 0; i < observations.size(); ++i) {
     const Sample& at = observations.samples[static_cast<std::size_t>(i)];
@@ -287,7 +287,7 @@ Spells spells_of(const Observations& observations, const Eigen::VectorXd& left_w
   Spells spells;
   for (const Eigen::VectorXd& own : by_row) {
     const std::vector<bool> acts = cheapest(own);
-    spells.acts.push_back(Eigen::VectorXd::Zero(own.size()));
+    spells.acts.emplace_back(Eigen::VectorXd::Zero(own.size()));
     for (std::size_t row = 0; row < acts.size(); ++row) {
       spells.acts.back()[static_cast<Eigen::Index>(row)] = acts[row] ? 1 : 0;
     }

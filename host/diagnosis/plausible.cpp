@@ -84,6 +84,18 @@ std::string why_no_body(const Observations& observations, const MachineSize& siz
              : "an arm of negative inertia cannot be";
 }
 
+/// The robot while one of a fit's hypotheses acts, which may have ceased since.
+model::Robot robot_with(const Observations& observations, const Fit& fit, const Chosen& chosen) {
+  if (!chosen.hypothesis.when) {
+    return fit.machine.robot;
+  }
+  std::vector<Chosen> acting = fit.chosen;
+  for (Chosen& each : acting) {
+    each.hypothesis.when = nullptr;
+  }
+  return machine_with(observations, acting).robot;
+}
+
 /// Why one of a fit's hypotheses, as fitted, cannot be so; empty if it can.
 std::string why_not_so(const Observations& observations, const Fit& fit, std::size_t index,
                        AtBound at_bound) {
@@ -98,7 +110,7 @@ std::string why_not_so(const Observations& observations, const Fit& fit, std::si
       return why;
     }
   }
-  return why_no_body(observations, size, chosen.hypothesis, fit.machine.robot);
+  return why_no_body(observations, size, chosen.hypothesis, robot_with(observations, fit, chosen));
 }
 
 }  // namespace

@@ -37,10 +37,32 @@ std::vector<Chosen> steady(const Fit& fit) {
   return all;
 }
 
-/// A fit with a hypothesis more that comes and goes: its moments by rows, its values by these.
-Fit fit_by_turns(const Inquiry& inquiry, const Fit& begun, const Spelled& spelled) {
+/// The dictionary, and in it the place of what measures the TCP where it has none. On a small path
+/// a turn and a shift of that imitate much, so that it is not sought; but a tracker whose tripod
+/// was bumped shows on any. On a small path it only shifts.
+Dictionary with_jump(const Inquiry& inquiry) {
+  constexpr double kNoTurn = 1e-7;  // rad, a tolerance
+  std::vector<Hypothesis> jumps;
+  for (Hypothesis each : inquiry.dictionary.hypotheses) {
+    if (each.traits().registers == effects::Registers::frame && each.starts.empty()) {
+      each.starts = {{}};
+      for (Parameter& parameter : each.parameters) {
+        parameter.tolerance = parameter.unit == "rad" ? kNoTurn : parameter.tolerance;
+      }
+      jumps.push_back(std::move(each));
+    }
+  }
+  const auto untold = [](std::size_t, std::size_t) {};
   const Observations& observations = inquiry.observations;
-  const Dictionary& dictionary = inquiry.dictionary;
+  return inquiry.dictionary.with(
+      Dictionary(observations, std::move(jumps), inquiry.given.machine, untold), observations);
+}
+
+/// A fit with a hypothesis of a dictionary more that comes and goes: its moments by rows, its
+/// values by these.
+Fit fit_by_turns(const Inquiry& inquiry, const Dictionary& dictionary, const Fit& begun,
+                 const Spelled& spelled) {
+  const Observations& observations = inquiry.observations;
   const Entry& entry = dictionary.entries[spelled.entry];
   Hypothesis hypothesis = dictionary.hypotheses[entry.hypothesis];
   hypothesis.when = std::make_shared<const Spells>(spelled.spells);
@@ -89,11 +111,12 @@ std::vector<const Spelled*> leads_of(const Observations& observations, const Fit
 }
 
 /// What is chosen if effects may act at the times of one only, beside all others; no findings
-/// unless one of them does. Several that come and go together imitate much.
-Choice chosen_by_turns(const Inquiry& inquiry, const Fit& begun, const std::vector<Spelled>& all,
-                       const Spelled& lead, const TellStage& tell) {
+/// unless one of them does. Several that come and go together imitate much. `all`: of `possible`.
+Choice chosen_by_turns(const Inquiry& inquiry, const Dictionary& possible, const Fit& begun,
+                       const std::vector<Spelled>& all, const Spelled& lead,
+                       const TellStage& tell) {
   const Observations& observations = inquiry.observations;
-  const Fit grown = fit_by_turns(inquiry, begun, lead);
+  const Fit grown = fit_by_turns(inquiry, possible, begun, lead);
   std::vector<std::size_t> rivals;
   for (const Spelled& each : all) {
     if (rivals.size() < kMostRivals) {
@@ -101,8 +124,7 @@ Choice chosen_by_turns(const Inquiry& inquiry, const Fit& begun, const std::vect
     }
   }
   const Dictionary both = inquiry.dictionary.with(
-      inquiry.dictionary.by_turns(rivals, grown.chosen.back().hypothesis.when, observations),
-      observations);
+      possible.by_turns(rivals, grown.chosen.back().hypothesis.when, observations), observations);
   const Inquiry changed{observations, both, inquiry.false_discovery, inquiry.given};
   Choice choice = conclude(changed, grow(changed, {begun, seek(changed, begun)}, tell));
   return steady(choice.fit).size() + 1 == choice.fit.chosen.size() ? choice : Choice{};
@@ -128,9 +150,10 @@ std::optional<Diagnosis> explained_by(const Observations& observations, const Di
 std::optional<Diagnosis> explained_beside(const Inquiry& inquiry, const Fit& begun,
                                           const Diagnosis& before, const TellStage& tell) {
   const Observations& observations = inquiry.observations;
-  const std::vector<Spelled> all = find_spells(observations, inquiry.dictionary, begun);
+  const Dictionary possible = with_jump(inquiry);
+  const std::vector<Spelled> all = find_spells(observations, possible, begun);
   for (const Spelled* lead : leads_of(observations, begun, all)) {
-    Choice choice = chosen_by_turns(inquiry, begun, all, *lead, tell);
+    Choice choice = chosen_by_turns(inquiry, possible, begun, all, *lead, tell);
     if (std::optional<Diagnosis> found = explained_by(observations, before, std::move(choice))) {
       return found;
     }

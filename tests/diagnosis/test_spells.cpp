@@ -1,9 +1,12 @@
 // Effects that come and go while a machine is recorded: found with their moments, beside what
 // always acts, and not where nothing comes and goes.
+#include <algorithm>
+
 #include "diagnosis/diagnosed.hpp"
 #include "diagnosis/driven_robot.hpp"
 #include "diagnosis/find_spells.hpp"
 #include "diagnosis/output/sentences.hpp"
+#include "diagnosis/swinging_robot.hpp"
 #include "unity_main.hpp"
 
 using namespace flexcomp::diagnosis;
@@ -115,6 +118,47 @@ void what_was_held_out_has_moments_of_its_own() {
   }
 }
 
+/// A robot that swings a little, so that its TCP stays within some centimetres, and whose tracker
+/// is bumped in the midst.
+Observations bumped(double begin) {
+  const flexcomp::test::SwingingRobot swinging(1);
+  flexcomp::recording::Recording recording = swinging.recording;
+  const Eigen::RowVectorXd middle = recording.q_meas->colwise().mean();
+  *recording.q_meas = (0.05 * (recording.q_meas->rowwise() - middle)).rowwise() + middle;
+  flexcomp::simulation::Preparation preparation;
+  const auto scenes = [&] {
+    return std::vector<flexcomp::simulation::Scene>{
+        flexcomp::simulation::prepare(recording, recording.size(), &preparation)};
+  };
+  const flexcomp::simulation::Machine machine = effects::machine_of(swinging.robot, scenes());
+  const Eigen::MatrixXd noise = *recording.position - swinging.predicted;
+  *recording.position = noise + flexcomp::simulation::simulate(machine, scenes().front())
+                                    .prediction.channel[flexcomp::simulation::tcp_position];
+  for (Eigen::Index row = 0; row < recording.size(); ++row) {
+    if (recording.time[row] > begin) {
+      recording.position->row(row) += Eigen::RowVector3d(2e-4, -1e-4, 3e-4);
+    }
+  }
+  return Observations(machine, scenes(), 0);
+}
+
+/// Frames are not sought on a small path. That one jumps shows all the same, as does another tool.
+void a_tracker_that_was_bumped_may_be_meant_on_a_small_path() {
+  Observations observations = bumped(17.3);
+  TEST_ASSERT_FALSE(observations.spans_workspace());
+  const Diagnosis found = diagnosed(&observations, 0);
+  TEST_ASSERT_EQUAL_STRING("explained", name_of(found.verdict));
+  TEST_ASSERT_EQUAL_UINT64(1, found.choice.findings.size());
+  const Finding& finding = found.choice.findings.front();
+  TEST_ASSERT_NOT_NULL(finding.chosen.hypothesis.when.get());
+  bool is_meant = finding.chosen.hypothesis.effect() == "base_frame";
+  for (const std::vector<Place>& group : found.indistinguishable) {
+    is_meant =
+        is_meant || std::find(group.begin(), group.end(), Place{"base_frame", 0}) != group.end();
+  }
+  TEST_ASSERT_TRUE(is_meant);
+}
+
 void what_grows_gradually_does_not_come_and_go() {
   const DrivenRobot robot;
   Observations observations =
@@ -186,6 +230,7 @@ int main() {
   RUN_TEST(what_comes_and_goes_is_told_beside_what_always_acts);
   RUN_TEST(the_updated_model_is_the_machine_as_it_was_left);
   RUN_TEST(what_was_held_out_has_moments_of_its_own);
+  RUN_TEST(a_tracker_that_was_bumped_may_be_meant_on_a_small_path);
   RUN_TEST(what_grows_gradually_does_not_come_and_go);
   RUN_TEST(what_always_acts_has_no_spells);
   RUN_TEST(no_single_spell_costs_less_than_those_chosen);
