@@ -1,6 +1,7 @@
 #include "diagnosis/search/hypothesis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flexcomp::diagnosis {
 
@@ -13,6 +14,12 @@ Hypothesis::Hypothesis(effects::LawPointer law_there, int at_joint, const model:
     parameters.push_back({each.name, each.unit, 0, 0, 1});
     parameters.back().is_of_recording = each.is_of_recording;
   }
+}
+
+std::size_t Hypothesis::numbers() const {
+  return static_cast<std::size_t>(
+      std::count_if(parameters.begin(), parameters.end(),
+                    [](const Parameter& each) { return std::isinf(each.tolerance); }));
 }
 
 void Hypothesis::set_bounds(const std::vector<Bounds>& bounds) {

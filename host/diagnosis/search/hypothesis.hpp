@@ -74,6 +74,9 @@ struct Hypothesis {
   /// One plain clause: what the machine has that the model lacks.
   std::string statement() const { return law->statement(joint); }
 
+  /// Its parameters that the samples decide, and no tolerance.
+  std::size_t numbers() const;
+
   /// Sets where the parameters are sought, in their order.
   void set_bounds(const std::vector<Bounds>& bounds);
 };

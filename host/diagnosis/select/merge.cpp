@@ -128,7 +128,7 @@ std::vector<Alternative> alternatives_of(const Inquiry& inquiry, const Sought& s
     }
     const Fit tried = fit_with(inquiry, others.fit, candidate.chosen, kQuickSteps);
     const double gain = bic_gain(finding.evidence.effective_samples, others.fit.train_sum,
-                                 tried.train_sum, candidate.chosen.values.size());
+                                 tried.train_sum, other.numbers());
     if (gain > kStrongEvidence && can_be(inquiry, tried) &&
         meet(shown, directions(observations, tried, tried.chosen.size() - 1))) {
       all.push_back({other.effect(), other.joint, std::max(finding.evidence.delta_bic - gain, 0.0),

@@ -34,7 +34,7 @@ void add_candidates(const Observations& observations, const Fit& fit, const Dict
   const double before = fit.remainder.head(observations.train).squaredNorm();
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     if (best[h] != nullptr && !is_chosen(fit.chosen, hypotheses[h])) {
-      const double gain = bic_gain(samples, before, best[h]->sum, hypotheses[h].parameters.size());
+      const double gain = bic_gain(samples, before, best[h]->sum, hypotheses[h].numbers());
       all->push_back({gain, chosen_of(dictionary, *best[h]), is_sought, best[h]->entry});
     }
   }
