@@ -76,9 +76,10 @@ std::string parameters(const Observations& observations, const Finding& finding)
   return html;
 }
 
-/// "law of joint 5: a*sin(q4)"
+/// "law of joint 5: a*sin(q4)", "payload, at times"
 std::string named(const Hypothesis& hypothesis) {
-  const std::string place = place_in_words(hypothesis.effect(), hypothesis.joint);
+  const std::string place =
+      place_in_words(hypothesis.effect(), hypothesis.joint) + (hypothesis.when ? ", at times" : "");
   return hypothesis.law->written ? place + ": " + escaped(hypothesis.law->written->formula) : place;
 }
 
