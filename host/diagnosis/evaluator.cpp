@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "diagnosis/gains.hpp"
 #include "error.hpp"
@@ -38,15 +37,8 @@ Evaluator::Evaluator(const Observations& observations, std::vector<Chosen> chose
     when_ = each.hypothesis.when ? each.hypothesis.when : when_;
   }
   if (when_) {
-    std::vector<Chosen> acting = chosen_;
-    std::vector<Chosen> idle;
-    for (Chosen& each : acting) {
-      if (!std::exchange(each.hypothesis.when, nullptr)) {
-        idle.push_back(each);
-      }
-    }
-    acting_ = std::make_unique<Evaluator>(observations, std::move(acting), dictionary);
-    idle_ = std::make_unique<Evaluator>(observations, std::move(idle), dictionary);
+    acting_ = std::make_unique<Evaluator>(observations, acting(chosen_), dictionary);
+    idle_ = std::make_unique<Evaluator>(observations, steady(chosen_), dictionary);
   }
 }
 
@@ -219,21 +211,15 @@ Eigen::VectorXd Evaluator::stepped(const Scenes& scenes, const Values& values, s
 Eigen::VectorXd Evaluator::evaluate_by_turns(bool all, const Values& values,
                                              Eigen::MatrixXd* derivative) {
   set(values);
-  const auto evaluate_one = [&](Evaluator* one, Eigen::MatrixXd* slope) {
-    return all ? one->evaluate(one->values(), slope) : one->evaluate_to_fit(one->values(), slope);
-  };
-  acting_->set(values);
   Values of_others;
-  for (const Chosen& each : chosen_) {
-    if (!each.hypothesis.when) {
-      of_others.insert(of_others.end(), each.values.begin(), each.values.end());
-    }
+  for (const Chosen& each : steady(chosen_)) {
+    of_others.insert(of_others.end(), each.values.begin(), each.values.end());
   }
-  idle_->set(of_others);
+  const auto evaluate_one = all ? &Evaluator::evaluate : &Evaluator::evaluate_to_fit;
   Eigen::MatrixXd idle_slope;
-  Eigen::VectorXd predicted = evaluate_one(acting_.get(), derivative);
+  Eigen::VectorXd predicted = (acting_.get()->*evaluate_one)(values, derivative);
   const Eigen::VectorXd idle =
-      evaluate_one(idle_.get(), derivative != nullptr ? &idle_slope : nullptr);
+      (idle_.get()->*evaluate_one)(of_others, derivative != nullptr ? &idle_slope : nullptr);
   const Eigen::VectorXd acts = when_->by_sample(observations_, predicted.size());
   predicted = idle + acts.cwiseProduct(predicted - idle);
   if (derivative != nullptr) {

@@ -121,7 +121,8 @@ class Blocks {
   }
 
   std::size_t block_of(const Sample& at) const {
-    return static_cast<std::size_t>(at.row * kBlocks / observations_.scenes[at.scene].rows());
+    return static_cast<std::size_t>(
+        equal_part_of(at.row, observations_.scenes[at.scene].rows(), kBlocks));
   }
 
   const Observations& observations_;
@@ -132,9 +133,7 @@ class Blocks {
 }  // namespace
 
 std::vector<Event> find_events(const Observations& observations, const Eigen::VectorXd& remainder) {
-  const bool is_short = std::any_of(observations.scenes.begin(), observations.scenes.end(),
-                                    [](const Scene& scene) { return scene.rows() < kBlocks; });
-  if (observations.is_static || is_short) {
+  if (observations.is_static || observations.fewest_rows() < kBlocks) {
     return {};
   }
   Blocks blocks(observations, remainder);

@@ -54,7 +54,7 @@ class SpellBlocks {
     for (const Sample& at : observations.samples) {
       const Eigen::Index rows = observations.scenes[at.scene].rows();
       of_sample_.push_back(static_cast<Eigen::Index>(at.scene) * kSpellBlocks +
-                           at.row * kSpellBlocks / rows);
+                           equal_part_of(at.row, rows, kSpellBlocks));
     }
   }
 
@@ -203,7 +203,7 @@ Spells in_rows(const Observations& observations, const std::vector<bool>& blocks
     const Eigen::Index rows = observations.scenes[scene].rows();
     Eigen::VectorXd acts(rows);
     for (Eigen::Index row = 0; row < rows; ++row) {
-      const auto block = static_cast<std::size_t>(row * kSpellBlocks / rows);
+      const auto block = static_cast<std::size_t>(equal_part_of(row, rows, kSpellBlocks));
       acts[row] = blocks[scene * kSpellBlocks + block] ? 1 : 0;
     }
     spells.acts.push_back(std::move(acts));

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -240,6 +241,20 @@ Eigen::MatrixXd Fit::covariance_of(std::size_t index) const {
 
 std::vector<effects::Placed> Fit::placed(const Observations& observations) const {
   return placed_of(as_left(observations, chosen));
+}
+
+std::vector<Chosen> steady(const std::vector<Chosen>& chosen) {
+  std::vector<Chosen> all;
+  std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(all),
+               [](const Chosen& each) { return each.hypothesis.when == nullptr; });
+  return all;
+}
+
+std::vector<Chosen> acting(std::vector<Chosen> chosen) {
+  for (Chosen& each : chosen) {
+    each.hypothesis.when = nullptr;
+  }
+  return chosen;
 }
 
 std::vector<Chosen> as_left(const Observations& observations, std::vector<Chosen> chosen) {

@@ -55,6 +55,11 @@ constexpr double kFarOff = 6;
 /// A remainder over the noise, with outliers cut down to the largest value that is none.
 Eigen::VectorXd clipped(const Eigen::VectorXd& remainder);
 
+/// Those of them that always act, and all of them as if they did: the machine while what comes and
+/// goes is away, and while it is there.
+std::vector<Chosen> steady(const std::vector<Chosen>& chosen);
+std::vector<Chosen> acting(std::vector<Chosen> chosen);
+
 /// Those of them that act when the recordings end: what comes and goes may not.
 std::vector<Chosen> as_left(const Observations& observations, std::vector<Chosen> chosen);
 

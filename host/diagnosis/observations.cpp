@@ -45,7 +45,7 @@ std::vector<JointResidual> residual_through(const Observations& observations,
 }  // namespace
 
 Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows) {
-  return row * kHoldoutStretches / rows;
+  return equal_part_of(row, rows, kHoldoutStretches);
 }
 
 const Eigen::MatrixXd& shown_load(const Scene& scene, const Prediction& prediction) {
@@ -66,6 +66,11 @@ Observations::Observations(Machine model, std::vector<Scene> all, std::size_t ho
 }
 
 void Observations::renew_residual() { residual = residual_of(predictions); }
+
+Eigen::Index Observations::fewest_rows() const {
+  const auto is_shorter = [](const Scene& a, const Scene& b) { return a.rows() < b.rows(); };
+  return std::min_element(scenes.begin(), scenes.end(), is_shorter)->rows();
+}
 
 bool Observations::has(Channel channel) const { return scenes.front().has(channel); }
 

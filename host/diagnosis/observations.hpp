@@ -31,6 +31,10 @@ struct Part {
 /// Stretches of time into which a recording is divided: errors within one may hang together.
 constexpr Eigen::Index kHoldoutStretches = 20;
 
+/// The part, from zero, that a row of a recording is in, of so many that are equally long.
+constexpr Eigen::Index equal_part_of(Eigen::Index row, Eigen::Index rows, Eigen::Index parts) {
+  return row * parts / rows;
+}
 /// The stretch, from zero, that a row of a recording is in.
 Eigen::Index stretch_of(Eigen::Index row, Eigen::Index rows);
 
@@ -78,6 +82,7 @@ class Observations {
   double over_floor(Eigen::Index sample, double value) const {
     return value * noise[sample] / floor[sample];
   }
+  Eigen::Index fewest_rows() const;  ///< of any scene
   bool has(Channel channel) const;
   std::vector<Channel> channels() const;  ///< those that it has
   bool has_weight() const;

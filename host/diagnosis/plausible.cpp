@@ -86,14 +86,8 @@ std::string why_no_body(const Observations& observations, const MachineSize& siz
 
 /// The robot while one of a fit's hypotheses acts, which may have ceased since.
 model::Robot robot_with(const Observations& observations, const Fit& fit, const Chosen& chosen) {
-  if (!chosen.hypothesis.when) {
-    return fit.machine.robot;
-  }
-  std::vector<Chosen> acting = fit.chosen;
-  for (Chosen& each : acting) {
-    each.hypothesis.when = nullptr;
-  }
-  return machine_with(observations, acting).robot;
+  return chosen.hypothesis.when ? machine_with(observations, acting(fit.chosen)).robot
+                                : fit.machine.robot;
 }
 
 /// Why one of a fit's hypotheses, as fitted, cannot be so; empty if it can.

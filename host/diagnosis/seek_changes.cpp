@@ -21,22 +21,6 @@ constexpr std::size_t kMostLeads = 3;          // spells to begin with
 constexpr std::size_t kMostRivals = 30;        // that may act by those of a lead
 constexpr int kTurnRounds = 3;                 // of a fit and its spells: the third changes little
 
-bool has_short_one(const Observations& observations) {
-  return std::any_of(observations.scenes.begin(), observations.scenes.end(),
-                     [](const Scene& scene) { return scene.rows() < kFewestToldRows; });
-}
-
-/// What of a fit always acts.
-std::vector<Chosen> steady(const Fit& fit) {
-  std::vector<Chosen> all;
-  for (const Chosen& each : fit.chosen) {
-    if (!each.hypothesis.when) {
-      all.push_back(each);
-    }
-  }
-  return all;
-}
-
 /// The dictionary, and in it the place of what measures the TCP where it has none. On a small path
 /// a turn and a shift of that imitate much, so that it is not sought; but a tracker whose tripod
 /// was bumped shows on any. On a small path it only shifts.
@@ -72,12 +56,8 @@ Fit fit_by_turns(const Inquiry& inquiry, const Dictionary& dictionary, const Fit
   Fit grown;
   for (int round = 0; round < kTurnRounds; ++round) {
     grown = fit_with(inquiry, begun, chosen, kSteps);
-    std::vector<Chosen> idle = grown.chosen;
-    std::vector<Chosen> acting = grown.chosen;
-    idle.pop_back();
-    acting.back().hypothesis.when = nullptr;
-    const Fit without = fit(observations, std::move(idle), 0);
-    const Fit always = fit(observations, std::move(acting), 0);
+    const Fit without = fit(observations, steady(grown.chosen), 0);
+    const Fit always = fit(observations, acting(grown.chosen), 0);
     Spells spells =
         spells_of(observations, without.remainder, without.remainder - always.remainder);
     if (spells.acts == grown.chosen.back().hypothesis.when->acts) {
@@ -127,7 +107,7 @@ Choice chosen_by_turns(const Inquiry& inquiry, const Dictionary& possible, const
       possible.by_turns(rivals, grown.chosen.back().hypothesis.when, observations), observations);
   const Inquiry changed{observations, both, inquiry.false_discovery, inquiry.given};
   Choice choice = conclude(changed, grow(changed, {begun, seek(changed, begun)}, tell));
-  return steady(choice.fit).size() + 1 == choice.fit.chosen.size() ? choice : Choice{};
+  return steady(choice.fit.chosen).size() + 1 == choice.fit.chosen.size() ? choice : Choice{};
 }
 
 /// The diagnosis by what is chosen, if no more than noise is left; else nothing.
@@ -136,21 +116,15 @@ std::optional<Diagnosis> explained_by(const Observations& observations, const Di
   if (choice.findings.empty()) {
     return std::nullopt;
   }
-  Diagnosis changed = before;
-  choice.ranking = changed.choice.ranking;
-  changed.choice = std::move(choice);
-  changed.nearest.clear();
-  changed.indistinguishable.clear();
-  changed.proposal.clear();
-  judge(observations, &changed);
+  Diagnosis changed = with_choice(observations, before, std::move(choice));
   return is_open(changed) ? std::nullopt : std::make_optional(std::move(changed));
 }
 
 /// The diagnosis with what comes and goes beside a fit, if that explains all.
-std::optional<Diagnosis> explained_beside(const Inquiry& inquiry, const Fit& begun,
-                                          const Diagnosis& before, const TellStage& tell) {
+std::optional<Diagnosis> explained_beside(const Inquiry& inquiry, const Dictionary& possible,
+                                          const Fit& begun, const Diagnosis& before,
+                                          const TellStage& tell) {
   const Observations& observations = inquiry.observations;
-  const Dictionary possible = with_jump(inquiry);
   const std::vector<Spelled> all = find_spells(observations, possible, begun);
   for (const Spelled* lead : leads_of(observations, begun, all)) {
     Choice choice = chosen_by_turns(inquiry, possible, begun, all, *lead, tell);
@@ -163,14 +137,15 @@ std::optional<Diagnosis> explained_beside(const Inquiry& inquiry, const Fit& beg
 
 /// The same, and once more beside what of it always acts: until that was known, what comes and goes
 /// had to say some of it.
-std::optional<Diagnosis> explained_twice(const Inquiry& inquiry, const Fit& begun,
-                                         const Diagnosis& before, const TellStage& tell) {
-  std::optional<Diagnosis> first = explained_beside(inquiry, begun, before, tell);
-  if (!first || steady(first->choice.fit).size() == begun.chosen.size()) {
+std::optional<Diagnosis> explained_twice(const Inquiry& inquiry, const Dictionary& possible,
+                                         const Fit& begun, const Diagnosis& before,
+                                         const TellStage& tell) {
+  std::optional<Diagnosis> first = explained_beside(inquiry, possible, begun, before, tell);
+  if (!first || steady(first->choice.fit.chosen).size() == begun.chosen.size()) {
     return first;
   }
-  const Fit known = fit(inquiry.observations, steady(first->choice.fit), kSteps);
-  std::optional<Diagnosis> second = explained_beside(inquiry, known, before, tell);
+  const Fit known = fit(inquiry.observations, steady(first->choice.fit.chosen), kSteps);
+  std::optional<Diagnosis> second = explained_beside(inquiry, possible, known, before, tell);
   const bool is_better =
       second && criterion(inquiry.observations, second->choice.fit) <
                     criterion(inquiry.observations, first->choice.fit) + kIndifferent;
@@ -181,17 +156,19 @@ std::optional<Diagnosis> explained_twice(const Inquiry& inquiry, const Fit& begu
 
 void seek_changes(const Inquiry& inquiry, const TellStage& tell, Diagnosis* diagnosis) {
   const Observations& observations = inquiry.observations;
-  if (!is_open(*diagnosis) || observations.is_static || has_short_one(observations)) {
+  if (!is_open(*diagnosis) || observations.is_static ||
+      observations.fewest_rows() < kFewestToldRows) {
     return;
   }
   tell("seeking what changed meanwhile");
-  const Fit found = diagnosis->choice.fit;
+  const Dictionary possible = with_jump(inquiry);
+  const Fit& found = diagnosis->choice.fit;
   std::optional<Diagnosis> changed;
   if (!grammar::has_law(diagnosis->choice)) {  // a law beside what comes and goes imitates much
-    changed = explained_twice(inquiry, found, *diagnosis, tell);
+    changed = explained_twice(inquiry, possible, found, *diagnosis, tell);
   }
   if (!changed && found.chosen.size() > inquiry.given.chosen.size()) {
-    changed = explained_twice(inquiry, inquiry.given, *diagnosis, tell);
+    changed = explained_twice(inquiry, possible, inquiry.given, *diagnosis, tell);
   }
   if (changed) {
     *diagnosis = std::move(*changed);

@@ -63,13 +63,7 @@ Diagnosis with_laws(const Inquiry& inquiry, const Diagnosis& before, Choice laws
       are_outdone_by_withdrawn(inquiry, before.choice, laws.fit)) {
     return before;
   }
-  laws.ranking = before.choice.ranking;
-  Diagnosis diagnosis = before;
-  diagnosis.choice = std::move(laws);
-  diagnosis.nearest.clear();
-  diagnosis.indistinguishable.clear();
-  diagnosis.proposal.clear();
-  judge(inquiry.observations, &diagnosis);
+  Diagnosis diagnosis = with_choice(inquiry.observations, before, std::move(laws));
   return diagnosis.verdict == Verdict::unexplained ? before : diagnosis;
 }
 

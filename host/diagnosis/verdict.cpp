@@ -113,6 +113,16 @@ void withdraw(const Observations& observations, const std::string& reason, Diagn
   diagnosis->reason = reason;
 }
 
+Diagnosis with_choice(const Observations& observations, Diagnosis diagnosis, Choice choice) {
+  choice.ranking = std::move(diagnosis.choice.ranking);
+  diagnosis.choice = std::move(choice);
+  diagnosis.nearest.clear();
+  diagnosis.indistinguishable.clear();
+  diagnosis.proposal.clear();
+  judge(observations, &diagnosis);
+  return diagnosis;
+}
+
 void judge(const Observations& observations, Diagnosis* diagnosis) {
   find_groups(diagnosis);
   const Fit& found = diagnosis->choice.fit;

@@ -10,6 +10,9 @@ namespace flexcomp::diagnosis {
 /// physics (a jump, a sum of terms) accounts for far more by as few numbers.
 void judge(const Observations& observations, Diagnosis* diagnosis);
 
+/// A diagnosis with another choice in the place of its own, judged.
+Diagnosis with_choice(const Observations& observations, Diagnosis diagnosis, Choice choice);
+
 /// Takes all findings back.
 void withdraw(const Observations& observations, const std::string& reason, Diagnosis* diagnosis);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -72,8 +73,19 @@ inline Eigen::MatrixXd shown_torques(const simulation::Machine& machine,
   return simulation::predict(machine, {scene}).front().channel[simulation::joint_torque];
 }
 
-/// A torque (N·m) by the time (s), per unit of a parameter.
-using Course = double (*)(double time);
+/// A torque (N·m) by the time (s), by itself or per unit of a parameter.
+using Course = std::function<double(double time)>;
+
+/// Adds a course of torque to a joint's, `size` times.
+inline void add_torque(int joint, const Course& course, simulation::Machine* machine,
+                       double size = 1) {
+  machine->terms.push_back(
+      {simulation::Term::output, [=](const simulation::Scene& scene, const simulation::Simulation&,
+                                     simulation::Prediction* prediction) {
+         prediction->channel[simulation::joint_torque].col(joint - 1) +=
+             size * scene.time.unaryExpr(course);
+       }});
+}
 
 /// A law that adds courses in proportion to its parameters to a joint's torque.
 inline effects::LawPointer adding(const char* name, const std::vector<Course>& courses) {
@@ -85,15 +97,9 @@ inline effects::LawPointer adding(const char* name, const std::vector<Course>& c
     return std::vector<effects::Parameter>(count, {"size", "1"});
   };
   law.apply = [courses](const effects::Values& values, int joint, simulation::Machine* machine) {
-    machine->terms.push_back({simulation::Term::output,
-                              [=](const simulation::Scene& scene, const simulation::Simulation&,
-                                  simulation::Prediction* prediction) {
-                                auto torque =
-                                    prediction->channel[simulation::joint_torque].col(joint - 1);
-                                for (std::size_t i = 0; i < courses.size(); ++i) {
-                                  torque += values[i] * scene.time.unaryExpr(courses[i]);
-                                }
-                              }});
+    for (std::size_t i = 0; i < courses.size(); ++i) {
+      add_torque(joint, courses[i], machine, values[i]);
+    }
   };
   return std::make_shared<const effects::Law>(std::move(law));
 }

@@ -24,16 +24,10 @@ Observations pushed(double every, bool rubs) {
   if (rubs) {
     effects::find_law("coulomb_friction", "")->apply({kFriction}, 2, &truth);
   }
-  truth.terms.push_back(
-      {flexcomp::simulation::Term::output,
-       [=](const flexcomp::simulation::Scene& scene, const flexcomp::simulation::Simulation&,
-           flexcomp::simulation::Prediction* prediction) {
-         auto torque = prediction->channel[flexcomp::simulation::joint_torque].col(2);
-         for (Eigen::Index row = 0; row < scene.rows(); ++row) {
-           const double after = std::fmod(scene.time[row] - kBegin + 10 * every, every);
-           torque[row] += after < kLong ? kBump : 0;
-         }
-       }});
+  const auto push = [=](double time) {
+    return std::fmod(time - kBegin + 10 * every, every) < kLong ? kBump : 0;
+  };
+  flexcomp::test::add_torque(3, push, &truth);
   return robot.observed(truth);
 }
 

@@ -16,12 +16,8 @@ constexpr Eigen::Index kWorst = 1;
 /// All torques come late, and that of joint 2, which it changes most, is wrong besides.
 Observations late_torques(const DrivenRobot& robot) {
   simulation::Machine truth = robot.machine();
-  truth.terms.push_back(
-      {simulation::Term::output, [](const simulation::Scene& scene, const simulation::Simulation&,
-                                    simulation::Prediction* prediction) {
-         prediction->channel[simulation::joint_torque].col(kWorst) +=
-             600 * (9 * scene.time.array()).sin().matrix();
-       }});
+  const auto wrong = [](double time) { return 600 * std::sin(9 * time); };
+  flexcomp::test::add_torque(kWorst + 1, wrong, &truth);
   effects::find_law("time_offset", "joint_torque")->apply({kDelay}, 0, &truth);
   return robot.observed(truth);
 }

@@ -327,12 +327,8 @@ void an_effect_has_a_name_for_shapes_that_are_composed_only() {
 void a_tone_is_told_in_time() {
   const DrivenRobot robot;
   simulation::Machine truth = robot.machine();
-  truth.terms.push_back(
-      {simulation::Term::output, [](const simulation::Scene& scene, const simulation::Simulation&,
-                                    simulation::Prediction* prediction) {
-         prediction->channel[simulation::joint_torque].col(1) +=
-             (40 * (2 * std::acos(-1.0) * 1.7 * scene.time.array()).sin()).matrix();
-       }});
+  const auto tone = [](double time) { return 40 * std::sin(2 * std::acos(-1.0) * 1.7 * time); };
+  flexcomp::test::add_torque(2, tone, &truth);
   const Choice choice = laws_in(robot.observed(truth));
   TEST_ASSERT_EQUAL_UINT64(1, choice.findings.size());
   const auto& found = choice.findings.front().chosen;

@@ -156,12 +156,8 @@ void an_effect_stays_where_a_law_gains_next_to_nothing() {
 void the_constant_of_a_law_keeps_its_name() {
   const DrivenRobot robot;
   simulation::Machine truth = robot.machine();
-  truth.terms.push_back(
-      {simulation::Term::output, [](const simulation::Scene& scene, const simulation::Simulation&,
-                                    simulation::Prediction* prediction) {
-         prediction->channel[simulation::joint_torque].col(4).array() +=
-             60 + 12 * (scene.time.array() / -5).exp();
-       }});
+  flexcomp::test::add_torque(
+      5, [](double time) { return 60 + 12 * std::exp(-time / 5); }, &truth);
   Observations observations = robot.observed(truth);
   const Diagnosis found = diagnosed(&observations);
   TEST_ASSERT_EQUAL_UINT64(2, found.choice.findings.size());
@@ -198,12 +194,10 @@ void a_law_is_told_where_a_rare_effect_needs_more_numbers() {
 /// The torque of the third joint with a tone of 2 Hz, in a recording of its own.
 simulation::Scene humming(const DrivenRobot& robot, double phase) {
   simulation::Machine truth = robot.machine();
-  truth.terms.push_back(
-      {simulation::Term::output, [=](const simulation::Scene& scene, const simulation::Simulation&,
-                                     simulation::Prediction* prediction) {
-         prediction->channel[simulation::joint_torque].col(2).array() +=
-             6 * DrivenRobot::kNoise * (4 * M_PI * scene.time.array() + phase).sin();
-       }});
+  const auto hum = [=](double time) {
+    return 6 * DrivenRobot::kNoise * std::sin(4 * M_PI * time + phase);
+  };
+  flexcomp::test::add_torque(3, hum, &truth);
   return robot.observed(truth).scenes.front();
 }
 

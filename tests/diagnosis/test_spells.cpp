@@ -22,22 +22,13 @@ constexpr double kRow = 0.04;     // s, from row to row
 
 /// The motion with a torque of `course` (N·m over s) at joint 3, and dry friction at joint 2 or
 /// none.
-template <typename Course>
-flexcomp::simulation::Machine with_torque(const DrivenRobot& robot, Course course,
-                                          bool rubs = false) {
+flexcomp::simulation::Machine with_torque(const DrivenRobot& robot,
+                                          const flexcomp::test::Course& course, bool rubs = false) {
   flexcomp::simulation::Machine truth = robot.machine();
   if (rubs) {
     effects::find_law("coulomb_friction", "")->apply({kFriction}, 2, &truth);
   }
-  truth.terms.push_back(
-      {flexcomp::simulation::Term::output,
-       [=](const flexcomp::simulation::Scene& scene, const flexcomp::simulation::Simulation&,
-           flexcomp::simulation::Prediction* prediction) {
-         auto torque = prediction->channel[flexcomp::simulation::joint_torque].col(2);
-         for (Eigen::Index row = 0; row < scene.rows(); ++row) {
-           torque[row] += course(scene.time[row]);
-         }
-       }});
+  flexcomp::test::add_torque(3, course, &truth);
   return truth;
 }
 

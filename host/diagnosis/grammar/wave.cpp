@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
+
+#include "statistics/median.hpp"
 
 namespace flexcomp::diagnosis::grammar {
 namespace {
@@ -79,9 +82,7 @@ double time_step(const Driver& time) {
       steps.push_back(step);
     }
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return statistics::median(std::move(steps));
 }
 
 /// The wave of any order that gains most.
