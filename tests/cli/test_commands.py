@@ -380,8 +380,8 @@ class Manners(PathCommand):
             for form in forms:
                 keys = {"effect": name}
                 for part in form.strip().split("; "):
-                    if part == "joint":  # joint 1 turns about z, as the page's does; no motor turns it beside another
-                        keys["joint"] = 2 if name == "transmission" else 1
+                    if part == "joint":  # joint 1 turns about z, as the page's does; some take none before the second
+                        keys["joint"] = 2 if name in ("dress_pack", "transmission") else 1
                     elif part.startswith("form: "):
                         keys["form"] = part[6:]
                     else:

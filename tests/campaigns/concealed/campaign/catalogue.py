@@ -285,7 +285,7 @@ SINGLE = {
 
 
 def _hose(rng, joint, scale, size):
-    return FOREIGN["dress_pack"](None, stiffness=1500 * size, slack=rng.uniform(0.7, 0.9),
+    return FOREIGN["dress_pack"](4, stiffness=1500 * size, slack=rng.uniform(0.7, 0.9),
                                  friction=60 * size)
 
 

@@ -18,7 +18,8 @@ def _burst(rng, time, count, length):
 
 
 class DressPack(Effect):
-    """A hose from link 3 to the flange that pulls once it is taut, and rubs in its guide.
+    """A hose from link 3, before joint 4, to the flange that pulls once it is taut, and rubs in its
+    guide.
 
     stiffness: N/m, slack: m of length before it is taut, friction: N."""
 
