@@ -238,37 +238,49 @@ bool is_shown(const HoseSquares& squares, const Eigen::VectorXd& numbers) {
          gains[gains.size() - 2] > std::max(kLeastOfSecond * all, kLeastSquares);
 }
 
-/// Hoses beside the link and the tool, the best of them drawn to where they explain most.
+using Guess = std::pair<double, Eigen::VectorXd>;  // half the sum of squares, and the numbers
+
+bool is_nearer(const Guess& one, const Guess& other) { return one.first < other.first; }
+
+/// Hoses held beside the middle of the link and beside the tool, taut always, mostly or seldom; the
+/// best first.
+std::vector<Guess> guesses(const std::vector<TorqueRows>& torques, int joint,
+                           const Vector3<double>& middle, double aside, HoseSquares* squares) {
+  std::vector<Vector3<double>> asides{Vector3<double>::Zero()};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-aside, aside}) {
+      asides.emplace_back(side * Vector3<double>::Unit(axis));
+    }
+  }
+  std::vector<Guess> all;
+  for (const Vector3<double>& arm : asides) {
+    for (const Vector3<double>& tool : asides) {
+      const HoseEnds ends{middle + arm, tool};
+      const auto [least, half, most] = lengths(torques, joint, ends);
+      for (const double slack : {0.5 * least, 0.7 * least + 0.3 * half, 0.5 * (half + most)}) {
+        Numbers numbers;
+        numbers << slack, ends.arm, ends.tool;
+        all.emplace_back(*squares->half(numbers), numbers);
+      }
+    }
+  }
+  std::sort(all.begin(), all.end(), is_nearer);
+  return all;
+}
+
+/// The best guesses are drawn to where they explain most; the best of these is the start.
 std::vector<Values> seek_dress_pack(const Observations& observations,
                                     const Eigen::VectorXd& unexplained,
                                     const Hypothesis& hypothesis) {
   constexpr double kAside = 0.1;    // of the reach: hoses are held beside a link and a tool
-  constexpr std::size_t kMost = 4;  // starts that are drawn to the best place
+  constexpr std::size_t kMost = 4;  // guesses that are drawn
   constexpr Steps kSteps{40, 1e-4};
   const std::vector<TorqueRows> torques = torque_rows(observations, unexplained);
   HoseSquares squares(torques, hypothesis);
   const double reach = effects::size_of(observations.machine.robot).reach;
-  const Vector3<double> middle = middle_of_link(observations, hypothesis.joint);
-  std::vector<Vector3<double>> asides{Vector3<double>::Zero()};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      asides.push_back(side * kAside * reach * Vector3<double>::Unit(axis));
-    }
-  }
-  std::vector<std::pair<double, Eigen::VectorXd>> found;
-  for (const Vector3<double>& arm : asides) {
-    for (const Vector3<double>& tool : asides) {
-      const HoseEnds ends{middle + arm, tool};
-      const auto [least, half, most] = lengths(torques, hypothesis.joint, ends);
-      for (const double slack : {0.5 * least, 0.7 * least + 0.3 * half, 0.5 * (half + most)}) {
-        Numbers numbers;
-        numbers << slack, ends.arm, ends.tool;
-        found.emplace_back(*squares.half(numbers), numbers);
-      }
-    }
-  }
-  std::sort(found.begin(), found.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Guess> found =
+      guesses(torques, hypothesis.joint, middle_of_link(observations, hypothesis.joint),
+              kAside * reach, &squares);
   found.resize(std::min(found.size(), kMost));
   Box box{Numbers::Constant(-0.5 * reach), Numbers::Constant(0.5 * reach)};
   box.lower[0] = -3 * reach;
@@ -277,12 +289,9 @@ std::vector<Values> seek_dress_pack(const Observations& observations,
     numbers = least_squares(&squares, box, box.nearest(numbers), kSteps);
     half = *squares.half(numbers);
   }
-  const auto best = std::min_element(
-      found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (!is_shown(squares, best->second)) {
-    return {};
-  }
-  return {Values(best->second.begin(), best->second.end())};
+  const Eigen::VectorXd& best = std::min_element(found.begin(), found.end(), is_nearer)->second;
+  return is_shown(squares, best) ? std::vector<Values>{Values(best.begin(), best.end())}
+                                 : std::vector<Values>{};
 }
 
 /// Needs torques of several joints, and an arm that moves.
