@@ -1,4 +1,5 @@
-// Torques that change with a recorded temperature: friction that falls, and gains that drift.
+// Torques that change with a temperature: friction that falls and gains that drift where it was
+// recorded, and a gain by the heat of the drive where it was not.
 #include <cmath>
 #include <functional>
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kCold = 20;         // °C
 constexpr double kViscous = 300;     // N·m·s/rad
+constexpr double kDry = 20;          // N·m, which warming leaves as it is
 constexpr double kFriction = -0.03;  // 1/K
 constexpr double kGain = 0.004;      // 1/K
 
@@ -23,6 +25,7 @@ DrivenRobot warming() {
   DrivenRobot robot;
   for (flexcomp::model::JointDynamics& joint : robot.robot.dynamics) {
     joint.viscous = kViscous;
+    joint.coulomb = kDry;
   }
   const Eigen::VectorXd& time = robot.recording.time;
   const double end = time[time.size() - 1];
@@ -87,6 +90,39 @@ void drives_that_warm_alike_are_one_finding() {
                "temperature", 0, kGain);
 }
 
+/// The current that a joint's drive shows while it loses torque by what it gave before: of the
+/// heat's equation in steps of a hundredth of a row.
+simulation::Machine worn_out(const DrivenRobot& robot, int joint, double loss, double constant) {
+  simulation::Machine truth = robot.machine();
+  truth.terms.push_back({simulation::Term::instrument,
+                         [=](const simulation::Scene& scene, const simulation::Simulation& /*at*/,
+                             simulation::Prediction* prediction) {
+                           constexpr int kSteps = 100;
+                           auto torque =
+                               prediction->channel[simulation::joint_torque].col(joint - 1);
+                           double heat = torque[0] * torque[0];
+                           for (Eigen::Index row = 0; row < torque.size(); ++row) {
+                             const double step =
+                                 row == 0 ? 0 : (scene.time[row] - scene.time[row - 1]) / kSteps;
+                             for (int i = 0; i < kSteps; ++i) {
+                               heat += (torque[row] * torque[row] - heat) * step / constant;
+                             }
+                             torque[row] *= 1 + loss * heat;
+                           }
+                         }});
+  return truth;
+}
+
+void a_drive_that_loses_torque_by_its_own_heat_is_found() {
+  constexpr double kLoss = 2e-8;   // 1/(N·m)²
+  constexpr double kConstant = 4;  // s
+  const DrivenRobot robot;
+  const simulation::Machine truth = worn_out(robot, 2, kLoss, kConstant);
+  assert_found(robot, truth, "torque_gain", "heat", 2, kLoss);
+  const std::vector<Finding> found = findings_of(robot.observed(truth));
+  TEST_ASSERT_DOUBLE_WITHIN(0.2 * kConstant, kConstant, found[0].chosen.values[1]);
+}
+
 void an_arm_that_only_warms_is_left_alone() {
   const DrivenRobot robot = warming();
   TEST_ASSERT_TRUE(findings_of(robot.observed(robot.machine())).empty());
@@ -99,6 +135,7 @@ int main() {
   RUN_TEST(friction_that_falls_at_one_joint_is_found);
   RUN_TEST(friction_that_falls_at_all_joints_is_one_finding);
   RUN_TEST(drives_that_warm_alike_are_one_finding);
+  RUN_TEST(a_drive_that_loses_torque_by_its_own_heat_is_found);
   RUN_TEST(an_arm_that_only_warms_is_left_alone);
   return UNITY_END();
 }

@@ -36,13 +36,20 @@ Eigen::MatrixXd shown(const simulation::Machine& machine, const simulation::Scen
 }
 
 /// What a law changes of a channel.
-Eigen::MatrixXd change_by(const char* effect, int joint, const Values& values,
+Eigen::MatrixXd change_by(const LawPointer& law, int joint, const Values& values,
                           const model::Robot& robot, const simulation::Scene& scene,
                           simulation::Channel channel) {
   const simulation::Machine plain = effects::machine_of(robot);
   simulation::Machine machine = plain;
-  effects::find_law(effect, "")->apply(values, joint, &machine);
+  law->apply(values, joint, &machine);
   return shown(machine, scene, channel) - shown(plain, scene, channel);
+}
+
+/// The same of the first form of an effect.
+Eigen::MatrixXd change_by(const char* effect, int joint, const Values& values,
+                          const model::Robot& robot, const simulation::Scene& scene,
+                          simulation::Channel channel) {
+  return change_by(effects::find_law(effect, ""), joint, values, robot, scene, channel);
 }
 
 /// Orientation of each link and direction of each axis, base frame, by the URDF's frames.
@@ -175,6 +182,32 @@ void a_gain_scales_what_is_measured_of_one_joint() {
   TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0, (change - expected).cwiseAbs().maxCoeff());
 }
 
+/// The heat by its convolution: what each row's torque brings fades from the row on.
+void a_gain_by_heat_follows_the_square_of_the_torque_late() {
+  constexpr double kGain = 2e-6;  // 1/(N·m)²
+  constexpr double kTime = 0.7;   // s
+  const test::MovingRobot moving;
+  const simulation::Scene scene = moving.scene();
+  const Eigen::VectorXd torque =
+      shown(effects::machine_of(moving.robot), scene, simulation::joint_torque).col(2);
+  const Eigen::MatrixXd change =
+      change_by(effects::find_law("torque_gain", "heat"), 3, {kGain, kTime}, moving.robot, scene,
+                simulation::joint_torque);
+  for (Eigen::Index row = 0; row < scene.rows(); ++row) {
+    const auto left = [&](Eigen::Index since) {
+      return std::exp(-(scene.time[row] - scene.time[since]) / kTime);
+    };
+    double heat = torque[0] * torque[0] * left(0);
+    for (Eigen::Index i = 1; i <= row; ++i) {
+      heat += torque[i] * torque[i] * (left(i) - left(i - 1));
+    }
+    const double expected = kGain * heat * torque[row];
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * torque.norm(), expected, change(row, 2));
+  }
+  TEST_ASSERT_TRUE(change.col(2).cwiseAbs().maxCoeff() > 1e-3 * torque.cwiseAbs().maxCoeff());
+  TEST_ASSERT_EQUAL_DOUBLE(0, change.col(1).cwiseAbs().maxCoeff());
+}
+
 /// Without friction and rotors all of the torque goes through the gear.
 void friction_under_load_is_a_share_of_the_torque_against_the_motion() {
   FreeRobot moving;
@@ -221,6 +254,7 @@ void each_is_read_as_it_was_written() {
       {effects::find_law("link_offset", ""), 2, {2e-3, -1e-3}},
       {effects::find_law("link_inertia", ""), 3, {4, 3, 5, 0.1, -0.2, 0.5}},
       {effects::find_law("torque_gain", ""), 4, {0.06}},
+      {effects::find_law("torque_gain", "heat"), 4, {3e-6, 5}},
       {effects::find_law("load_friction", ""), 5, {0.08}}};
   for (const effects::Placed& each : placed) {
     const test::ScratchFolder folder;
@@ -342,6 +376,7 @@ int main() {
   RUN_TEST(inertia_of_a_link_takes_the_torque_of_eulers_equation);
   RUN_TEST(inertia_that_no_body_has_is_refused);
   RUN_TEST(a_gain_scales_what_is_measured_of_one_joint);
+  RUN_TEST(a_gain_by_heat_follows_the_square_of_the_torque_late);
   RUN_TEST(friction_under_load_is_a_share_of_the_torque_against_the_motion);
   RUN_TEST(a_robot_that_leans_carries_its_weight_as_if_gravity_leant_the_other_way);
   RUN_TEST(a_lump_takes_the_torque_of_a_mass_at_its_place);

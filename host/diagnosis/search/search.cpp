@@ -30,10 +30,6 @@ std::vector<Values> starts_at(const std::vector<double>& shares, double size) {
   return starts;
 }
 
-std::vector<Known> known_waves(PlaceKind place) {
-  return {{{place}, "", {SignalKind::angle}, {"wave", "wave of any order", "two waves"}}};
-}
-
 std::vector<Values> ripple_orders(const Observations& observations, int joint,
                                   const std::vector<JointResidual>& residual) {
   // Periods a turn, chosen by judgement: a strain-wave gear errs twice a turn of its motor, and

@@ -42,9 +42,6 @@ namespace search {
 /// The search for each effect of the catalogue, by the effect's name.
 const std::vector<std::pair<std::string, Search>>& searches();
 
-/// Waves over a joint's angle, as an effect at a place has a name for them.
-std::vector<Known> known_waves(PlaceKind place);
-
 /// Can wind-up and position errors of the joints be seen, at the TCP or by link encoders?
 bool sees_angles(const Observations& observations);
 

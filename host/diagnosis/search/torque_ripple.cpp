@@ -21,7 +21,12 @@ std::vector<Values> seek_torque_ripple(const Observations& observations,
 }  // namespace
 
 Search search::torque_ripple() {
-  return {prepare_torque_ripple, seek_torque_ripple, known_waves(PlaceKind::joint_torque)};
+  return {prepare_torque_ripple,
+          seek_torque_ripple,
+          {{{PlaceKind::joint_torque},
+            "",
+            {SignalKind::angle},
+            {"wave", "wave of any order", "two waves"}}}};
 }
 
 }  // namespace flexcomp::diagnosis

@@ -36,9 +36,12 @@ std::vector<Values> seek_transmission_ripple(const Observations& observations,
 
 }  // namespace
 
+// Waves of low orders are left to composed laws: an encoder that is eccentric errs once and twice a
+// turn, which the search here is too high for.
 Search search::transmission_ripple() {
-  return {prepare_transmission_ripple, seek_transmission_ripple,
-          known_waves(PlaceKind::joint_angle)};
+  return {prepare_transmission_ripple,
+          seek_transmission_ripple,
+          {{{PlaceKind::joint_angle}, "", {SignalKind::angle}, {"wave of any order"}}}};
 }
 
 }  // namespace flexcomp::diagnosis

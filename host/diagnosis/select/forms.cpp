@@ -40,11 +40,12 @@ double held_out_sum(const Observations& observations, const Fit& fit) {
 
 /// Replaces a finding by the best of its forms, and leaves the others in `forms`.
 void take_best(const Inquiry& inquiry, std::size_t index, std::vector<Fit>* forms, Choice* choice) {
+  constexpr double kBetter = 1 - 1e-6;  // by more than rounding: two forms may do the same
   const auto best = std::min_element(forms->begin(), forms->end(), [](const Fit& a, const Fit& b) {
     return a.train_sum < b.train_sum;
   });
   const Observations& observations = inquiry.observations;
-  if (best == forms->end() || !(best->train_sum < choice->fit.train_sum) ||
+  if (best == forms->end() || !(best->train_sum < kBetter * choice->fit.train_sum) ||
       !(held_out_sum(observations, *best) < held_out_sum(observations, choice->fit))) {
     return;
   }

@@ -13,6 +13,15 @@
 namespace flexcomp::diagnosis {
 namespace {
 
+/// The selection of hypotheses, the one at an index new among them; nothing where that does not
+/// stand. Others may fall, which stood for what it accounts for.
+std::optional<Selection> if_it_stands(const Inquiry& inquiry, Fit fit, std::size_t index) {
+  const Hypothesis added = fit.chosen[index].hypothesis;
+  Selection selection = prune(inquiry, std::move(fit));
+  return is_chosen(selection.fit.chosen, added) ? std::optional(std::move(selection))
+                                                : std::nullopt;
+}
+
 /// The selection with one hypothesis in the place of two that are not far better than it; nothing
 /// where no two are.
 std::optional<Selection> merged(const Inquiry& inquiry, const Sought& sought,
@@ -25,7 +34,10 @@ std::optional<Selection> merged(const Inquiry& inquiry, const Sought& sought,
       if (!one.chosen.empty() && is_as_good(inquiry, one, selection.fit) &&
           !is_confirmed(inquiry, one, selection.fit) &&
           holds(inquiry, weigh_last(inquiry, others.fit, one))) {
-        return prune(inquiry, fit(inquiry.observations, one.chosen, kLastSteps));
+        Fit whole = fit(inquiry.observations, one.chosen, kLastSteps);
+        if (auto next = if_it_stands(inquiry, std::move(whole), one.chosen.size() - 1)) {
+          return next;
+        }
       }
     }
   }
@@ -152,7 +164,9 @@ std::optional<Selection> plainer(const Inquiry& inquiry, const Selection& select
         chosen[i] = other.chosen;
         Fit plain = fit(inquiry.observations, std::move(chosen), kLastSteps);
         if (is_usual || !is_confirmed(inquiry, plain, selection.fit)) {
-          return prune(inquiry, std::move(plain));
+          if (auto next = if_it_stands(inquiry, std::move(plain), i)) {
+            return next;
+          }
         }
       }
     }

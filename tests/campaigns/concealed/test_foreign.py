@@ -310,6 +310,12 @@ class Judging(InFolder):
             row = self.row({"effect": "torque_ripple", "joint": joint}, truth=truth)
             self.assertEqual(len(row["wrong"]), wrong)
 
+    def test_kin_of_one_form_is_no_other_form(self):
+        truth = self.truth | {"foreign": self.truth["foreign"] | {"kin": ["torque_gain/heat"]}}
+        for form, wrong in (("heat", 0), ("", 1)):
+            row = self.row({"effect": "torque_gain", "joint": 5, "form": form}, truth=truth)
+            self.assertEqual(len(row["wrong"]), wrong)
+
     def test_kin_of_what_begins_must_say_when(self):
         truth = self.truth | {"foreign": self.truth["foreign"] | {"kin": ["joint_offset"], "begins": True,
                                                                   "exists": False}}

@@ -58,7 +58,8 @@ def _is_known(finding, truth):
 
 def _is_kin(finding, truth):
     foreign = truth["foreign"]
-    return (bool(foreign) and finding["effect"] in foreign["kin"]
+    names = {finding["effect"], f"{finding['effect']}/{finding.get('form')}"}
+    return (bool(foreign) and not names.isdisjoint(foreign["kin"])
             and finding.get("joint") == foreign["joint"]
             and bool(finding.get("when")) == foreign.get("begins", False))
 

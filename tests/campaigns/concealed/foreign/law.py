@@ -28,7 +28,8 @@ class Foreign(Effect):
 
     exists  whether it is a law of signals that are recorded
     undone  whether a command can undo what it does to the tool
-    kin     catalogue effects that say the same at the same joint, and are no wrong name
+    kin     catalogue effects that say the same at the same joint, and are no wrong name: `effect`, or
+            `effect/form` where only that form does
     begins  whether it begins within a recording: its kin must say when
     """
 

@@ -11,6 +11,7 @@ class HotDrive(Foreign):
     long been holding."""
 
     name = "hot_drive"
+    kin = ("torque_gain/heat",)
 
     def begin(self, rng, course):
         self._begin = course.time[0] + course.run_in
