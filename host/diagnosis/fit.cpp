@@ -240,7 +240,18 @@ Eigen::MatrixXd Fit::covariance_of(std::size_t index) const {
 }
 
 std::vector<effects::Placed> Fit::placed(const Observations& observations) const {
-  return placed_of(as_left(observations, chosen));
+  std::vector<Chosen> to_come = as_left(observations, chosen);
+  to_come.erase(
+      std::remove_if(to_come.begin(), to_come.end(),
+                     [&](const Chosen& each) { return is_of_each(observations, each.hypothesis); }),
+      to_come.end());
+  return placed_of(to_come);
+}
+
+bool is_of_each(const Observations& observations, const Hypothesis& hypothesis) {
+  return observations.train_scenes < observations.scenes.size() &&
+         std::any_of(hypothesis.parameters.begin(), hypothesis.parameters.end(),
+                     [](const Parameter& each) { return each.is_of_each; });
 }
 
 std::vector<Chosen> steady(const std::vector<Chosen>& chosen) {

@@ -38,7 +38,8 @@ struct Fit {
   Eigen::Index first_parameter(std::size_t index) const;
   /// Covariance of the values of one that was chosen.
   Eigen::MatrixXd covariance_of(std::size_t index) const;
-  /// The chosen hypotheses as laws of the machine, as it was left.
+  /// The chosen hypotheses as laws of the machine, as it was left, for recordings to come: without
+  /// what is another in each (`is_of_each`).
   std::vector<effects::Placed> placed(const Observations& observations) const;
 };
 
@@ -59,6 +60,10 @@ Eigen::VectorXd clipped(const Eigen::VectorXd& remainder);
 /// goes is away, and while it is there.
 std::vector<Chosen> steady(const std::vector<Chosen>& chosen);
 std::vector<Chosen> acting(std::vector<Chosen> chosen);
+
+/// Has a hypothesis numbers that are others in each recording, as a tone's phase, and was another
+/// one held out? Then a model of the machine cannot have it.
+bool is_of_each(const Observations& observations, const Hypothesis& hypothesis);
 
 /// Those of them that act when the recordings end: what comes and goes may not.
 std::vector<Chosen> as_left(const Observations& observations, std::vector<Chosen> chosen);

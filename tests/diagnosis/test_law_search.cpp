@@ -5,6 +5,7 @@
 
 #include "diagnosis/diagnosed.hpp"
 #include "diagnosis/driven_robot.hpp"
+#include "diagnosis/output/sentences.hpp"
 #include "unity_main.hpp"
 
 using flexcomp::diagnosis::Diagnosis;
@@ -214,6 +215,17 @@ void a_tone_is_told_where_another_recording_has_another_phase() {
       TEST_ASSERT_DOUBLE_WITHIN(0.01 * 4 * M_PI, 4 * M_PI, tone.values[i]);
     }
   }
+  TEST_ASSERT_TRUE(found.updated().placed(observations).empty());  // a third has another phase
+  const std::string said = diagnosis::statement(observations, found, 0);
+  TEST_ASSERT_TRUE(said.find("does not have it") != std::string::npos);
+}
+
+void a_tone_goes_on_in_the_recording_that_it_was_found_in() {
+  const DrivenRobot robot;
+  Observations observations(robot.machine(), {humming(robot, 0.3)}, 0);
+  const Diagnosis found = diagnosed(&observations);
+  TEST_ASSERT_EQUAL_STRING("a*sin(k*t) + b*cos(k*t)", law_at(found, 3).c_str());
+  TEST_ASSERT_EQUAL_UINT64(1, found.updated().placed(observations).size());
 }
 
 }  // namespace
@@ -230,5 +242,6 @@ int main() {
   RUN_TEST(an_effect_gives_way_to_a_law_that_another_joint_hid);
   RUN_TEST(a_law_is_told_where_a_rare_effect_needs_more_numbers);
   RUN_TEST(a_tone_is_told_where_another_recording_has_another_phase);
+  RUN_TEST(a_tone_goes_on_in_the_recording_that_it_was_found_in);
   return UNITY_END();
 }

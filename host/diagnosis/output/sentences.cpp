@@ -112,6 +112,9 @@ std::string in_time(const Observations& observations, std::size_t scene,
   return times.empty() ? "never" : first_few(times);
 }
 
+constexpr const char* kOfEach =
+    " updated_model.yaml does not have it, since its phase is another in each recording.";
+
 /// One sentence about when a finding acts that comes and goes, and one about the model.
 std::string statement_of_spells(const Observations& observations, const Spells& spells) {
   const std::vector<Spell> all = spells.all();
@@ -135,9 +138,11 @@ std::string statement(const Observations& observations, const Diagnosis& diagnos
   const std::string number =
       in_brackets(told_of(estimates(observations, found.chosen, found.covariance)));
   const auto& when = found.chosen.hypothesis.when;
-  return fmt::format("{}{}, which the model lacks: {}.{}", clause, number,
+  const bool is_passing = is_of_each(observations, found.chosen.hypothesis);
+  return fmt::format("{}{}, which the model lacks: {}.{}{}", clause, number,
                      fall(observations, found.without, diagnosis.weighed()),
-                     when ? statement_of_spells(observations, *when) : "");
+                     when ? statement_of_spells(observations, *when) : "",
+                     is_passing ? kOfEach : "");
 }
 
 std::string statement_of_trial(const Observations& observations, const Trial& trial) {
