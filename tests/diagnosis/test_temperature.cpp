@@ -54,14 +54,17 @@ simulation::Machine altered(const DrivenRobot& robot, simulation::Term::Stage st
   return truth;
 }
 
-void assert_found(const DrivenRobot& robot, const simulation::Machine& truth, const char* effect,
-                  const char* form, int joint, double rate) {
+/// The one finding, by its numbers.
+flexcomp::effects::Values assert_found(const DrivenRobot& robot, const simulation::Machine& truth,
+                                       const char* effect, const char* form, int joint,
+                                       double rate) {
   const std::vector<Finding> found = findings_of(robot.observed(truth));
   TEST_ASSERT_EQUAL_UINT64(1, found.size());
   TEST_ASSERT_EQUAL_STRING(effect, found[0].chosen.hypothesis.effect().c_str());
   TEST_ASSERT_EQUAL_STRING(form, found[0].chosen.hypothesis.law->form.c_str());
   TEST_ASSERT_EQUAL(joint, found[0].chosen.hypothesis.joint);
   TEST_ASSERT_DOUBLE_WITHIN(0.1 * std::abs(rate), rate, found[0].chosen.values[0]);
+  return found[0].chosen.values;
 }
 
 double thinner(double torque, double warming, double speed) {
@@ -118,9 +121,9 @@ void a_drive_that_loses_torque_by_its_own_heat_is_found() {
   constexpr double kConstant = 4;  // s
   const DrivenRobot robot;
   const simulation::Machine truth = worn_out(robot, 2, kLoss, kConstant);
-  assert_found(robot, truth, "torque_gain", "heat", 2, kLoss);
-  const std::vector<Finding> found = findings_of(robot.observed(truth));
-  TEST_ASSERT_DOUBLE_WITHIN(0.2 * kConstant, kConstant, found[0].chosen.values[1]);
+  const flexcomp::effects::Values told =
+      assert_found(robot, truth, "torque_gain", "heat", 2, kLoss);
+  TEST_ASSERT_DOUBLE_WITHIN(0.2 * kConstant, kConstant, told[1]);
 }
 
 void an_arm_that_only_warms_is_left_alone() {
