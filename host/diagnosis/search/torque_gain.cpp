@@ -23,11 +23,8 @@ void seek_by_heat(const Observations& observations, Hypothesis* hypothesis) {
 /// Needs torques of a robot that moves, and temperatures for a gain by these.
 bool prepare_torque_gain(const Observations& observations, Hypothesis* hypothesis) {
   if (hypothesis->law->form == "heat") {
-    if (!sees_moving_torques(observations)) {
-      return false;
-    }
     seek_by_heat(observations, hypothesis);
-    return true;
+    return sees_moving_torques(observations);
   }
   if (!hypothesis->traits().needs_temperature) {
     hypothesis->set_bounds({{-0.5, 1, 0.02}});
