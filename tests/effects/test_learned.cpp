@@ -22,11 +22,12 @@ constexpr Eigen::Index kRows = FLEXCOMP_FEW_CASES ? 50 : 200;
 /// Sizes that any machine could have, by unit.
 double size_of(const std::string& unit) {
   const std::map<std::string, double> sizes = {
-      {"rad", 1e-3},  {"rad/K", 1e-5},  {"m", 1e-3},         {"s", 0.02},
-      {"N", 20},      {"N·m", 30},      {"kg", 5},           {"kg·m", 1},
-      {"1", 0.05},    {"m/N", 1e-8},    {"rad/(N·m)", 1e-7}, {"rad/(N·m)^3", 1e-15},
-      {"Hz", 8},      {"N·m/rad", 1e6}, {"kg·m^2", 10},      {"N·m·s/rad", 20},
-      {"rad/s", 0.3}, {"m/K", 1e-5},    {"N/m", 30},         {"1/K", 1e-3}};
+      {"rad", 1e-3},      {"rad/K", 1e-5},  {"m", 1e-3},         {"s", 0.02},
+      {"N", 20},          {"N·m", 30},      {"kg", 5},           {"kg·m", 1},
+      {"1", 0.05},        {"m/N", 1e-8},    {"rad/(N·m)", 1e-7}, {"rad/(N·m)^3", 1e-15},
+      {"Hz", 8},          {"N·m/rad", 1e6}, {"kg·m^2", 10},      {"N·m·s/rad", 20},
+      {"rad/s", 0.3},     {"m/K", 1e-5},    {"N/m", 30},         {"1/K", 1e-3},
+      {"1/(N·m)^2", 1e-8}};
   return sizes.at(unit);
 }
 
