@@ -77,6 +77,40 @@ Diagnosis better_of(const Observations& observations, Diagnosis one, Diagnosis o
   return is_other ? std::move(other) : std::move(one);
 }
 
+/// Fits with one effect more that holds, the one first that what was held out confirms most.
+std::vector<Fit> single_effects(const Inquiry& inquiry) {
+  std::vector<std::pair<double, Fit>> all;
+  for (const Fit& tried :
+       tried_beside(inquiry, {inquiry.given, seek(inquiry, inquiry.given)}, kShortlist)) {
+    Fit whole = fit(inquiry.observations, tried.chosen, kSteps, &inquiry.dictionary);
+    const Evidence evidence = weigh_last(inquiry, inquiry.given, whole);
+    if (holds(inquiry, evidence)) {
+      all.emplace_back(evidence.confirmation, std::move(whole));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Fit> fits;
+  for (auto& [confirmation, whole] : all) {
+    fits.push_back(std::move(whole));
+  }
+  return fits;
+}
+
+/// The diagnosis with laws beside an effect by which alone nothing came to stand, if any do; else
+/// as it was. Of two causes a third effect may imitate more than either is, and leave what no law
+/// is.
+Diagnosis beside_an_effect(const Inquiry& inquiry, const Diagnosis& before,
+                           grammar::LawSearch* laws) {
+  for (const Fit& begun : single_effects(inquiry)) {
+    Diagnosis found = with_laws(inquiry, before, laws->choose(begun, grammar::First::any));
+    if (!found.choice.findings.empty()) {
+      return found;
+    }
+  }
+  return before;
+}
+
 /// May a law be missing? Any finding may stand for one that looks like it. Where a machine is off
 /// in many numbers, no law accounts for all, and looking for it takes long.
 bool asks_for_laws(const Diagnosis& diagnosis) {
@@ -94,12 +128,12 @@ void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diag
   const Observations& observations = inquiry.observations;
   grammar::Budget budget(settings.law_seconds);
   const bool is_of_families = !diagnosis->choice.begun.chosen.empty();
-  const auto chosen = [&](const Fit& begun, grammar::First first) {
-    return grammar::choose_laws(inquiry, begun, first, &budget, settings.choosing);
-  };
-  Diagnosis afresh = with_laws(inquiry, *diagnosis, chosen(inquiry.given, grammar::First::any));
+  grammar::LawSearch laws(inquiry, &budget, settings.choosing);
+  Diagnosis afresh =
+      with_laws(inquiry, *diagnosis, laws.choose(inquiry.given, grammar::First::any));
   if (is_open(afresh) && !is_of_families && !diagnosis->choice.findings.empty()) {
-    *diagnosis = with_laws(inquiry, *diagnosis, chosen(diagnosis->choice.fit, grammar::First::any));
+    *diagnosis =
+        with_laws(inquiry, *diagnosis, laws.choose(diagnosis->choice.fit, grammar::First::any));
   }
   if (!is_of_families || !is_open(afresh)) {
     *diagnosis = grammar::has_law(diagnosis->choice)
@@ -107,10 +141,14 @@ void seek_laws(const Inquiry& inquiry, const Settings& settings, Diagnosis* diag
                      : std::move(afresh);
   }
   if (is_open(*diagnosis)) {
-    Diagnosis other = with_laws(inquiry, *diagnosis, chosen(inquiry.given, grammar::First::law));
+    Diagnosis other =
+        with_laws(inquiry, *diagnosis, laws.choose(inquiry.given, grammar::First::law));
     if (!is_open(other)) {
       *diagnosis = std::move(other);
     }
+  }
+  if (diagnosis->choice.findings.empty()) {
+    *diagnosis = beside_an_effect(inquiry, *diagnosis, &laws);
   }
   diagnosis->laws_stopped = budget.has_stopped();
 }

@@ -48,20 +48,37 @@ def load_test(folder, poses, seed):
     return path
 
 
+def circle(folder, middle, reach, force):
+    """The command of a small circle about a posture (rad), twice in 24 s, under a force that goes round with it and pushes
+    besides: for each axis by how much it swings, and about what (N)."""
+    lines = [",".join(["t"] + [f"q_cmd_{j}" for j in JOINTS] + ["fx", "fy", "fz", "mx", "my", "mz"])]
+    for t in (0.06 * i for i in range(400)):
+        turned = 2 * math.pi * t / 12
+        q = [m + r * math.sin(turned + 0.9 * k) for k, (m, r) in enumerate(zip(middle, reach))]
+        f = [about + by * math.sin(turned + 1.3 * k) for k, (by, about) in enumerate(force)]
+        lines.append(",".join(map(repr, [t, *q, *f, 0, 0, 0])))
+    path = folder / "path.csv"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
 def measured(folder, model, seed, poses=60):
     """The load test as a robot with another model would do it, with measurement noise."""
-    path = load_test(folder, poses, seed)
+    return measured_on(load_test(folder, poses, seed), folder, model, random.Random(seed + 1))
+
+
+def measured_on(path, folder, model, draw, noise=NOISE):
+    """A path as a robot with another model would do it, with measurement noise."""
     clean = folder / "clean.csv"
     made = run("simulate", "--model", model, "--path", path, "--out", clean)
     assert made.returncode == 0, made.stderr
-    draw = random.Random(seed + 1)
     header, *rows = clean.read_text().split()
     at = header.split(",").index("x")
     lines = [header]
     for row in rows:
         cells = [float(cell) for cell in row.split(",")]
         for i in range(at, at + 3):
-            cells[i] += draw.gauss(0, NOISE)
+            cells[i] += draw.gauss(0, noise)
         lines.append(",".join(map(repr, cells)))
     recording = folder / "recording.csv"
     recording.write_text("\n".join(lines) + "\n")
@@ -433,6 +450,28 @@ class Diagnose(unittest.TestCase):
         held_out = self.torques(3, with_more(8)).rename(self.folder / "held_out.csv")
         return self.diagnosis(self.torques(3, with_more(0)),
                               options=("--holdout", held_out, "--law-seconds", 1))
+
+    @unittest.skipIf(SANITIZED, TOO_SLOW)
+    def test_a_law_is_found_beside_an_effect_where_others_fit_better_and_predict_nothing(self):
+        model = ROBOT.parent.parent / "kr360/robot.yaml"
+        (self.folder / "kr360.urdf").write_text((model.parent / "kr360.urdf").read_text())
+        true = self.folder / "true.yaml"
+        true.write_text(model.read_text() + """
+effects:
+  - {effect: tcp_offset, x: 2.0e-4, y: 0, z: -1.0e-4}
+  - {effect: law, place: joint_angle, joint: 3, formula: "-c*lag(tau3, T)", c: 1.0e-7, T: 2.7}
+""")
+        noise, draw = 1.5e-5, random.Random(1)
+        command = circle(self.folder, (0.371, -1.064, 1.288, 0.193, -0.94, 0.72), (0.008, 0.043, 0.063, 0.007, 0.038, 0.01),
+                         ((-1200, 130), (340, 520), (1100, 60)))
+        fitted = measured_on(command, self.folder, true, draw, noise).rename(self.folder / "fitted.csv")
+        command = circle(self.folder, (0.591, -1.02, 1.479, 0.226, -0.947, 0.771), (0.018, 0.028, 0.032, 0.021, 0.03, 0.023),
+                         ((120, 280), (840, -50), (1280, 150)))
+        held_out = measured_on(command, self.folder, true, draw, noise)
+        found = self.diagnosis(fitted, model, options=("--holdout", held_out, "--law-seconds", 600))
+        self.assertEqual("explained", found["verdict"])
+        self.assertEqual({("tcp_offset", None), ("law", 3)}, {(f["effect"], f["joint"]) for f in found["findings"]})
+        self.assertLess(found["final"]["tcp_position"]["holdout_rms"], 1.2 * noise)
 
     @unittest.skipIf(SANITIZED, TOO_SLOW)
     def test_of_two_that_do_the_same_the_one_that_changes_less_is_named(self):

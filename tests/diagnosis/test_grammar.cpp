@@ -54,8 +54,8 @@ Choice laws_in(const Observations& observations, grammar::Budget* budget,
   const Dictionary dictionary(observations, hypotheses, [](std::size_t, std::size_t) {});
   const Fit given = fit(observations, {}, 0);
   const Inquiry inquiry{observations, dictionary, 0.01, given};
-  return grammar::choose_laws(inquiry, given, grammar::First::any, budget,
-                              [](const std::string&) {});
+  grammar::LawSearch laws(inquiry, budget, [](const std::string&) {});
+  return laws.choose(given, grammar::First::any);
 }
 
 Choice laws_in(const Observations& observations) {

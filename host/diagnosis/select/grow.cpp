@@ -14,26 +14,6 @@ namespace {
 /// Numbers of findings by the place where they show.
 using Places = std::map<Group, int>;
 
-/// Candidates of a shortlist, each fitted quickly beside a fit, the best first. Fits of machines
-/// that cannot be are left out.
-std::vector<Fit> tried_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
-  std::vector<Fit> all;
-  std::size_t looked_at = 0;
-  for (const Candidate& candidate : propose(inquiry, before)) {
-    if (looked_at++ == kLongShortlist * most || all.size() == most) {
-      break;
-    }
-    Fit tried = fit_with(inquiry, before.fit, candidate.chosen, kQuickSteps);
-    if (can_be(inquiry, tried)) {
-      all.push_back(std::move(tried));
-    }
-  }
-  std::stable_sort(all.begin(), all.end(), [&](const Fit& a, const Fit& b) {
-    return criterion(inquiry.observations, a) < criterion(inquiry.observations, b);
-  });
-  return all;
-}
-
 int most_in_place(const Observations& observations) {
   return observations.is_static ? kMostInLoadTest : kMostInGroup;
 }
@@ -98,6 +78,24 @@ bool is_of_families(const Inquiry& inquiry, const Fit& fit) {
 }
 
 }  // namespace
+
+std::vector<Fit> tried_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
+  std::vector<Fit> all;
+  std::size_t looked_at = 0;
+  for (const Candidate& candidate : propose(inquiry, before)) {
+    if (looked_at++ == kLongShortlist * most || all.size() == most) {
+      break;
+    }
+    Fit tried = fit_with(inquiry, before.fit, candidate.chosen, kQuickSteps);
+    if (can_be(inquiry, tried)) {
+      all.push_back(std::move(tried));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [&](const Fit& a, const Fit& b) {
+    return criterion(inquiry.observations, a) < criterion(inquiry.observations, b);
+  });
+  return all;
+}
 
 Fit best_beside(const Inquiry& inquiry, const Attempt& before, std::size_t most) {
   const std::vector<Fit> tried = tried_beside(inquiry, before, most);
